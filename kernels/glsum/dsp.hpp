@@ -1,0 +1,27 @@
+// The instructions of the Armv7E-M DSP extension that kernels use, with the same result in portable C++ elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <cstring>
+
+namespace glsum::dsp {
+
+/// Two 16-bit numbers as one word; the lower address in the lower half (little-endian).
+[[nodiscard]] inline std::int32_t load_pair(const std::int16_t* pair) {
+    std::int32_t word;
+    std::memcpy(&word, pair, sizeof word);
+    return word;
+}
+
+/// sum + low(a) low(b) + high(a) high(b), in 64 bits.
+[[nodiscard]] inline std::int64_t smlald(std::int32_t a, std::int32_t b, std::int64_t sum) {
+#if defined(__ARM_FEATURE_DSP)
+    return __builtin_arm_smlald(a, b, sum);
+#else
+    const std::int32_t low = static_cast<std::int16_t>(a) * static_cast<std::int16_t>(b);
+    const std::int32_t high = (a >> 16) * (b >> 16);
+    return sum + low + high;
+#endif
+}
+
+}  // namespace glsum::dsp

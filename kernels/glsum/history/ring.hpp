@@ -1,0 +1,35 @@
+// ring: samples stay where they are; the head moves down by one place a sample and wraps.
+// Upkeep: one store. Two contiguous pieces, so that no tap tests for the wrap. Memory: taps - 1 samples.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "glsum/history/window.hpp"
+
+namespace glsum {
+
+struct Ring {
+    static constexpr std::string_view word = "ring";
+    static constexpr bool contiguous = false;
+
+    static constexpr std::size_t past_count(std::size_t past) { return past; }
+
+    template <class T>
+    static Window<T> window(const T* samples, std::size_t past, std::uint32_t head) {
+        return {samples + head, past - head, samples, head, head};
+    }
+
+    template <class T>
+    static void push(T* samples, std::size_t past, std::uint32_t& head, T newest) {
+        if (past == 0) {
+            return;
+        }
+        // Down, so that rising addresses run from new to old, as the coefficients do.
+        head = (head == 0 ? static_cast<std::uint32_t>(past) : head) - 1;
+        samples[head] = newest;
+    }
+};
+
+}  // namespace glsum

@@ -1,0 +1,94 @@
+// The contract of a kernel, read first. A kernel evaluates, sample by sample, the Grünwald-Letnikov sum
+//
+//   S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 - (1+v)/j)      ([Matusiak2020] (3))
+//
+// of order v over L coefficients ("taps", a_0 included); x = 0 before k = 0. The factor h^-v is not part of it.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+namespace glsum {
+
+/// What a kernel is prepared for.
+struct Design {
+    double order;      ///< v, in (-2, 2]
+    std::size_t taps;  ///< L >= 1: coefficients, a_0 included
+};
+
+/// Why `prepare` refused. Nothing else in a kernel can fail.
+enum class Status {
+    ok,
+    order_out_of_range,  ///< not in (-2, 2], or not a number
+    no_taps,             ///< taps is 0
+    table_too_small,     ///< fewer coefficients than `table_count(taps)`
+    past_too_small,      ///< fewer samples than `past_count(taps)`
+    format_too_narrow,   ///< the coefficients of this order and length do not fit the format with any scale
+};
+
+/// A kernel is a type without objects; what changes lives in its State, which the caller owns together with two
+/// buffers: the coefficient table and the past. Their sizes follow from the largest length (the capacity);
+/// `prepare` may be called again for any order and any length that fits.
+///
+/// `prepare` may be slow and computes in double; `step` is what is measured: one sample in, one sum out.
+/// Neither uses the heap, I/O, exceptions or RTTI. A State may be copied only together with its buffers.
+template <class K>
+concept Kernel = requires(typename K::State& state, const typename K::State& prepared, typename K::Sample sample,
+                          typename K::Output output, const Design& design, std::size_t taps, double real,
+                          std::span<typename K::Coefficient> table, std::span<typename K::Sample> past) {
+    { K::name() } -> std::same_as<std::string_view>;
+    { K::host_only } -> std::convertible_to<bool>;
+    { K::table_count(taps) } -> std::same_as<std::size_t>;
+    { K::past_count(taps) } -> std::same_as<std::size_t>;
+    { K::prepare(state, design, table, past) } -> std::same_as<Status>;
+    { K::reset(state) } -> std::same_as<void>;
+    { K::step(state, sample) } -> std::same_as<typename K::Output>;
+    { K::from_real(real) } -> std::same_as<typename K::Sample>;
+    { K::to_real(prepared, output) } -> std::same_as<double>;
+};
+
+/// The type list behind the registry.
+template <Kernel... Ks>
+struct KernelList {
+    static constexpr std::size_t count = sizeof...(Ks);
+    using Tuple = std::tuple<Ks...>;
+
+    /// Calls `visit.template operator()<K>()` for every kernel, in the registry's order.
+    template <class Visitor>
+    static constexpr void for_each(Visitor&& visit) {
+        (visit.template operator()<Ks>(), ...);
+    }
+};
+
+/// A State with buffers of its own, for at most `capacity` taps: the convenient way to use a kernel.
+///
+///     glsum::Line<glsum::Sum<glsum::Ring, glsum::Plain, glsum::F32>, 600> line;
+///     line.prepare({.order = 0.5, .taps = 400});
+///     float sum = line.step(x);
+///
+/// Not copyable: the state points into the buffers.
+template <Kernel K, std::size_t capacity>
+class Line {
+public:
+    Line() = default;
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+
+    Status prepare(const Design& design) { return K::prepare(state_, design, table_, past_); }
+    void reset() { K::reset(state_); }
+    typename K::Output step(typename K::Sample sample) { return K::step(state_, sample); }
+    [[nodiscard]] const typename K::State& state() const { return state_; }
+
+private:
+    static_assert(capacity >= 1);
+    // One element more than needed: a capacity of 1 needs no past, and an array may not be empty.
+    alignas(64) typename K::Coefficient table_[K::table_count(capacity) + 1] = {};
+    alignas(64) typename K::Sample past_[K::past_count(capacity) + 1] = {};
+    typename K::State state_ = {};
+};
+
+}  // namespace glsum

@@ -1,0 +1,33 @@
+// The registry as types. See registry.def for the list itself.
+#pragma once
+
+#include "glsum/format/fixed.hpp"
+#include "glsum/format/floating.hpp"
+#include "glsum/history/mirror.hpp"
+#include "glsum/history/ring.hpp"
+#include "glsum/history/shift.hpp"
+#include "glsum/kernel.hpp"
+#include "glsum/null.hpp"
+#include "glsum/sum.hpp"
+#include "glsum/technique/fir.hpp"
+#include "glsum/technique/horner.hpp"
+#include "glsum/technique/plain.hpp"
+#include "glsum/technique/simd.hpp"
+#include "glsum/technique/smlald.hpp"
+
+namespace glsum {
+
+/// Every kernel of this build: `null` first. Bare metal and GLSUM_SIMD=OFF leave out the host's own.
+using Registry = KernelList<Null
+#define GLSUM_KERNEL(history, technique, format) , Sum<history, technique, format>
+#if defined(GLSUM_SIMD)
+#define GLSUM_HOST_KERNEL(history, technique, format) , Sum<history, technique, format>
+#else
+#define GLSUM_HOST_KERNEL(history, technique, format)
+#endif
+#include "glsum/registry.def"
+#undef GLSUM_KERNEL
+#undef GLSUM_HOST_KERNEL
+                           >;
+
+}  // namespace glsum

@@ -1,0 +1,73 @@
+// A kernel as the combination of its name's three words: how the past is kept, how it is summed, in which numbers.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "glsum/kernel.hpp"
+
+namespace glsum {
+
+template <class History, class Technique, class Format>
+struct Sum {
+    using Sample = typename Format::Sample;
+    using Coefficient = typename Format::Coefficient;
+    using Output = typename Format::Output;
+    using HistoryPart = History;
+    using TechniquePart = Technique;
+    using FormatPart = Format;
+
+    struct State {
+        const Coefficient* table;
+        Sample* past;
+        std::uint32_t past_samples;  // taps - 1: the newest sample is never stored before its sum is done
+        std::uint32_t head;          // where the newest past sample lies
+        typename Format::Scale scale;
+    };
+
+    static constexpr bool host_only = Technique::host_only;
+
+    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
+
+    /// Coefficients, and samples of the past, that a length of at most `taps` needs.
+    static constexpr std::size_t table_count(std::size_t taps) {
+        return Technique::template table_count<Format>(taps - 1);
+    }
+    static constexpr std::size_t past_count(std::size_t taps) {
+        return taps == 1 ? 0 : History::past_count(taps - 1) + Technique::template overread<Format>;
+    }
+
+    /// Multiplications for one output.
+    static constexpr std::size_t multiplications(std::size_t taps) { return taps - 1; }
+
+    /// Makes the table for the design and clears the past. On failure the state is as it was.
+    static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
+    /// Forgets the past and the count of saturations: x = 0 before the next sample.
+    static void reset(State& state);
+    /// The sum S_k for the next sample x_k.
+    static Output step(State& state, Sample newest);
+
+    static Sample from_real(double real) { return Format::from_real(real); }
+    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
+
+private:
+    static constexpr auto name_ = [] {
+        constexpr std::size_t size = History::word.size() + Technique::word.size() + Format::word.size() + 2;
+        std::array<char, size> joined{};
+        std::size_t at = 0;
+        for (std::string_view word : {History::word, Technique::word, Format::word}) {
+            if (at != 0) {
+                joined[at++] = '_';
+            }
+            for (char letter : word) {
+                joined[at++] = letter;
+            }
+        }
+        return joined;
+    }();
+};
+
+}  // namespace glsum

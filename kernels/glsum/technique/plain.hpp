@@ -1,0 +1,39 @@
+// plain: newest first, one accumulator: ((x_k + a_1 x_(k-1)) + a_2 x_(k-2)) + ...
+// The textbook loop. In floating point the large first terms swallow the small late ones: the term of a_j passes
+// taps - j additions.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "glsum/history/window.hpp"
+#include "glsum/technique/technique.hpp"
+
+namespace glsum {
+
+struct Plain : WeightTable {
+    static constexpr std::string_view word = "plain";
+    static constexpr bool host_only = false;
+
+    template <class Format>
+    static typename Format::Accumulator sum(const typename Format::Coefficient* table,
+                                            const Window<typename Format::Sample>& window,
+                                            typename Format::Sample newest, const typename Format::Scale& scale) {
+        auto sum = Format::start(newest, scale);
+        for (std::size_t i = 0; i < window.newer_count; ++i) {
+            sum = Format::multiply_add(sum, table[i], window.newer[i]);
+        }
+        table += window.newer_count;
+        for (std::size_t i = 0; i < window.older_count; ++i) {
+            sum = Format::multiply_add(sum, table[i], window.older[i]);
+        }
+        return sum;
+    }
+
+    template <class Format>
+    static constexpr std::size_t roundings(std::size_t j, std::size_t taps) {
+        return j == 0 ? taps - 1 : taps - j + 2;
+    }
+};
+
+}  // namespace glsum

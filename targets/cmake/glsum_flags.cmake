@@ -1,0 +1,18 @@
+# Flags that every target of the project shares, host and bare metal alike.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE)
+    set(CMAKE_BUILD_TYPE Release)
+endif()
+string(REPLACE "-O2" "-O3" CMAKE_CXX_FLAGS_RELEASE "${CMAKE_CXX_FLAGS_RELEASE}")
+
+option(GLSUM_WERROR "Treat warnings as errors" OFF)
+
+add_library(glsum_warnings INTERFACE)
+target_compile_options(glsum_warnings INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<BOOL:${GLSUM_WERROR}>:-Werror>)
+
+# No product may be fused with its addition unless a kernel's name says so: host and target must agree bit for bit.
+set(GLSUM_CONTRACTION -ffp-contract=off)

@@ -1,0 +1,71 @@
+@ Loops whose counts are known by reading: the counting instrument is checked on them before every measurement.
+@ r0: turns >= 1; r1: address of one word (of four for `multiple`). n turns give, with the return:
+@
+@              instructions   loads   stores   branches
+@   steps         4n + 1        n        n       n + 1
+@   one_more      4n + 2        n        n       n + 1
+@   multiple      4n + 3       4n + 2   4n + 2   n + 1     LDM and STM of four, PUSH and POP of two
+@   skipped       5n + 1        0        0       n + 1     a load in an IT block whose condition is false
+@   nested        6n + 3       n + 2     2n + 2  2n + 2+n  calls `leaf` (2 instructions), saves two registers
+    .syntax unified
+    .thumb
+    .text
+
+    .macro function name
+    .global \name
+    .type \name, %function
+    .p2align 3
+    .thumb_func
+\name:
+    .endm
+
+function glsum_check_steps
+1:  ldr r2, [r1]
+    str r2, [r1]
+    subs r0, #1
+    bne 1b
+    bx lr
+    .size glsum_check_steps, . - glsum_check_steps
+
+function glsum_check_one_more
+    nop
+1:  ldr r2, [r1]
+    str r2, [r1]
+    subs r0, #1
+    bne 1b
+    bx lr
+    .size glsum_check_one_more, . - glsum_check_one_more
+
+function glsum_check_multiple
+    push {r4, r5}
+1:  ldm r1, {r2, r3, r4, r5}
+    stm r1, {r2, r3, r4, r5}
+    subs r0, #1
+    bne 1b
+    pop {r4, r5}
+    bx lr
+    .size glsum_check_multiple, . - glsum_check_multiple
+
+function glsum_check_skipped
+1:  cmp r0, #0
+    it eq
+    ldreq r2, [r1]
+    subs r0, #1
+    bne 1b
+    bx lr
+    .size glsum_check_skipped, . - glsum_check_skipped
+
+function glsum_check_leaf
+    str r2, [r1]
+    bx lr
+    .size glsum_check_leaf, . - glsum_check_leaf
+
+function glsum_check_nested
+    push {r4, lr}
+    mov r4, r0
+1:  ldr r2, [r1]
+    bl glsum_check_leaf
+    subs r4, #1
+    bne 1b
+    pop {r4, pc}
+    .size glsum_check_nested, . - glsum_check_nested

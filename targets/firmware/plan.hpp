@@ -1,0 +1,79 @@
+// The plan that the host writes and the firmware carries out, and the text that it answers with.
+//
+//   glsum-plan-1 <path of the signals> <samples of each signal>
+//   <kernel> <order, its 64 bits in hex> <taps> <signal> <calls>
+//   ...
+//
+// Signals: one binary file, float64 little-endian, one record after the other. Words are separated by one space.
+#pragma once
+
+#include <bit>
+#include <charconv>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "port.hpp"
+
+namespace firmware {
+
+/// Takes the next word, up to a space or a line's end, off the text.
+inline std::string_view take_word(std::string_view& text) {
+    const std::size_t end = text.find_first_of(" \n");
+    const std::string_view word = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    return word;
+}
+
+inline std::uint64_t to_number(std::string_view word, int base = 10) {
+    std::uint64_t number = 0;
+    std::from_chars(word.data(), word.data() + word.size(), number, base);
+    return number;
+}
+
+struct PlanRow {
+    std::string_view kernel;
+    double order;
+    std::size_t taps;
+    std::size_t signal;
+    std::size_t calls;
+};
+
+inline PlanRow take_row(std::string_view& plan) {
+    PlanRow row{};
+    row.kernel = take_word(plan);
+    row.order = std::bit_cast<double>(to_number(take_word(plan), 16));
+    row.taps = static_cast<std::size_t>(to_number(take_word(plan)));
+    row.signal = static_cast<std::size_t>(to_number(take_word(plan)));
+    row.calls = static_cast<std::size_t>(to_number(take_word(plan)));
+    return row;
+}
+
+/// One line of the answer: words with a space before each, then the line's end.
+class Answer {
+public:
+    explicit Answer(std::string_view first) { add(first); }
+    Answer& add(std::string_view word) {
+        for (const char letter : word) {
+            if (size_ < sizeof text_ - 1) {
+                text_[size_++] = letter;
+            }
+        }
+        return *this;
+    }
+    Answer& number(std::uint64_t value, int base = 10) {
+        char digits[24];
+        const auto end = std::to_chars(digits, digits + sizeof digits, value, base);
+        return add(" ").add({digits, static_cast<std::size_t>(end.ptr - digits)});
+    }
+    void write() {
+        text_[size_++] = '\n';
+        port::write({text_, size_});
+    }
+
+private:
+    char text_[256];
+    std::size_t size_ = 0;
+};
+
+}  // namespace firmware

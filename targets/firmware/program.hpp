@@ -1,0 +1,83 @@
+// What `measure` and `replay` share: they read a plan and its signals and carry out one row after the other.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "glsum/registry.hpp"
+#include "plan.hpp"
+#include "port.hpp"
+
+namespace firmware {
+
+/// The buffers of the one kernel that is at work: room for 8192 taps of every kernel.
+template <class K>
+struct Buffers {
+    std::span<typename K::Coefficient> table;
+    std::span<typename K::Sample> past;
+};
+inline constexpr std::size_t buffer_bytes = 8192 * 2 * sizeof(double);
+alignas(64) inline std::byte table_bytes[buffer_bytes];
+alignas(64) inline std::byte past_bytes[buffer_bytes];
+template <class K>
+Buffers<K> buffers() {
+    using Coefficient = typename K::Coefficient;
+    using Sample = typename K::Sample;
+    return {{reinterpret_cast<Coefficient*>(table_bytes), buffer_bytes / sizeof(Coefficient)},
+            {reinterpret_cast<Sample*>(past_bytes), buffer_bytes / sizeof(Sample)}};
+}
+
+/// A record of the plan's signals, repeated without end.
+struct Signal {
+    const double* samples;
+    std::size_t count;
+    [[nodiscard]] double at(std::size_t k) const { return samples[k % count]; }
+};
+
+/// Carries out the plan named on the command line: `run_row.template operator()<K>(row, signal, answer)` for each row.
+/// Answers `row <number> ...` for each and `end <rows>` last. \return the exit status.
+template <class RunRow>
+int run_plan(RunRow run_row) {
+    alignas(8) static std::byte plan_bytes[512 * 1024];
+    alignas(8) static std::byte signal_bytes[1024 * 1024];
+    std::string_view command = port::command_line();
+    take_word(command);
+    const auto plan_file = port::read_file(take_word(command), plan_bytes);
+    std::string_view plan{reinterpret_cast<const char*>(plan_file.data()), plan_file.size()};
+    if (take_word(plan) != "glsum-plan-1") {
+        port::write("error: no plan of the form glsum-plan-1\n");
+        return 2;
+    }
+    const auto signals = port::read_file(take_word(plan), signal_bytes);
+    const auto samples = static_cast<std::size_t>(to_number(take_word(plan)));
+    if (samples == 0 || signals.size() % (samples * sizeof(double)) != 0 || signals.empty()) {
+        port::write("error: the signals do not have the length that the plan names\n");
+        return 2;
+    }
+    const auto* doubles = reinterpret_cast<const double*>(signals.data());
+    std::size_t number = 0;
+    for (; !plan.empty(); ++number) {
+        const PlanRow row = take_row(plan);
+        Answer answer("row");
+        answer.number(number);
+        bool found = false;
+        if ((row.signal + 1) * samples * sizeof(double) <= signals.size()) {
+            glsum::Registry::for_each([&]<class K>() {
+                if (K::name() == row.kernel) {
+                    found = true;
+                    run_row.template operator()<K>(row, Signal{doubles + row.signal * samples, samples}, answer);
+                }
+            });
+        }
+        if (!found) {
+            port::write("error: the plan names a kernel or a signal that this program does not have\n");
+            return 2;
+        }
+        answer.write();
+    }
+    Answer("end").number(number).write();
+    return 0;
+}
+
+}  // namespace firmware
