@@ -6,7 +6,7 @@
 @   one_more      4n + 2        n        n       n + 1
 @   multiple      4n + 3       4n + 2   4n + 2   n + 1     LDM and STM of four, PUSH and POP of two
 @   skipped       5n + 1        0        0       n + 1     a load in an IT block whose condition is false
-@   nested        6n + 3       n + 2     2n + 2  2n + 2+n  calls `leaf` (2 instructions), saves two registers
+@   nested        6n + 3       n + 2    n + 2   3n + 1     calls `leaf` (2 instructions), saves two registers
     .syntax unified
     .thumb
     .text

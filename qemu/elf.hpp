@@ -1,0 +1,47 @@
+// Reads what the tools need from a 32-bit Arm ELF.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace qemu {
+
+struct Function {
+    std::string name;  ///< as in the symbol table (mangled)
+    std::uint32_t address;
+    std::uint32_t bytes;
+};
+
+class Elf {
+public:
+    /// \throws glsum::Failure (bad input) when the file is missing, damaged, or not a 32-bit Arm executable.
+    explicit Elf(const std::filesystem::path& path);
+
+    /// Address of a symbol, without the Thumb bit.
+    [[nodiscard]] std::optional<std::uint32_t> symbol(const std::string& name) const;
+    /// The function that holds an address.
+    [[nodiscard]] const Function* function_at(std::uint32_t address) const;
+    /// The word at an address of a loaded section. \throws glsum::Failure when there is none.
+    [[nodiscard]] std::uint32_t word(std::uint32_t address) const;
+    [[nodiscard]] std::string text(std::uint32_t address, std::size_t length) const;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+private:
+    struct Section {
+        std::uint32_t address;
+        std::vector<unsigned char> bytes;
+    };
+    [[nodiscard]] const unsigned char* at(std::uint32_t address, std::size_t length) const;
+
+    std::filesystem::path path_;
+    std::vector<Section> sections_;
+    std::map<std::string, std::uint32_t> symbols_;
+    std::map<std::uint32_t, Function> functions_;  // by address
+};
+
+}  // namespace qemu

@@ -1,0 +1,321 @@
+#include "qemu/firmware.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <fstream>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+#include "glsum/registry.hpp"
+#include "qemu/elf.hpp"
+#include "qemu/failure.hpp"
+#include "qemu/scratch.hpp"
+#include "targets/firmware/output_hash.hpp"
+
+namespace qemu {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+constexpr std::size_t steady_calls = 32;
+
+void write_plan(const std::filesystem::path& path, const std::filesystem::path& signals_path,
+                std::span<const PlannedRow> plan, const Signals& signals) {
+    std::ofstream samples(signals_path, std::ios::binary);
+    for (const auto& signal : signals) {
+        samples.write(reinterpret_cast<const char*>(signal.data()),
+                      static_cast<std::streamsize>(signal.size() * sizeof(double)));
+    }
+    std::ofstream out(path);
+    out << fmt::format("glsum-plan-1 {} {}\n", signals_path.string(), signals.at(0).size());
+    for (const PlannedRow& row : plan) {
+        out << fmt::format("{} {:016x} {} {} {}\n", row.kernel, std::bit_cast<std::uint64_t>(row.order), row.taps,
+                           row.signal, row.calls);
+    }
+    if (!samples.flush() || !out.flush()) {
+        throw Failure(Exit::check_failed, fmt::format("{}: cannot write", path.parent_path().string()));
+    }
+}
+
+// The firmware's answer, line by line: checks that it is complete and in order.
+class Answers {
+public:
+    explicit Answers(std::size_t rows) : rows_(rows) {}
+
+    /// The words behind `row <n>` when the line is the next row's.
+    std::optional<std::istringstream> take(const std::string& line) {
+        std::istringstream words(line);
+        std::string kind;
+        std::size_t number = 0;
+        words >> kind >> number;
+        if (kind == "end" && words && number == rows_) {
+            ended_ = true;
+        } else if (kind == "row" && words && number == taken_ && taken_ < rows_) {
+            ++taken_;
+            return words;
+        } else if (kind != "check") {
+            throw Failure(Exit::check_failed, "the firmware answered out of turn: " + line);
+        }
+        return std::nullopt;
+    }
+    void check_complete() const {
+        if (!ended_ || taken_ != rows_) {
+            throw Failure(Exit::check_failed,
+                          fmt::format("the firmware answered {} rows of {} and stopped", taken_, rows_));
+        }
+    }
+
+private:
+    std::size_t rows_;
+    std::size_t taken_ = 0;
+    bool ended_ = false;
+};
+
+template <class Row>
+Row damaged(const std::string& line) {
+    throw Failure(Exit::check_failed, "the firmware answered a damaged row: " + line);
+}
+
+// The loops of targets/firmware/check_loops.S, whose counts its comment derives.
+struct KnownLoop {
+    const char* name;
+    CallCounts per_turn;
+    CallCounts once;
+};
+constexpr KnownLoop known_loops[] = {
+    {"glsum_check_steps", {4, 1, 1, 1}, {1, 0, 0, 1}},    {"glsum_check_one_more", {4, 1, 1, 1}, {2, 0, 0, 1}},
+    {"glsum_check_multiple", {4, 4, 4, 1}, {3, 2, 2, 1}}, {"glsum_check_skipped", {5, 0, 0, 1}, {1, 0, 0, 1}},
+    {"glsum_check_nested", {6, 1, 1, 3}, {3, 2, 2, 1}},
+};
+constexpr std::uint64_t known_turns[] = {1, 10, 1000};
+
+std::string to_text(const CallCounts& counts) {
+    return fmt::format("{} instructions, {} loads, {} stores, {} branches", counts.instructions, counts.loads,
+                       counts.stores, counts.branches);
+}
+
+// What the program offers to the instrument, read from its ELF.
+struct Watch {
+    explicit Watch(const Elf& elf) {
+        const auto need = [&](const std::string& name) {
+            const auto address = elf.symbol(name);
+            if (!address) {
+                throw Failure(Exit::bad_input, fmt::format("{}: expected the symbol {}", elf.path().string(), name));
+            }
+            return *address;
+        };
+        for (const KnownLoop& loop : known_loops) {
+            loops.push_back(need(loop.name));
+        }
+        const std::uint32_t table = need("glsum_watched");
+        const std::uint32_t count = elf.word(need("glsum_watched_count"));
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t row = table + 12 * i;
+            kernels[elf.text(elf.word(row), elf.word(row + 4))] = elf.word(row + 8) & ~1U;
+        }
+    }
+    std::vector<std::uint32_t> loops;
+    std::map<std::string, std::uint32_t> kernels;
+};
+
+// The log's runs, taken call by call in the order in which the program made them.
+class Calls {
+public:
+    explicit Calls(const CallLog& log) : log_(log) {}
+
+    /// The next `count` calls, which must be of this function, as runs.
+    std::vector<CallRun> take(std::uint32_t entry, std::uint64_t count) {
+        std::vector<CallRun> taken;
+        while (count > 0) {
+            if (run_ == log_.runs.size() || log_.runs[run_].entry != entry) {
+                throw Failure(Exit::check_failed, "the instrument saw other calls than the program made");
+            }
+            CallRun part = log_.runs[run_];
+            part.calls = std::min(count, part.calls - used_);
+            count -= part.calls;
+            used_ += part.calls;
+            if (used_ == log_.runs[run_].calls) {
+                ++run_;
+                used_ = 0;
+            }
+            taken.push_back(part);
+        }
+        return taken;
+    }
+    [[nodiscard]] bool empty() const { return run_ == log_.runs.size(); }
+
+private:
+    const CallLog& log_;
+    std::size_t run_ = 0;
+    std::uint64_t used_ = 0;
+};
+
+void check_instrument(Calls& calls, const Watch& watch) {
+    for (std::size_t i = 0; i < watch.loops.size(); ++i) {
+        const KnownLoop& loop = known_loops[i];
+        for (const std::uint64_t turns : known_turns) {
+            const CallCounts expected{
+                loop.per_turn.instructions * turns + loop.once.instructions, loop.per_turn.loads * turns + loop.once.loads,
+                loop.per_turn.stores * turns + loop.once.stores, loop.per_turn.branches * turns + loop.once.branches};
+            const CallCounts found = calls.take(watch.loops[i], 1).front().counts;
+            if (found != expected) {
+                throw Failure(Exit::check_failed,
+                              fmt::format("the instrument miscounts: {} with {} turns: expected {}; found {}", loop.name,
+                                          turns, to_text(expected), to_text(found)));
+            }
+        }
+    }
+}
+
+std::size_t code_bytes(const Elf& elf, const std::set<std::uint32_t>& reached) {
+    std::set<const Function*> functions;
+    for (const std::uint32_t address : reached) {
+        functions.insert(elf.function_at(address));
+    }
+    std::size_t bytes = 0;
+    for (const Function* function : functions) {
+        bytes += function != nullptr ? function->bytes : 0;
+    }
+    return bytes;
+}
+
+void summarise(MeasuredRow& row, Calls& calls, std::uint32_t entry, std::size_t taps) {
+    row.first = calls.take(entry, 1).front().counts;
+    calls.take(entry, taps);  // the past fills
+    const std::size_t turn = std::max(taps, steady_calls);
+    std::size_t seen = 0;
+    for (const CallRun& run : calls.take(entry, turn)) {
+        row.worst_instructions = std::max(row.worst_instructions, run.counts.instructions);
+        const auto share = static_cast<double>(std::min<std::uint64_t>(run.calls, steady_calls - std::min(seen, steady_calls))) /
+                           static_cast<double>(steady_calls);
+        row.instructions += share * static_cast<double>(run.counts.instructions);
+        row.loads += share * static_cast<double>(run.counts.loads);
+        row.stores += share * static_cast<double>(run.counts.stores);
+        row.branches += share * static_cast<double>(run.counts.branches);
+        seen += run.calls;
+    }
+    calls.take(entry, 1);  // the one on the painted stack
+}
+
+}  // namespace
+
+Board find_board(const std::filesystem::path& build, const std::filesystem::path& plugin,
+                 const std::filesystem::path& emulate) {
+    Board board{build / "targets" / "measure.elf", build / "targets" / "replay.elf", plugin, {emulate}};
+    for (const auto& file : {board.measure_elf, board.replay_elf, board.plugin, board.emulator.command}) {
+        if (!std::filesystem::exists(file)) {
+            throw Failure(Exit::missing,
+                          fmt::format("{}: not found; expected from `cmake --preset {}` and `cmake --build --preset {}`",
+                                      file.string(), build.filename().string(), build.filename().string()));
+        }
+    }
+    return board;
+}
+
+std::size_t calls_to_measure(std::size_t taps) { return 1 + taps + std::max(taps, steady_calls); }
+
+ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
+    const auto& signal = signals.at(row.signal);
+    std::optional<ReplayedRow> result;
+    glsum::Registry::for_each([&]<class K>() {
+        if (K::name() != row.kernel) {
+            return;
+        }
+        std::vector<typename K::Coefficient> table(K::table_count(row.taps));
+        std::vector<typename K::Sample> past(K::past_count(row.taps));
+        typename K::State state{};
+        result = ReplayedRow{K::prepare(state, {row.order, row.taps}, table, past), 0};
+        if (result->status != glsum::Status::ok) {
+            return;
+        }
+        firmware::OutputHash hash;
+        for (std::size_t k = 0; k < row.calls; ++k) {
+            hash.add(K::step(state, K::from_real(signal[k % signal.size()])));
+        }
+        result->hash = hash.value();
+    });
+    if (!result) {
+        throw std::out_of_range("no kernel " + row.kernel);
+    }
+    return *result;
+}
+
+std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> plan, const Signals& signals,
+                                const RowDone& done) {
+    const Scratch scratch;
+    write_plan(scratch.file("plan"), scratch.file("signals"), plan, signals);
+    Answers answers(plan.size());
+    std::vector<ReplayedRow> rows;
+    emulate(board.emulator, board.replay_elf, {scratch.file("plan").string()}, "", [&](const std::string& line) {
+        if (auto words = answers.take(line)) {
+            unsigned status = 0;
+            *words >> status;
+            ReplayedRow row{static_cast<glsum::Status>(status), 0};
+            if (row.status == glsum::Status::ok) {
+                *words >> std::hex >> row.hash;
+            }
+            rows.push_back(*words ? row : damaged<ReplayedRow>(line));
+            done();
+        }
+    });
+    answers.check_complete();
+    return rows;
+}
+
+std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow> plan, const Signals& signals,
+                                 const RowDone& done) {
+    const Elf elf(board.measure_elf);
+    const Watch watch(elf);
+    const Scratch scratch;
+    write_plan(scratch.file("plan"), scratch.file("signals"), plan, signals);
+    {
+        std::ofstream list(scratch.file("watch"));
+        for (const std::uint32_t loop : watch.loops) {
+            list << loop << '\n';
+        }
+        for (const auto& [name, entry] : watch.kernels) {
+            list << entry << '\n';
+        }
+    }
+    Answers answers(plan.size());
+    std::vector<MeasuredRow> rows;
+    const std::string plugin = fmt::format("{},watch={},out={}", board.plugin.string(), scratch.file("watch").string(),
+                                           scratch.file("calls").string());
+    emulate(board.emulator, board.measure_elf, {scratch.file("plan").string()}, plugin, [&](const std::string& line) {
+        if (auto words = answers.take(line)) {
+            unsigned status = 0;
+            *words >> status;
+            MeasuredRow row{};
+            row.status = static_cast<glsum::Status>(status);
+            if (row.status == glsum::Status::ok) {
+                *words >> std::hex >> row.hash >> std::dec >> row.stack_bytes >> row.state_bytes >> row.coefficient_bytes;
+            }
+            rows.push_back(*words ? row : damaged<MeasuredRow>(line));
+            done();
+        }
+    });
+    answers.check_complete();
+
+    std::ifstream log_file(scratch.file("calls"));
+    const CallLog log = read_call_log(log_file);
+    Calls calls(log);
+    check_instrument(calls, watch);
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        if (rows[i].status == glsum::Status::ok) {
+            const std::uint32_t entry = watch.kernels.at(plan[i].kernel);
+            summarise(rows[i], calls, entry, plan[i].taps);
+            rows[i].code_bytes = code_bytes(elf, log.reached.at(entry));
+        }
+    }
+    if (!calls.empty()) {
+        throw Failure(Exit::check_failed, "the instrument saw more calls than the program made");
+    }
+    return rows;
+}
+
+}  // namespace qemu

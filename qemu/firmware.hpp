@@ -1,0 +1,79 @@
+// Carries out plans on the emulated board: what each call of a kernel costs there, and which bits it computes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "glsum/kernel.hpp"
+#include "qemu/call_counter.hpp"
+#include "qemu/emulator.hpp"
+
+namespace qemu {
+
+struct Board {
+    std::filesystem::path measure_elf;
+    std::filesystem::path replay_elf;
+    std::filesystem::path plugin;
+    Emulator emulator;
+};
+
+/// The board's files below the build folder of its preset.
+/// \throws glsum::Failure (missing) naming the file that is not there and how to build it.
+[[nodiscard]] Board find_board(const std::filesystem::path& build, const std::filesystem::path& plugin,
+                               const std::filesystem::path& emulate);
+
+/// One row of a plan: `calls` calls from a cleared past, fed with a signal (repeated when it is shorter).
+struct PlannedRow {
+    std::string kernel;
+    double order;
+    std::size_t taps;
+    std::size_t signal;  ///< index into the signals
+    std::size_t calls;
+};
+
+/// Records of equal length, |x| <= 1.
+using Signals = std::vector<std::vector<double>>;
+
+struct ReplayedRow {
+    glsum::Status status;
+    std::uint64_t hash;  ///< of all outputs
+};
+
+struct MeasuredRow {
+    glsum::Status status;
+    std::uint64_t hash;  ///< of the outputs of calls + 1 calls
+    std::size_t stack_bytes;
+    std::size_t state_bytes;
+    std::size_t coefficient_bytes;
+    std::size_t code_bytes;  ///< of the functions that the calls reached, whole
+    CallCounts first;
+    double instructions;  ///< the mean of 32 calls once the past is full, as are the next three
+    double loads;
+    double stores;
+    double branches;
+    std::uint64_t worst_instructions;  ///< of the calls once the past is full
+};
+
+/// How many calls `measure` needs at this length: one, a past full, then a whole turn of a ring and at least 32.
+[[nodiscard]] std::size_t calls_to_measure(std::size_t taps);
+
+/// The hash of the same calls on this machine. `status` as `prepare` gave it; no calls unless ok.
+/// \throws std::out_of_range for a kernel that is not in the registry.
+[[nodiscard]] ReplayedRow replay_here(const PlannedRow& row, const Signals& signals);
+
+/// Called after each row.
+using RowDone = std::function<void()>;
+
+[[nodiscard]] std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> plan,
+                                              const Signals& signals, const RowDone& done);
+
+/// Checks the instrument on loops of known counts first. Every row's `calls` must be `calls_to_measure(taps)`.
+/// \throws glsum::Failure when the instrument miscounts, or the emulator fails.
+[[nodiscard]] std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow> plan,
+                                               const Signals& signals, const RowDone& done);
+
+}  // namespace qemu

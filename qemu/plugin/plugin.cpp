@@ -1,0 +1,100 @@
+// QEMU glue: turns the emulator's callbacks into the stream of stream.hpp. Nothing is decided here.
+// Options: watch=FILE (entry addresses, decimal, one a line), out=FILE (the call log).
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "qemu/call_counter.hpp"
+#include "qemu/plugin/api.h"
+
+int qemu_plugin_version = 1;
+
+namespace {
+
+struct Session {
+    qemu::CallCounter counter;
+    std::string out_path;
+    // One per address for the whole run: translations come and go.
+    std::unordered_map<std::uint32_t, std::unique_ptr<qemu::Instruction>> instructions = {};
+};
+// Never deleted: the emulator asks for the last time after this library's static objects are gone.
+Session* session = nullptr;
+
+qemu::Instruction* instruction_at(const qemu_plugin_insn* translated) {
+    const auto address = static_cast<std::uint32_t>(qemu_plugin_insn_vaddr(translated));
+    const auto index = static_cast<std::uint32_t>(session->instructions.size());
+    auto& slot = session->instructions[address];
+    if (!slot) {
+        const auto bytes = qemu_plugin_insn_size(translated);
+        std::uint16_t half[2] = {};
+        std::memcpy(half, qemu_plugin_insn_data(translated), bytes);
+        const std::uint32_t encoding =
+            bytes == 2 ? half[0] : static_cast<std::uint32_t>(half[0]) << 16 | half[1];
+        slot = std::make_unique<qemu::Instruction>(
+            qemu::Instruction{address, encoding, static_cast<std::uint8_t>(bytes), index});
+    }
+    return slot.get();
+}
+
+void executes(unsigned int, void* instruction) {
+    session->counter.executes(*static_cast<qemu::Instruction*>(instruction));
+}
+
+void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
+    session->counter.accesses({static_cast<std::uint32_t>(address),
+                       static_cast<std::uint8_t>(1U << qemu_plugin_mem_size_shift(info)),
+                       qemu_plugin_mem_is_store(info)});
+}
+
+void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
+    for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
+        qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
+        qemu_plugin_register_vcpu_insn_exec_cb(translated, executes, QEMU_PLUGIN_CB_NO_REGS,
+                                               instruction_at(translated));
+        qemu_plugin_register_vcpu_mem_cb(translated, accesses, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
+    }
+}
+
+void ends(qemu_plugin_id_t, void*) {
+    std::ofstream out(session->out_path);
+    session->counter.write(out);
+    if (!out.flush()) {
+        std::fprintf(stderr, "plugin: cannot write %s\n", session->out_path.c_str());
+    }
+}
+
+}  // namespace
+
+int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, char** argv) {
+    if (std::string_view(info->target_name) != "arm") {
+        std::fprintf(stderr, "plugin: expected the target arm, found %s\n", info->target_name);
+        return 1;
+    }
+    std::set<std::uint32_t> entries;
+    std::string out_path;
+    for (int i = 0; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        if (argument.starts_with("watch=")) {
+            std::ifstream watch{std::string(argument.substr(6))};
+            for (std::uint32_t entry = 0; watch >> entry;) {
+                entries.insert(entry);
+            }
+        } else if (argument.starts_with("out=")) {
+            out_path = argument.substr(4);
+        }
+    }
+    if (entries.empty() || out_path.empty()) {
+        std::fprintf(stderr, "plugin: expected watch=FILE with at least one address, and out=FILE\n");
+        return 1;
+    }
+    session = new Session{qemu::CallCounter(std::move(entries)), std::move(out_path)};
+    qemu_plugin_register_vcpu_tb_trans_cb(id, translates);
+    qemu_plugin_register_atexit_cb(id, ends, nullptr);
+    return 0;
+}

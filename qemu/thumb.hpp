@@ -1,0 +1,15 @@
+// What the counters need to know of a Thumb-2 encoding. [ARMv7-M ARM, A5]
+#pragma once
+
+#include "qemu/stream.hpp"
+
+namespace qemu {
+
+/// Whether the instruction may change the program counter other than to the next instruction: B, BL, BX, BLX, CBZ,
+/// CBNZ, TBB, TBH, and POP, LDM, LDR, MOV and ADD into PC. An IT block's condition does not matter.
+[[nodiscard]] bool is_branch(const Instruction& instruction);
+
+/// Whether it leaves a return address in LR: BL and BLX.
+[[nodiscard]] bool is_call(const Instruction& instruction);
+
+}  // namespace qemu
