@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <string_view>
 
 #include "glsum/history/window.hpp"
@@ -27,7 +26,9 @@ struct Shift {
         if (past == 0) {
             return;
         }
-        std::memmove(samples + 1, samples, (past - 1) * sizeof(T));
+        for (std::size_t i = past - 1; i > 0; --i) {
+            samples[i] = samples[i - 1];
+        }
         samples[0] = newest;
     }
 };

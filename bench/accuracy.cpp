@@ -1,0 +1,113 @@
+#include "bench/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "bench/host_line.hpp"
+#include "bench/parallel.hpp"
+#include "bench/progress.hpp"
+#include "bench/reference/sums.hpp"
+#include "bench/signals.hpp"
+#include "glsum/registry.hpp"
+
+namespace bench {
+namespace {
+
+// One order and one signal: the reference is made once and every kernel and length is held against it.
+struct Case {
+    double order;
+    std::string signal;
+    std::vector<double> record;
+    std::vector<reference::Sums> exact;  // of each length, full memory last
+    double peak = 0.0;                   // max_k |E_k|
+
+    Case(const Sweep& sweep, double v, const std::string& name)
+        : order(v), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
+        std::vector<std::size_t> lengths;
+        for (const Length& length : sweep.lengths) {
+            lengths.push_back(length.taps);
+        }
+        lengths.push_back(sweep.samples);
+        exact = reference::sums(reference::weights(reference::Real(order), sweep.samples), record, lengths);
+        for (const auto& sum : exact.back()) {
+            peak = std::max(peak, std::fabs(sum.high));
+        }
+    }
+};
+
+double largest_difference(const reference::Sums& one, const reference::Sums& other) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+        largest = std::max(largest, std::fabs(other[k].error_of(one[k].high) + one[k].low));
+    }
+    return largest;
+}
+
+template <class K>
+Json measure(const Case& test, const Length& length, const reference::Sums& same_length) {
+    Json row = make_row(row_name(std::string(K::name()), test.order, length, "accuracy/signal:" + test.signal),
+                        test.record.size());
+    HostLine<K> line({test.order, length.taps});
+    if (line.status() != glsum::Status::ok) {
+        mark_error(row, to_text(line.status()));
+        return row;
+    }
+    const reference::Sums& full = test.exact.back();
+    double largest = 0.0;
+    double squares = 0.0;
+    double rounding = 0.0;
+    for (std::size_t k = 0; k < test.record.size(); ++k) {
+        const double sum = line.step_real(test.record[k]);
+        const double error = full[k].error_of(sum);
+        largest = std::max(largest, std::fabs(error));
+        squares += error * error;
+        rounding = std::max(rounding, std::fabs(same_length[k].error_of(sum)));
+    }
+    const double rms = std::sqrt(squares / static_cast<double>(test.record.size()));
+    if (!(test.peak > 0.0) || !std::isfinite(largest) || !std::isfinite(rms)) {
+        mark_error(row, "the sum or its reference is not a finite number above 0");
+        return row;
+    }
+    row["error_max"] = largest / test.peak;
+    row["error_rms"] = rms / test.peak;
+    row["rounding_error_max"] = rounding / test.peak;
+    row["truncation_error_max"] = largest_difference(same_length, full) / test.peak;
+    if constexpr (K::FormatPart::fixed_point) {
+        row["saturations"] = line.state().scale.saturations;
+    }
+    row["effective_taps"] = line.effective_taps();
+    row["macs_per_sample"] = K::multiplications(length.taps);
+    row["coefficient_bytes"] = line.coefficient_bytes();
+    row["state_bytes"] = line.state_bytes();
+    return row;
+}
+
+}  // namespace
+
+std::vector<Json> measure_accuracy(const Sweep& sweep) {
+    const std::size_t cases = sweep.orders.size() * sweep.signals.size();
+    std::vector<std::vector<Json>> rows(cases);
+    Progress progress("accuracy", cases);
+    parallel_for(cases, sweep.jobs, [&](std::size_t i) {
+        const Case test(sweep, sweep.orders[i / sweep.signals.size()], sweep.signals[i % sweep.signals.size()]);
+        glsum::Registry::for_each([&]<class K>() {
+            if constexpr (!std::is_same_v<K, glsum::Null>) {
+                if (std::find(sweep.kernels.begin(), sweep.kernels.end(), K::name()) == sweep.kernels.end()) {
+                    return;
+                }
+                for (std::size_t l = 0; l < sweep.lengths.size(); ++l) {
+                    rows[i].push_back(measure<K>(test, sweep.lengths[l], test.exact[l]));
+                }
+            }
+        });
+        progress.advance();
+    });
+    std::vector<Json> all;
+    for (auto& of_case : rows) {
+        std::move(of_case.begin(), of_case.end(), std::back_inserter(all));
+    }
+    return all;
+}
+
+}  // namespace bench

@@ -1,0 +1,18 @@
+// Accuracy of every kernel against the reference.
+#pragma once
+
+#include <vector>
+
+#include "bench/row.hpp"
+#include "bench/sweep.hpp"
+
+namespace bench {
+
+/// One row for each kernel (but `null`), order, length and signal. Errors are of S_k, before h^-v, relative to
+/// max_k |E_k| of the exact full-memory sum E:
+///   error_max, error_rms                            kernel against E
+///   rounding_error_max                              kernel against the exact sum of the same length
+///   truncation_error_max                            that sum against E
+[[nodiscard]] std::vector<Json> measure_accuracy(const Sweep& sweep);
+
+}  // namespace bench

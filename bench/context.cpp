@@ -1,0 +1,86 @@
+#include "bench/context.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <ctime>
+#include <fstream>
+#include <memory>
+
+#include "bench/build_info.hpp"
+#include "glsum/registry.hpp"
+
+namespace bench {
+namespace {
+
+// The first line that a command prints, or an empty text.
+std::string first_line(const std::string& command) {
+    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
+    char line[1024] = "";
+    if (pipe && std::fgets(line, sizeof line, pipe.get()) == nullptr) {
+        return "";
+    }
+    std::string text(line);
+    text.erase(text.find_last_not_of('\n') + 1);
+    return text;
+}
+
+std::string cpu_name() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        if (line.starts_with("model name")) {
+            return line.substr(line.find(':') + 2);
+        }
+    }
+    return first_line("uname -m");
+}
+
+std::string now() {
+    const std::time_t time = std::time(nullptr);
+    char text[64];
+    std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S%z", std::localtime(&time));
+    return text;
+}
+
+}  // namespace
+
+Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
+    Json context = std::move(google);
+    if (context.is_null()) {
+        context["date"] = now();
+        context["host_name"] = first_line("uname -n");
+        context["executable"] = "glsum bench";
+        context["library_build_type"] = "release";
+    }
+    const std::string git = fmt::format("git -C '{}' ", build_info::source_folder);
+    const std::string commit = first_line(git + "rev-parse HEAD 2>/dev/null");
+    context["glsum_version"] = build_info::version;
+    context["commit"] = commit.empty() ? "unknown" : commit;
+    context["dirty"] = commit.empty() ? "unknown"
+                       : first_line(git + "status --porcelain --untracked-files=no 2>/dev/null").empty() ? "false"
+                                                                                                         : "true";
+    context["compiler"] = build_info::compiler;
+    context["flags"] = build_info::flags;
+    context["contraction"] = build_info::contraction;
+    context["peer_flags"] = build_info::peer_flags;
+    context["cpu"] = cpu_name();
+#if defined(GLSUM_SIMD)
+    context["simd"] = std::string(glsum::simd_instruction_set());
+#endif
+    context["core_file"] = "none";
+    if (board != nullptr) {
+        std::ifstream info(board->measure_elf.parent_path() / "build_info.json");
+        const Json target = Json::parse(info, nullptr, false);
+        context["target_compiler"] = target.is_object() ? target.value("compiler", "unknown") : "unknown";
+        context["target_flags"] = target.is_object() ? target.value("flags", "unknown") : "unknown";
+        context["qemu_version"] = qemu::emulator_version();
+        context["elf_sha256"] =
+            first_line(fmt::format("sha256sum '{}'", board->measure_elf.string())).substr(0, 64);
+        context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
+    }
+    context["n_samples"] = sweep.samples;
+    context["seed"] = sweep.seed;
+    return context;
+}
+
+}  // namespace bench

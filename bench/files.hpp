@@ -1,0 +1,22 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace bench {
+
+/// A name beside `path` to write to before it is renamed. Removes what killed runs left under such names.
+[[nodiscard]] std::filesystem::path partial_name(const std::filesystem::path& path);
+
+/// Puts the finished partial file in the place of `path`, on the disk before it is seen.
+/// \throws glsum::Failure (bad input) naming the file and the reason; the partial file is removed then.
+void publish(const std::filesystem::path& partial, const std::filesystem::path& path);
+
+/// Writes a whole file. \throws glsum::Failure as `publish`.
+void write_file(const std::filesystem::path& path, const std::string& content);
+
+/// Fails now rather than after a long run: whether a file can be written there.
+void check_writable(const std::filesystem::path& path);
+
+}  // namespace bench

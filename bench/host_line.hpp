@@ -1,0 +1,62 @@
+// A kernel with buffers of run-time size, on the host.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <span>
+
+#include "glsum/kernel.hpp"
+
+namespace bench {
+
+template <class K>
+class HostLine {
+public:
+    /// Buffers for `design.taps`, at the start of a cache line; `status` says how `prepare` went.
+    explicit HostLine(const glsum::Design& design)
+        : taps_(design.taps), table_(K::table_count(design.taps)), past_(K::past_count(design.taps)) {
+        status_ = K::prepare(state_, design, table_.span(), past_.span());
+    }
+    [[nodiscard]] glsum::Status status() const { return status_; }
+    typename K::Output step(typename K::Sample sample) { return K::step(state_, sample); }
+    double step_real(double sample) { return K::to_real(state_, K::step(state_, K::from_real(sample))); }
+    [[nodiscard]] typename K::State& state() { return state_; }
+
+    [[nodiscard]] std::size_t coefficient_bytes() const { return table_.span().size_bytes(); }
+    [[nodiscard]] std::size_t state_bytes() const { return sizeof state_ + past_.span().size_bytes(); }
+    /// Taps up to the last coefficient that is not zero, a_0 included.
+    [[nodiscard]] std::size_t effective_taps() const {
+        std::size_t effective = 1;
+        for (std::size_t j = 1; j < taps_ && j <= table_.span().size(); ++j) {
+            effective = table_.span()[j - 1] != 0 ? j + 1 : effective;
+        }
+        return effective;
+    }
+
+private:
+    template <class T>
+    class Buffer {
+    public:
+        explicit Buffer(std::size_t count)
+            : data_(static_cast<T*>(::operator new(count * sizeof(T) + 64, std::align_val_t{64}))), count_(count) {
+            std::uninitialized_value_construct_n(data_.get(), count);
+        }
+        [[nodiscard]] std::span<T> span() const { return {data_.get(), count_}; }
+
+    private:
+        struct Release {
+            void operator()(T* data) const { ::operator delete(data, std::align_val_t{64}); }
+        };
+        std::unique_ptr<T, Release> data_;
+        std::size_t count_;
+    };
+
+    std::size_t taps_;
+    Buffer<typename K::Coefficient> table_;
+    Buffer<typename K::Sample> past_;
+    typename K::State state_{};
+    glsum::Status status_ = glsum::Status::ok;
+};
+
+}  // namespace bench

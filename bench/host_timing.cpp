@@ -1,0 +1,192 @@
+#include "bench/host_timing.hpp"
+
+#include <benchmark/benchmark.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
+#include <sstream>
+
+#include "bench/cycle_counter.hpp"
+#include "bench/host_line.hpp"
+#include "bench/peers/peer.hpp"
+#include "bench/progress.hpp"
+#include "bench/reference/sums.hpp"
+#include "bench/signals.hpp"
+#include "glsum/bound.hpp"
+#include "glsum/registry.hpp"
+#include "qemu/failure.hpp"
+
+namespace bench {
+namespace {
+
+// A power of two, so that the index needs no division; long enough that no branch predictor learns the data.
+constexpr std::size_t stream_samples = 1 << 14;
+
+const std::vector<double>& stream() {
+    static const std::vector<double> samples = make_signal("noise", stream_samples, 1);
+    return samples;
+}
+
+const CycleCounter& cycle_counter() {
+    static const CycleCounter counter;
+    return counter;
+}
+
+// Runs `step` on the stream for as long as Google Benchmark wants, then checks the output that follows.
+// step: sample index -> output, as a real; expected_error: its bound.
+template <class Sample, class Step, class ToReal>
+void time_line(benchmark::State& state, const std::vector<Sample>& samples, const std::vector<reference::Real>& weights,
+               double bound, Step step, ToReal to_real) {
+    std::size_t k = 0;
+    for (; k < weights.size() + 1; ++k) {  // into the steady state: the whole window holds samples
+        benchmark::DoNotOptimize(step(samples[k % stream_samples]));
+    }
+    const std::uint64_t begin = cycle_counter().read();
+    for ([[maybe_unused]] auto _ : state) {
+        benchmark::DoNotOptimize(step(samples[k++ % stream_samples]));
+    }
+    const std::uint64_t cycles = cycle_counter().read() - begin;
+    std::vector<double> newest_first;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+        newest_first.push_back(stream()[(k - j) % stream_samples]);
+    }
+    const double found = to_real(step(samples[k % stream_samples]));
+    const double error = std::fabs(reference::Exact(reference::sum(weights, newest_first)).error_of(found));
+    if (!(error <= bound)) {
+        state.SkipWithError(fmt::format("wrong answer: error {} beyond its bound {}", error, bound).c_str());
+        return;
+    }
+    const auto iterations = static_cast<double>(state.iterations());
+    state.counters["cycles_per_sample"] = static_cast<double>(cycles) / iterations;
+    state.counters["ns_per_sample"] =
+        benchmark::Counter(1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+template <class K>
+void time_kernel(benchmark::State& state, double order, std::size_t taps, const std::vector<reference::Real>& weights) {
+    HostLine<K> line({order, taps});
+    if (line.status() != glsum::Status::ok) {
+        state.SkipWithError(to_text(line.status()).c_str());
+        return;
+    }
+    std::vector<typename K::Sample> samples;
+    for (const double x : stream()) {
+        samples.push_back(K::from_real(x));
+    }
+    const auto step = [&](typename K::Sample x) { return line.step(x); };
+    const auto to_real = [&](typename K::Output y) { return K::to_real(line.state(), y); };
+    if constexpr (std::is_same_v<K, glsum::Null>) {
+        time_line(state, samples, {reference::Real(1)}, 1e-7, step, to_real);
+    } else {
+        time_line(state, samples, weights, glsum::error_bound<K>({order, taps}, line.state(), signal_peak), step,
+                  to_real);
+        state.counters["macs_per_sample"] = static_cast<double>(K::multiplications(taps));
+        state.counters["coefficient_bytes"] = static_cast<double>(line.coefficient_bytes());
+        state.counters["state_bytes"] = static_cast<double>(line.state_bytes());
+    }
+}
+
+void time_peer(benchmark::State& state, const Peer& peer, double order, std::size_t taps,
+               const std::vector<reference::Real>& weights) {
+    std::vector<float> coefficients;
+    for (const auto& weight : weights) {
+        coefficients.push_back(static_cast<float>(weight));
+    }
+    PeerLine line(peer, coefficients);
+    const std::vector<float> samples(stream().begin(), stream().end());
+    // Any order of summation: every term may pass every addition.
+    const double bound = 1.01 * static_cast<double>(taps + 2) * glsum::F32::unit_roundoff * signal_peak *
+                         glsum::absolute_sum(order, taps);
+    time_line(state, samples, weights, bound, [&](float x) { return line.step(x); },
+              [](float y) { return static_cast<double>(y); });
+    state.counters["macs_per_sample"] = static_cast<double>(taps);
+    state.counters["coefficient_bytes"] = static_cast<double>(taps * sizeof(float));
+    state.counters["state_bytes"] = static_cast<double>(2 * taps * sizeof(float));
+}
+
+// Writes what Google Benchmark's own JSON reporter writes, and shows the progress.
+class Reporter : public benchmark::JSONReporter {
+public:
+    explicit Reporter(std::size_t benchmarks) : progress_("host timing", benchmarks) {
+        SetOutputStream(&out_);
+        SetErrorStream(&errors_);
+    }
+    void ReportRuns(const std::vector<Run>& runs) override {
+        JSONReporter::ReportRuns(runs);
+        progress_.advance();
+    }
+    [[nodiscard]] Json json() const { return Json::parse(out_.str()); }
+
+private:
+    Progress progress_;
+    std::ostringstream out_;
+    std::ostringstream errors_;
+};
+
+void initialise(const std::vector<std::string>& flags, bool quick_default) {
+    static std::vector<std::string> words;  // Google Benchmark keeps the pointer to the first
+    words = {"glsum bench"};
+    if (quick_default) {
+        words.emplace_back("--benchmark_min_time=0.05");
+    }
+    words.insert(words.end(), flags.begin(), flags.end());
+    std::vector<char*> argv;
+    for (std::string& word : words) {
+        argv.push_back(word.data());
+    }
+    int count = static_cast<int>(argv.size());
+    benchmark::Initialize(&count, argv.data());
+    if (count > 1) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{}: not a flag of Google Benchmark {}", argv[1], "(--benchmark_...)"));
+    }
+}
+
+}  // namespace
+
+HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flags) {
+    initialise(flags, true);
+    const double order = sweep.orders.front();
+    std::size_t registered = 0;
+    const auto add = [&](const std::string& name, const Length& length, auto work) {
+        benchmark::RegisterBenchmark(row_name(name, order, length, "host").c_str(), work);
+        ++registered;
+    };
+    for (const Length& length : sweep.lengths) {
+        const auto weights = std::make_shared<const std::vector<reference::Real>>(
+            reference::weights(reference::Real(order), length.taps));
+        const std::size_t taps = length.taps;
+        for (const std::string& name : sweep.kernels) {
+            glsum::Registry::for_each([&]<class K>() {
+                if (K::name() == name) {
+                    add(name, length,
+                        [=](benchmark::State& state) { time_kernel<K>(state, order, taps, *weights); });
+                }
+            });
+        }
+        for (const Peer& peer : peers()) {
+            if (std::find(sweep.peers.begin(), sweep.peers.end(), peer.name) != sweep.peers.end()) {
+                add(std::string(peer.name), length,
+                    [=](benchmark::State& state) { time_peer(state, peer, order, taps, *weights); });
+            }
+        }
+    }
+    Json json;
+    {
+        Reporter reporter(registered);
+        benchmark::RunSpecifiedBenchmarks(&reporter);
+        json = reporter.json();
+    }
+    benchmark::ClearRegisteredBenchmarks();
+    HostTiming timing;
+    timing.context = json["context"];
+    timing.context["cycle_counter"] = cycle_counter().name();
+    timing.context["host_timing_order"] = fmt::format("{}", order);
+    for (auto& row : json["benchmarks"]) {
+        timing.rows.push_back(std::move(row));
+    }
+    return timing;
+}
+
+}  // namespace bench

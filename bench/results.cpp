@@ -1,0 +1,165 @@
+#include "bench/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/files.hpp"
+
+namespace bench {
+namespace {
+
+// The next part of a path-like name, behind `prefix`; empty when it does not begin so.
+std::string take(std::string& rest, const std::string& prefix) {
+    if (!rest.starts_with(prefix)) {
+        return "";
+    }
+    const std::size_t end = std::min(rest.find('/', prefix.size()), rest.size());
+    std::string part = rest.substr(prefix.size(), end - prefix.size());
+    rest.erase(0, std::min(end + 1, rest.size()));
+    return part;
+}
+
+std::optional<double> number(const Json& row, const char* counter) {
+    const auto found = row.find(counter);
+    return found != row.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+void keep_larger(std::optional<double>& kept, std::optional<double> value) {
+    kept = !kept || (value && *value > *kept) ? value : kept;
+}
+
+void add_row(Entry& entry, const RowKey& key, const Json& row) {
+    if (row.value("error_occurred", false)) {
+        entry.fault = key.aspect + ": " + row.value("error_message", "wrong");
+        return;
+    }
+    if (key.aspect == "accuracy") {
+        keep_larger(entry.error_max, number(row, "error_max"));
+        keep_larger(entry.rounding_error_max, number(row, "rounding_error_max"));
+        keep_larger(entry.truncation_error_max, number(row, "truncation_error_max"));
+    } else if (key.aspect == "host") {
+        entry.host_ns = number(row, "real_time");
+        entry.host_cycles = number(row, "cycles_per_sample");
+    } else {
+        entry.target_instructions = number(row, "instructions_per_sample");
+        entry.target_worst = number(row, "worst_instructions");
+        entry.software_double = row.value("label", "").find("software") != std::string::npos;
+    }
+    const auto state = number(row, "state_bytes");
+    const auto coefficients = number(row, "coefficient_bytes");
+    if (state && coefficients && (key.aspect.starts_with("m7") || !entry.target_instructions)) {
+        entry.bytes = *state + *coefficients;
+    }
+}
+
+void mark_front(Group& group, std::optional<double> Entry::* cost, bool Entry::* front) {
+    constexpr double same_error = 1.01;
+    for (Entry& entry : group.entries) {
+        const auto rankable = [&](const Entry& e) { return e.fault.empty() && e.error_max && e.*cost; };
+        entry.*front = rankable(entry) && std::none_of(group.entries.begin(), group.entries.end(), [&](const Entry& other) {
+                           return rankable(other) && *(other.*cost) < *(entry.*cost) &&
+                                  *other.error_max <= *entry.error_max * same_error;
+                       });
+    }
+}
+
+}  // namespace
+
+std::optional<RowKey> parse_key(const std::string& name) {
+    std::string rest = name;
+    RowKey key;
+    if (take(rest, "gl").empty() && !rest.empty()) {
+        key.kernel = take(rest, "");
+        key.order = take(rest, "order:");
+        key.taps = take(rest, "taps:");
+        key.aspect = take(rest, "");
+        key.signal = take(rest, "signal:");
+    }
+    const bool whole = name.starts_with("gl/") && !key.kernel.empty() && !key.order.empty() && !key.taps.empty() &&
+                       !key.aspect.empty();
+    return whole ? std::optional(key) : std::nullopt;
+}
+
+void write_results(const std::filesystem::path& path, const Json& context, const std::vector<Json>& rows) {
+    Json file;
+    file["context"] = context;
+    file["benchmarks"] = rows;
+    write_file(path, file.dump(2) + "\n");
+}
+
+void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
+    static const std::vector<std::string> bookkeeping = {
+        "name", "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions",
+        "repetition_index", "threads", "time_unit"};
+    std::vector<std::string> columns;
+    for (const Json& row : rows) {
+        for (const auto& [key, value] : row.items()) {
+            if (std::find(bookkeeping.begin(), bookkeeping.end(), key) == bookkeeping.end() &&
+                std::find(columns.begin(), columns.end(), key) == columns.end()) {
+                columns.push_back(key);
+            }
+        }
+    }
+    std::string text = fmt::format("name,kernel,order,taps,aspect,signal,{}\n", fmt::join(columns, ","));
+    for (const Json& row : rows) {
+        const std::string name = row.value("name", "");
+        const RowKey key = parse_key(name).value_or(RowKey{});
+        text += fmt::format("{},{},{},{},{},{}", name, key.kernel, key.order, key.taps, key.aspect, key.signal);
+        for (const std::string& column : columns) {
+            const auto found = row.find(column);
+            text += ',';
+            text += found == row.end() ? "" : found->dump();
+        }
+        text += '\n';
+    }
+    write_file(path, text);
+}
+
+std::vector<Group> group(const std::vector<Json>& rows) {
+    std::vector<Group> groups;
+    std::vector<std::pair<RowKey, const Json*>> host;  // one order for all
+    const auto entry_of = [](Group& group, const std::string& kernel) -> Entry& {
+        for (Entry& entry : group.entries) {
+            if (entry.kernel == kernel) {
+                return entry;
+            }
+        }
+        group.entries.emplace_back().kernel = kernel;
+        return group.entries.back();
+    };
+    const auto group_of = [&](const RowKey& key) -> Group& {
+        for (Group& group : groups) {
+            if (group.order == key.order && group.taps == key.taps) {
+                return group;
+            }
+        }
+        groups.push_back({key.order, key.taps, {}});
+        return groups.back();
+    };
+    for (const Json& row : rows) {
+        const auto key = parse_key(row.value("name", ""));
+        if (!key || row.value("run_type", "iteration") != "iteration") {
+            continue;
+        }
+        if (key->aspect == "host") {
+            host.emplace_back(*key, &row);
+            group_of(*key);
+        } else {
+            add_row(entry_of(group_of(*key), key->kernel), *key, row);
+        }
+    }
+    for (Group& group : groups) {
+        for (const auto& [key, row] : host) {
+            if (key.taps == group.taps) {
+                add_row(entry_of(group, key.kernel), key, *row);
+            }
+        }
+        mark_front(group, &Entry::host_ns, &Entry::host_front);
+        mark_front(group, &Entry::target_instructions, &Entry::target_front);
+    }
+    return groups;
+}
+
+}  // namespace bench

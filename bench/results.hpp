@@ -1,0 +1,59 @@
+// A result file, and what can be read off it.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/row.hpp"
+
+namespace bench {
+
+/// The parts of "gl/<kernel>/order:<v>/taps:<L>/<aspect>[/signal:<s>]".
+struct RowKey {
+    std::string kernel;
+    std::string order;
+    std::string taps;
+    std::string aspect;  ///< accuracy, host, m7:<core>
+    std::string signal;
+};
+/// Empty for another kind of row.
+[[nodiscard]] std::optional<RowKey> parse_key(const std::string& name);
+
+/// Writes {"context", "benchmarks"}.
+void write_results(const std::filesystem::path& path, const Json& context, const std::vector<Json>& rows);
+
+/// One line a row; the columns are the parts of the name and every counter that occurs.
+void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
+
+/// What one kernel does at one order and length.
+struct Entry {
+    std::string kernel;
+    std::optional<double> error_max;           ///< worst of the signals
+    std::optional<double> rounding_error_max;  ///< worst of the signals
+    std::optional<double> truncation_error_max;
+    std::optional<double> host_ns;
+    std::optional<double> host_cycles;
+    std::optional<double> target_instructions;
+    std::optional<double> target_worst;
+    std::optional<double> bytes;  ///< state and coefficients; on the target where it runs there
+    bool software_double = false;
+    std::string fault;  ///< why it may not be ranked; empty if it may
+    bool host_front = false;
+    bool target_front = false;
+};
+
+/// All kernels of one order and length, in the order of their appearance.
+struct Group {
+    std::string order;
+    std::string taps;
+    std::vector<Entry> entries;
+};
+
+/// Groups by order and length, in the order of their appearance. Host timings, taken at one order, serve all.
+/// `host_front`, `target_front`: no other kernel of the group costs less (nanoseconds; instructions) at an error that is
+/// at most 1 % larger, which counts as the same.
+[[nodiscard]] std::vector<Group> group(const std::vector<Json>& rows);
+
+}  // namespace bench

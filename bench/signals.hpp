@@ -1,0 +1,25 @@
+// The records that accuracy is measured on.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace bench {
+
+inline constexpr double step_s = 1e-3;       ///< h of every record
+inline constexpr double signal_peak = 0.9;   ///< of full scale
+inline constexpr std::string_view signal_names[] = {"step",   "ramp",  "sine1", "sine5",
+                                                    "sine50", "noise", "drive"};
+
+/// A record of a signal, with its largest magnitude at or just below 0.9:
+///   step    0.9 from k = 0;  ramp  from 0 to 0.9 at the last sample;  sine<f>  0.9 sin(2 pi f k h)
+///   noise   white, uniform on [-0.9, 0.9), the same on every machine for the same seed
+///   drive   the step response of [Matusiak2020] (12) without its delay, quantised to 1000 counts a turn with 45
+///           degrees as 1, then scaled to 0.9
+/// \throws std::out_of_range for another name.
+[[nodiscard]] std::vector<double> make_signal(std::string_view name, std::size_t samples, std::uint64_t seed);
+
+}  // namespace bench

@@ -1,0 +1,33 @@
+// What a run measures.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// A memory length: a number of taps, or all of the record.
+struct Length {
+    std::size_t taps;
+    bool full = false;
+    [[nodiscard]] std::string text() const { return full ? "full" : std::to_string(taps); }
+};
+
+struct Sweep {
+    std::vector<std::string> kernels;  ///< in the registry's order; may hold `null`
+    std::vector<std::string> peers;
+    std::vector<double> orders;
+    std::vector<Length> lengths;  ///< rising
+    std::vector<std::string> signals;
+    std::size_t samples = 5000;
+    std::uint64_t seed = 2020;
+    unsigned jobs = 1;
+};
+
+/// "gl/<kernel>/order:<v>/taps:<L>/<aspect>"; the order in its shortest round-trip form.
+[[nodiscard]] std::string row_name(const std::string& kernel, double order, const Length& length,
+                                   const std::string& aspect);
+
+}  // namespace bench

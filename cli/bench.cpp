@@ -1,0 +1,195 @@
+// glsum bench: accuracy of every kernel, its cost on the host and on the emulated Cortex-M7.
+#include <fmt/format.h>
+#include <fnmatch.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "bench/accuracy.hpp"
+#include "bench/build_info.hpp"
+#include "bench/context.hpp"
+#include "bench/files.hpp"
+#include "bench/host_timing.hpp"
+#include "bench/peers/peer.hpp"
+#include "bench/plot.hpp"
+#include "bench/results.hpp"
+#include "bench/signals.hpp"
+#include "bench/table.hpp"
+#include "bench/target_rows.hpp"
+#include "cli/commands.hpp"
+#include "glsum/registry.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+struct Options {
+    bool quick = false;
+    std::vector<std::string> kernels{"*"};
+    std::vector<double> orders;
+    std::vector<std::string> taps;
+    std::vector<std::string> signals;
+    std::vector<std::string> targets{"host", "m7"};
+    unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+    std::filesystem::path out = std::filesystem::path(build_info::source_folder) / "results" / "latest.json";
+};
+
+bool matches_any(const std::vector<std::string>& globs, std::string_view name) {
+    return std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) {
+        return fnmatch(glob.c_str(), std::string(name).c_str(), 0) == 0;
+    });
+}
+
+std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std::size_t samples) {
+    std::vector<bench::Length> lengths;
+    for (const std::string& word : words) {
+        std::size_t taps = samples;
+        const auto end = word.data() + word.size();
+        const auto [read_to, error] = std::from_chars(word.data(), end, taps);
+        const bool full = word == "full";
+        if (!full && (error != std::errc{} || read_to != end || taps == 0)) {
+            throw Failure(Exit::bad_input, fmt::format("--taps: expected a number of at least 1 or full, found {}", word));
+        }
+        if (std::none_of(lengths.begin(), lengths.end(), [&](const bench::Length& other) {
+                return other.full == full && other.taps == taps;
+            })) {
+            lengths.push_back({taps, full});
+        }
+    }
+    std::stable_sort(lengths.begin(), lengths.end(),
+                     [](const bench::Length& a, const bench::Length& b) { return a.taps < b.taps; });
+    return lengths;
+}
+
+bench::Sweep to_sweep(const Options& options) {
+    bench::Sweep sweep;
+    sweep.jobs = options.jobs;
+    sweep.samples = options.quick ? 1000 : 5000;
+    sweep.orders = options.orders;
+    if (sweep.orders.empty()) {
+        sweep.orders = options.quick
+                           ? std::vector{0.5, 0.98319, 1.9909, -0.5}
+                           : std::vector{0.2, 0.3, 0.5, 0.7, 0.9, 0.98319, 1.5, 1.9909, -0.5};
+    }
+    for (const double order : sweep.orders) {
+        if (!glsum::order_in_range(order)) {
+            throw Failure(Exit::bad_input, fmt::format("--orders: expected a number in (-2, 2], found {}", order));
+        }
+    }
+    std::vector<std::string> taps = options.taps;
+    if (taps.empty()) {
+        taps = options.quick ? std::vector<std::string>{"50", "100", "200", "600", "full"}
+                             : std::vector<std::string>{"50",  "75",  "100", "150", "200",  "300",
+                                                        "400", "500", "600", "800", "1000", "full"};
+    }
+    sweep.lengths = to_lengths(taps, sweep.samples);
+    sweep.signals = options.signals;
+    if (sweep.signals.empty()) {
+        sweep.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
+    }
+    for (const std::string& signal : sweep.signals) {
+        if (std::find(std::begin(bench::signal_names), std::end(bench::signal_names), signal) ==
+            std::end(bench::signal_names)) {
+            throw Failure(Exit::bad_input, fmt::format("--signals: expected some of {}, found {}",
+                                                       fmt::join(bench::signal_names, ", "), signal));
+        }
+    }
+    glsum::Registry::for_each([&]<class K>() {
+        if (matches_any(options.kernels, K::name())) {
+            sweep.kernels.emplace_back(K::name());
+        }
+    });
+    for (const bench::Peer& peer : bench::peers()) {
+        if (matches_any(options.kernels, peer.name)) {
+            sweep.peers.emplace_back(peer.name);
+        }
+    }
+    if (sweep.kernels.empty() && sweep.peers.empty()) {
+        throw Failure(Exit::bad_input, fmt::format("--kernels: no kernel is called {}", fmt::join(options.kernels, ", ")));
+    }
+    return sweep;
+}
+
+bool wants(const Options& options, const char* target) {
+    return std::find(options.targets.begin(), options.targets.end(), target) != options.targets.end();
+}
+
+void run(const Options& options, const PassedOn& flags) {
+    const bench::Sweep sweep = to_sweep(options);
+    for (const std::string& target : options.targets) {
+        if (target != "host" && target != "m7") {
+            throw Failure(Exit::bad_input, fmt::format("--targets: expected host, m7 or both, found {}", target));
+        }
+    }
+    bench::check_writable(options.out);
+    std::optional<qemu::Board> board;
+    if (wants(options, "m7")) {
+        const std::filesystem::path source = build_info::source_folder;
+        const std::filesystem::path built = build_info::build_folder;
+        board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
+                                 source / "targets" / "mps2-an500" / "emulate");
+        (void)qemu::emulator_version();
+    }
+    std::vector<bench::Json> rows = bench::measure_accuracy(sweep);
+    const auto append = [&](std::vector<bench::Json> more) {
+        std::move(more.begin(), more.end(), std::back_inserter(rows));
+    };
+    if (board) {
+        append(bench::measure_on_target(sweep, *board));
+    }
+    bench::Json google;
+    if (wants(options, "host")) {
+        // Last and alone: nothing else of this run is at work.
+        bench::HostTiming timing = bench::time_on_host(sweep, flags);
+        google = std::move(timing.context);
+        append(std::move(timing.rows));
+    }
+    const bench::Json context = bench::make_context(std::move(google), sweep, board ? &*board : nullptr);
+    const std::vector<bench::Group> groups = bench::group(rows);
+    bench::write_results(options.out, context, rows);
+    std::filesystem::path stem = options.out;
+    stem.replace_extension();
+    std::filesystem::path csv = stem;
+    csv += ".csv";
+    bench::write_csv(csv, rows);
+    fmt::print("{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1));
+    bench::plot_error(groups, stem);
+    fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", rows.size(), options.out.string());
+    const auto wrong = std::count_if(rows.begin(), rows.end(),
+                                     [](const bench::Json& row) { return row.value("error_occurred", false); });
+    if (wrong > 0) {
+        throw Failure(Exit::check_failed,
+                      fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong,
+                                  rows.size()));
+    }
+}
+
+}  // namespace
+
+void add_bench(CLI::App& app, const PassedOn& passed_on) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions");
+    command->footer(
+        "Flags --benchmark_... go to Google Benchmark.\n"
+        "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");
+    command->add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
+    command->add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
+    command->add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
+    command->add_option("--taps", options->taps, "Lengths: numbers, or full (as many as the record has samples)")
+        ->delimiter(',');
+    command->add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
+        ->delimiter(',');
+    command->add_option("--targets", options->targets, "host, m7 or both")->delimiter(',')->capture_default_str();
+    command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::PositiveNumber);
+    command->add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
+    command->callback([options, &passed_on] { run(*options, passed_on); });
+}
+
+}  // namespace cli

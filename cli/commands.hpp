@@ -1,0 +1,16 @@
+// The subcommands: each adds itself to the command line and returns what runs it.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+namespace cli {
+
+/// Words that a command hands on unread: Google Benchmark's own flags.
+using PassedOn = std::vector<std::string>;
+
+/// `bench`. \param passed_on  filled before the command runs
+void add_bench(CLI::App& app, const PassedOn& passed_on);
+
+}  // namespace cli
