@@ -93,48 +93,60 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
             continue;
         }
         const bool truncation = series[i].kernel.empty();
+        const std::size_t style = i + (series.front().kernel.empty() ? 0 : 1);  // the same in both columns
         blocks += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
         lines.push_back(fmt::format(
-            "$d{} using 1:2 with linespoints lw {} dt {} pt {} ps 0.7 lc rgb \"{}\" title \"{}\"", i,
-            truncation ? 1 : 2, truncation ? 2 : 1, truncation ? -1 : static_cast<int>(4 + i % 10),
-            truncation ? "#000000" : palette[(i + std::size(palette) - 1) % std::size(palette)], series[i].title));
+            "$d{} using 1:2 with linespoints lw {} dt {} pt {} ps 0.7 lc rgb \"{}\" title \"{}\" noenhanced", i,
+            truncation ? 1 : 2,
+            truncation ? 2 : 1 + 2 * static_cast<int>((style - 1) / std::size(palette)), truncation ? -1 : static_cast<int>(4 + style % 10),
+            truncation ? "#000000" : palette[(style + std::size(palette) - 1) % std::size(palette)], series[i].title));
     }
     if (lines.empty()) {
         return "set multiplot next\n";
     }
-    return blocks + fmt::format("set title \"{}\"\n{}\nplot {}\n", title, key ? "set key outside right top" : "unset key",
-                                fmt::join(lines, ", \\\n  "));
+    return blocks + fmt::format("set title \"{}\"\n{}\nplot {}\n", title,
+                                key ? "set key at screen 0.995, screen 0.93" : "unset key", fmt::join(lines, ", \\\n  "));
 }
 
-std::string script(const std::vector<Group>& groups, const std::string& terminal, const std::string& output) {
+std::string script(const std::vector<Group>& groups, const std::string& terminal, const std::string& output,
+                   double height) {
     const auto orders = distinct(groups, false);
     const auto kernels = distinct(groups, true);
+    double shortest = 1e9;
+    double longest = 0.0;
+    for (const Group& group : groups) {
+        shortest = std::min(shortest, taps_of(group, groups));
+        longest = std::max(longest, taps_of(group, groups));
+    }
     std::string text = fmt::format(
-        "set terminal {}\nset output \"{}\"\nset multiplot layout {},2 columnsfirst title \"Grünwald-Letnikov sum: error "
+        "set terminal {}\nset output \"{}\"\n"
+        "set multiplot layout {},2 margins 0.06,0.82,{:.3f},{:.3f} spacing 0.06,{:.3f} title \"Grünwald-Letnikov sum: error "
         "against memory length (worst over the signals, relative to the largest exact sum)\"\n"
-        "set logscale xy\nset format y \"10^{{%L}}\"\nset xtics {}\nset grid lc rgb \"#dddddd\"\nset xlabel \"taps\"\n"
-        "set offsets graph 0.05, graph 0.05\n",
-        terminal, output, orders.size(), tics(groups));
-    for (const bool rounding : {false, true}) {
-        for (const std::string& order : orders) {
-            std::vector<Series> series;
-            if (!rounding) {
-                series.push_back({"truncation alone", &Entry::truncation_error_max, ""});
-            } else {
-                series.push_back({"", &Entry::target_worst, "none"});  // keeps the colours of both columns equal
+        "set logscale xy\nset format y \"10^{{%L}}\"\nset xrange [{}:{}]\nset xtics {} nomirror rotate by -45\n"
+        "set ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xlabel \"taps\"\n",
+        terminal, output, orders.size(), 75.0 / height, 1.0 - 65.0 / height, 110.0 / height, shortest / 1.25,
+        longest * 1.25, tics(groups));
+    bool key = true;
+    for (const std::string& order : orders) {
+        for (const bool rounding : {false, true}) {
+            std::vector<Series> series{{"truncation alone", &Entry::truncation_error_max, ""}};
+            if (rounding) {
+                series.clear();
             }
             for (const std::string& kernel : kernels) {
                 series.push_back({kernel, rounding ? &Entry::rounding_error_max : &Entry::error_max, kernel});
             }
             text += panel(groups, order, series,
-                          fmt::format("order {}: {}", order, rounding ? "rounding error" : "total error"), rounding);
+                          fmt::format("order {}: {}", order, rounding ? "rounding error" : "total error"),
+                          !rounding && key);
+            key = key && rounding;
         }
     }
     return text + "unset multiplot\nunset output\n";
 }
 
 void run_gnuplot(const std::string& text, const std::filesystem::path& path) {
-    FILE* pipe = popen("gnuplot 2>&1 >/dev/null", "w");
+    FILE* pipe = popen("gnuplot >/dev/null", "w");
     const bool written = pipe != nullptr && std::fwrite(text.data(), 1, text.size(), pipe) == text.size();
     const int status = pipe != nullptr ? pclose(pipe) : -1;
     if (!written || status != 0) {
@@ -146,7 +158,7 @@ void run_gnuplot(const std::string& text, const std::filesystem::path& path) {
 }  // namespace
 
 void plot_error(const std::vector<Group>& groups, const std::filesystem::path& stem) {
-    const std::size_t height = 60 + 330 * distinct(groups, false).size();
+    const std::size_t height = 140 + 330 * distinct(groups, false).size();
     for (const bool svg : {true, false}) {
         std::filesystem::path path = stem;
         path += svg ? ".svg" : ".png";
@@ -154,7 +166,7 @@ void plot_error(const std::vector<Group>& groups, const std::filesystem::path& s
         const std::string terminal =
             svg ? fmt::format("svg size 1200,{} font \"Helvetica,12\" background rgb \"white\"", height)
                 : fmt::format("pngcairo size 1200,{} font \"Helvetica,10\" background rgb \"white\"", height);
-        run_gnuplot(script(groups, terminal, partial.string()), path);
+        run_gnuplot(script(groups, terminal, partial.string(), static_cast<double>(height)), path);
         publish(partial, path);
     }
 }

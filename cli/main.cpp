@@ -40,6 +40,10 @@ int main(int argc, char** argv) {
     cli::PassedOn passed_on;
     cli::add_bench(app, passed_on);
     try {
+        if (argc > 1 && argv[1][0] != '-' &&
+            app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {
+            throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: no such command; --help lists them", argv[1]));
+        }
         app.parse(prepare_words(argc, argv, passed_on));
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : static_cast<int>(glsum::Exit::bad_input);

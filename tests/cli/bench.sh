@@ -1,0 +1,50 @@
+#!/bin/sh
+# The main job in small: what it writes, that it repeats, and that nothing a run meets harms the last good result.
+# Argument: the glsum program.
+set -u
+glsum=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+fail() { echo "$*"; failures=$((failures + 1)); }
+bench() { "$glsum" bench --quick --orders 0.5,-0.5 --taps 50,full --signals step,noise --benchmark_min_time=0.001 --out "$folder/$1.json" >"$folder/$1.txt" 2>"$folder/$1.err"; }
+
+bench first || fail "first run: $(tail -n 3 "$folder/first.err")"
+for file in first.json first.csv first.svg first.png; do
+    [ -s "$folder/$file" ] || fail "expected the file $file"
+done
+grep -q '"json_schema_version"\|"library_build_type"' "$folder/first.json" || fail "expected Google Benchmark's context"
+for field in glsum_version commit compiler flags contraction cpu cycle_counter core_file qemu_version elf_sha256 placement n_samples seed; do
+    grep -q "\"$field\"" "$folder/first.json" || fail "expected the context field $field"
+done
+for row in 'gl/mirror_simd_f32/order:0.5/taps:50/accuracy/signal:step' 'gl/ring_horner_f32/order:-0.5/taps:full/m7:count' \
+    'gl/null/order:0.5/taps:50/host' 'gl/peer_std_f32/order:0.5/taps:full/host' 'gl/shift_plain_f64/order:0.5/taps:50/m7:count'; do
+    grep -q "\"name\": \"$row\"" "$folder/first.json" || fail "expected the row $row"
+done
+grep -q 'gl/mirror_simd_f32/.*/m7' "$folder/first.json" && fail "a host kernel has a target row"
+grep -qi 'nan\|infinity' "$folder/first.csv" && fail "a counter is not a number"
+grep -q 'double in software' "$folder/first.txt" || fail "expected the mark of double precision in software"
+grep -q '"error_occurred": true' "$folder/first.json" && fail "a row is wrong"
+
+# Same seed, same numbers: everything but the host's times.
+bench second || fail "second run failed"
+for run in first second; do grep -v '/host,' "$folder/$run.csv" >"$folder/$run.fixed"; done
+cmp -s "$folder/first.fixed" "$folder/second.fixed" || fail "two runs differ: $(diff "$folder/first.fixed" "$folder/second.fixed" | head -n 4)"
+
+# Killed in the middle: the last good result is whole.
+sum=$(cksum <"$folder/first.json")
+bench first &
+child=$!
+sleep 0.5
+kill -9 "$child" 2>/dev/null
+pkill -9 -P "$child" 2>/dev/null
+wait "$child" 2>/dev/null
+[ "$sum" = "$(cksum <"$folder/first.json")" ] || fail "a killed run changed the last result"
+
+# Google Benchmark's own comparison reads the files, where it is installed (Debian package libbenchmark-tools).
+compare=$(command -v google-benchmark-compare || ls /usr/share/benchmark/compare.py /usr/share/google-benchmark/compare.py 2>/dev/null | head -n 1)
+if [ -n "$compare" ]; then
+    python3 "$compare" benchmarks "$folder/first.json" "$folder/second.json" >"$folder/compared" 2>&1 ||
+        fail "compare.py: $(tail -n 3 "$folder/compared")"
+fi
+[ "$failures" -eq 0 ]

@@ -1,0 +1,40 @@
+#!/bin/sh
+# Exit statuses and messages of wrong use, bad input and missing tools. Argument: the glsum program.
+set -u
+glsum=$1
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+failures=0
+
+# expect STATUS TEXT ARGUMENT...: the program's status, and a text in what it says.
+expect() {
+    status=$1 text=$2
+    shift 2
+    "$glsum" "$@" >"$folder/said" 2>&1
+    found=$?
+    if [ "$found" -ne "$status" ] || ! grep -qF -e "$text" "$folder/said"; then
+        echo "glsum $*: expected status $status and \"$text\"; found status $found and:"
+        head -n 5 "$folder/said"
+        failures=$((failures + 1))
+    fi
+}
+
+small="--quick --kernels null --taps 1 --signals step --out $folder/out.json"
+expect 0 "Example:" bench --help
+expect 0 "0." --version
+expect 2 "subcommand" --quick
+expect 2 "bnech" bnech
+expect 2 "--no-such-option" bench --no-such-option
+expect 2 "--orders: expected a number in (-2, 2], found 3" bench --orders 3
+expect 2 "found -2" bench --orders -2,0.5
+expect 2 "--orders" bench --orders half
+expect 2 "--taps: expected a number of at least 1 or full, found 0" bench --taps 0
+expect 2 "found 50x" bench --taps 50x
+expect 2 "found square" bench --signals square
+expect 2 "found gpu" bench --targets gpu
+expect 2 "no kernel is called nothing*" bench --kernels 'nothing*'
+expect 2 "--benchmark_no_such_flag" bench $small --targets host --benchmark_no_such_flag=1
+expect 2 "cannot write" bench --quick --out /proc/glsum/out.json
+GLSUM_QEMU=no-such-emulator expect 3 "qemu-system-arm" bench $small --targets m7
+expect 0 "rows in" bench $small --targets host --benchmark_min_time=0.01
+[ "$failures" -eq 0 ]

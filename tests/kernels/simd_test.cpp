@@ -1,0 +1,56 @@
+// The vector kernels give the same bits on every instruction set, because all of them add in the same order.
+#include <gtest/gtest.h>
+
+#include "glsum/registry.hpp"
+
+#if defined(GLSUM_SIMD)
+#include <random>
+#include <vector>
+
+namespace {
+
+// The order of summation as technique/simd.hpp states it, one number at a time.
+template <class T>
+T in_the_stated_order(const std::vector<T>& a, const std::vector<T>& x) {
+    constexpr std::size_t block = 64 / sizeof(T);
+    T sum[4][block] = {};
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        T& lane = sum[i / block % 4][i % block];
+        lane += a[i] * x[i];
+    }
+    T lanes[block];
+    for (std::size_t i = 0; i < block; ++i) {
+        lanes[i] = (sum[0][i] + sum[1][i]) + (sum[2][i] + sum[3][i]);
+    }
+    for (std::size_t half = block / 2; half > 0; half /= 2) {
+        for (std::size_t i = 0; i < half; ++i) {
+            lanes[i] += lanes[i + half];
+        }
+    }
+    return lanes[0];
+}
+
+template <class T>
+void check() {
+    constexpr std::size_t block = 64 / sizeof(T);
+    std::mt19937 generator(5);
+    for (std::size_t blocks = 0; blocks < 14; ++blocks) {
+        std::vector<T> a(blocks * block);
+        std::vector<T> x(blocks * block);
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            a[i] = static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5);
+            x[i] = static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5);
+        }
+        EXPECT_EQ(glsum::simd_dot(a.data(), x.data(), blocks), in_the_stated_order(a, x)) << blocks << " blocks";
+    }
+}
+
+TEST(Simd, AddsInTheStatedOrder) {
+    check<float>();
+    check<double>();
+}
+
+TEST(Simd, NamesItsInstructionSet) { EXPECT_FALSE(glsum::simd_instruction_set().empty()); }
+
+}  // namespace
+#endif

@@ -1,0 +1,119 @@
+// The emulated Cortex-M7: its counts, and the same bits as this machine.
+#include "qemu/firmware.hpp"
+
+#include <gtest/gtest.h>
+
+#include "bench/signals.hpp"
+#include "glsum/registry.hpp"
+#include "qemu/failure.hpp"
+
+namespace {
+
+class FirmwareTest : public testing::Test {
+protected:
+    void SetUp() override {
+        try {
+            board_ = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
+            (void)qemu::emulator_version();
+        } catch (const glsum::Failure& failure) {
+            if (std::getenv("GLSUM_REQUIRE_FIRMWARE") != nullptr) {
+                FAIL() << failure.what();
+            }
+            GTEST_SKIP() << failure.what();
+        }
+        for (const std::string_view name : bench::signal_names) {
+            signals_.push_back(bench::make_signal(name, 400, 11));
+        }
+    }
+    qemu::Board board_;
+    qemu::Signals signals_;
+};
+
+template <class Visit>
+void for_each_target_kernel(Visit visit) {
+    glsum::Registry::for_each([&]<class K>() {
+        if (!K::host_only) {
+            visit(std::string(K::name()));
+        }
+    });
+}
+
+TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) {
+    std::vector<qemu::PlannedRow> plan;
+    for_each_target_kernel([&](const std::string& kernel) {
+        for (const double order : {0.5, 0.98319, 1.9909, 2.0, -0.5, -1.3}) {
+            for (const std::size_t taps : {1U, 2U, 3U, 50U, 101U}) {
+                for (std::size_t signal = 0; signal < signals_.size(); ++signal) {
+                    plan.push_back({kernel, order, taps, signal, 2 * taps + 60});
+                }
+            }
+        }
+    });
+    const auto rows = qemu::replay(board_, plan, signals_, [] {});
+    ASSERT_EQ(rows.size(), plan.size());
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const auto here = qemu::replay_here(plan[i], signals_);
+        ASSERT_EQ(rows[i].status, here.status);
+        ASSERT_EQ(rows[i].hash, here.hash) << plan[i].kernel << ", order " << plan[i].order << ", taps "
+                                           << plan[i].taps << ", signal " << bench::signal_names[plan[i].signal];
+    }
+}
+
+TEST_F(FirmwareTest, CountsAreThoseOfTheLoopsAndDoNotDependOnTheRunner) {
+    std::vector<qemu::PlannedRow> plan;
+    for_each_target_kernel([&](const std::string& kernel) {
+        for (const std::size_t taps : {1U, 50U, 100U}) {
+            plan.push_back({kernel, 0.5, taps, 5, qemu::calls_to_measure(taps)});
+        }
+    });
+    const auto rows = qemu::measure(board_, plan, signals_, [] {});
+    const auto again = qemu::measure(board_, plan, signals_, [] {});
+    ASSERT_EQ(rows.size(), plan.size());
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const auto& row = rows[i];
+        const std::string what = plan[i].kernel + " " + std::to_string(plan[i].taps);
+        EXPECT_EQ(row.instructions, again[i].instructions) << what;
+        EXPECT_EQ(row.hash, again[i].hash) << what;
+        EXPECT_GE(static_cast<double>(row.worst_instructions), row.instructions) << what;
+        EXPECT_GE(row.first.instructions, 1U) << what;
+        qemu::PlannedRow here = plan[i];
+        ++here.calls;
+        EXPECT_EQ(row.hash, qemu::replay_here(here, signals_).hash) << what;
+        if (plan[i].kernel == "null") {
+            EXPECT_EQ(row.instructions, 1.0);  // bx lr
+            EXPECT_EQ(row.loads + row.stores, 0.0);
+            EXPECT_EQ(row.stack_bytes, 0U);
+            continue;
+        }
+        EXPECT_GT(row.code_bytes, 20U) << what;
+        EXPECT_LT(row.code_bytes, 4000U) << what;
+        EXPECT_LT(row.stack_bytes, 200U) << what;
+        if (plan[i].kernel == "shift_firfma_f32" && plan[i].taps == 100) {
+            // One coefficient and one sample read, one sample written for each of 99 taps; the state besides.
+            EXPECT_GE(row.loads, 2.0 * 99);
+            EXPECT_LE(row.loads, 2.0 * 99 + 8);
+            EXPECT_GE(row.stores, 99.0);
+            EXPECT_LE(row.stores, 99.0 + 8);
+            EXPECT_GE(row.branches, 99.0);
+            EXPECT_LE(row.branches, 99.0 + 5);
+        }
+        if (plan[i].kernel == "mirror_smlald_q15" && plan[i].taps == 100) {
+            EXPECT_LT(row.loads, 99.0 + 25);  // two samples a load
+        }
+    }
+}
+
+TEST_F(FirmwareTest, ARowBeyondTheCapacityOrFormatComesBackWithItsStatus) {
+    const std::vector<qemu::PlannedRow> plan{{"shift_plain_f32", 0.5, 100000, 0, qemu::calls_to_measure(100000)},
+                                             {"shift_plain_f32", 0.5, 3, 0, qemu::calls_to_measure(3)}};
+    const auto rows = qemu::measure(board_, plan, signals_, [] {});
+    EXPECT_EQ(rows[0].status, glsum::Status::table_too_small);
+    EXPECT_EQ(rows[1].status, glsum::Status::ok);
+}
+
+TEST_F(FirmwareTest, AnUnknownKernelIsAnErrorNotANumber) {
+    const std::vector<qemu::PlannedRow> plan{{"no_such_kernel", 0.5, 3, 0, 4}};
+    EXPECT_THROW((void)qemu::replay(board_, plan, signals_, [] {}), glsum::Failure);
+}
+
+}  // namespace
