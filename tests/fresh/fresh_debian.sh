@@ -9,8 +9,8 @@ command -v mmdebstrap >/dev/null || { echo "fresh_debian: mmdebstrap: not found 
 
 root=$(mktemp -d --suffix=-fresh-debian)
 finish() {
-    for point in proc dev; do mountpoint -q "$root/$point" && umount "$root/$point"; done
-    rm -rf "$root"
+    umount --lazy "$root/proc" 2>/dev/null || true
+    rm -rf --one-file-system "$root"
 }
 trap finish EXIT
 echo "fresh_debian: making a Debian 12 in $root"
@@ -23,8 +23,7 @@ for folder in usr/share/keyrings etc/ssl/certs usr/local/share/ca-certificates; 
     [ ! -d "/$folder" ] || { mkdir -p "$root/$folder"; cp -aL "/$folder/." "$root/$folder/" 2>/dev/null || true; }
 done
 cp /etc/resolv.conf /etc/hosts "$root/etc/"
-mount --bind /dev "$root/dev"
-mount -t proc proc "$root/proc"
+mount -t proc proc "$root/proc"  # /dev: the few nodes that mmdebstrap made are enough
 
 git clone --quiet "$source" "$root/glsum"
 run() {
