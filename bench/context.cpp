@@ -56,7 +56,7 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
     const std::string commit = first_line(git + "rev-parse HEAD 2>/dev/null");
     context["glsum_version"] = build_info::version;
     context["commit"] = commit.empty() ? "unknown" : commit;
-    context["dirty"] = commit.empty() ? "unknown"
+    context["dirty"] = commit.empty()                                                                    ? "unknown"
                        : first_line(git + "status --porcelain --untracked-files=no 2>/dev/null").empty() ? "false"
                                                                                                          : "true";
     context["compiler"] = build_info::compiler;
@@ -74,8 +74,7 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
         context["target_compiler"] = target.is_object() ? target.value("compiler", "unknown") : "unknown";
         context["target_flags"] = target.is_object() ? target.value("flags", "unknown") : "unknown";
         context["qemu_version"] = qemu::emulator_version();
-        context["elf_sha256"] =
-            first_line(fmt::format("sha256sum '{}'", board->measure_elf.string())).substr(0, 64);
+        context["elf_sha256"] = first_line(fmt::format("sha256sum '{}'", board->measure_elf.string())).substr(0, 64);
         context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
     }
     context["n_samples"] = sweep.samples;

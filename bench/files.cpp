@@ -21,9 +21,8 @@ constexpr std::string_view marker = ".partial-";
 [[noreturn]] void fail(const std::filesystem::path& partial, const std::filesystem::path& path, int reason) {
     std::error_code ignored;
     std::filesystem::remove(partial, ignored);
-    throw glsum::Failure(glsum::Exit::bad_input,
-                         fmt::format("{}: cannot write: {}; what was there before is untouched", path.string(),
-                                     std::strerror(reason)));
+    throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: cannot write: {}; what was there before is untouched",
+                                                             path.string(), std::strerror(reason)));
 }
 
 }  // namespace

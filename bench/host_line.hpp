@@ -39,14 +39,14 @@ private:
     class Buffer {
     public:
         explicit Buffer(std::size_t count)
-            : data_(static_cast<T*>(::operator new(count * sizeof(T) + 64, std::align_val_t{64}))), count_(count) {
+            : data_(static_cast<T*>(::operator new (count * sizeof(T) + 64, std::align_val_t{64}))), count_(count) {
             std::uninitialized_value_construct_n(data_.get(), count);
         }
         [[nodiscard]] std::span<T> span() const { return {data_.get(), count_}; }
 
     private:
         struct Release {
-            void operator()(T* data) const { ::operator delete(data, std::align_val_t{64}); }
+            void operator()(T* data) const { ::operator delete (data, std::align_val_t{64}); }
         };
         std::unique_ptr<T, Release> data_;
         std::size_t count_;

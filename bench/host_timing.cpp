@@ -98,8 +98,9 @@ void time_peer(benchmark::State& state, const Peer& peer, double order, std::siz
     // Any order of summation: every term may pass every addition.
     const double bound = 1.01 * static_cast<double>(taps + 2) * glsum::F32::unit_roundoff * signal_peak *
                          glsum::absolute_sum(order, taps);
-    time_line(state, samples, weights, bound, [&](float x) { return line.step(x); },
-              [](float y) { return static_cast<double>(y); });
+    time_line(
+        state, samples, weights, bound, [&](float x) { return line.step(x); },
+        [](float y) { return static_cast<double>(y); });
     state.counters["macs_per_sample"] = static_cast<double>(taps);
     state.counters["coefficient_bytes"] = static_cast<double>(taps * sizeof(float));
     state.counters["state_bytes"] = static_cast<double>(2 * taps * sizeof(float));
@@ -160,8 +161,7 @@ HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flag
         for (const std::string& name : sweep.kernels) {
             glsum::Registry::for_each([&]<class K>() {
                 if (K::name() == name) {
-                    add(name, length,
-                        [=](benchmark::State& state) { time_kernel<K>(state, order, taps, *weights); });
+                    add(name, length, [=](benchmark::State& state) { time_kernel<K>(state, order, taps, *weights); });
                 }
             });
         }

@@ -18,7 +18,7 @@ constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
 
 struct Series {
     std::string title;
-    std::optional<double> Entry::* value;
+    std::optional<double> Entry::*value;
     std::string kernel;  // empty: any (the truncation is the same for all)
 };
 
@@ -97,15 +97,16 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
         blocks += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
         lines.push_back(fmt::format(
             "$d{} using 1:2 with linespoints lw {} dt {} pt {} ps 0.7 lc rgb \"{}\" title \"{}\" noenhanced", i,
-            truncation ? 1 : 2,
-            truncation ? 2 : 1 + 2 * static_cast<int>((style - 1) / std::size(palette)), truncation ? -1 : static_cast<int>(4 + style % 10),
+            truncation ? 1 : 2, truncation ? 2 : 1 + 2 * static_cast<int>((style - 1) / std::size(palette)),
+            truncation ? -1 : static_cast<int>(4 + style % 10),
             truncation ? "#000000" : palette[(style + std::size(palette) - 1) % std::size(palette)], series[i].title));
     }
     if (lines.empty()) {
         return "set multiplot next\n";
     }
     return blocks + fmt::format("set title \"{}\"\n{}\nplot {}\n", title,
-                                key ? "set key at screen 0.995, screen 0.93" : "unset key", fmt::join(lines, ", \\\n  "));
+                                key ? "set key at screen 0.995, screen 0.93" : "unset key",
+                                fmt::join(lines, ", \\\n  "));
 }
 
 std::string script(const std::vector<Group>& groups, const std::string& terminal, const std::string& output,
@@ -120,7 +121,8 @@ std::string script(const std::vector<Group>& groups, const std::string& terminal
     }
     std::string text = fmt::format(
         "set terminal {}\nset output \"{}\"\n"
-        "set multiplot layout {},2 margins 0.06,0.82,{:.3f},{:.3f} spacing 0.06,{:.3f} title \"Grünwald-Letnikov sum: error "
+        "set multiplot layout {},2 margins 0.06,0.82,{:.3f},{:.3f} spacing 0.06,{:.3f} title \"Grünwald-Letnikov sum: "
+        "error "
         "against memory length (worst over the signals, relative to the largest exact sum)\"\n"
         "set logscale xy\nset format y \"10^{{%L}}\"\nset xrange [{}:{}]\nset xtics {} nomirror rotate by -45\n"
         "set ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xlabel \"taps\"\n",

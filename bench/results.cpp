@@ -54,14 +54,15 @@ void add_row(Entry& entry, const RowKey& key, const Json& row) {
     }
 }
 
-void mark_front(Group& group, std::optional<double> Entry::* cost, bool Entry::* front) {
+void mark_front(Group& group, std::optional<double> Entry::*cost, bool Entry::*front) {
     constexpr double same_error = 1.01;
     for (Entry& entry : group.entries) {
         const auto rankable = [&](const Entry& e) { return e.fault.empty() && e.error_max && e.*cost; };
-        entry.*front = rankable(entry) && std::none_of(group.entries.begin(), group.entries.end(), [&](const Entry& other) {
-                           return rankable(other) && *(other.*cost) < *(entry.*cost) &&
-                                  *other.error_max <= *entry.error_max * same_error;
-                       });
+        entry.*front =
+            rankable(entry) && std::none_of(group.entries.begin(), group.entries.end(), [&](const Entry& other) {
+                return rankable(other) && *(other.*cost) < *(entry.*cost) &&
+                       *other.error_max <= *entry.error_max * same_error;
+            });
     }
 }
 
@@ -91,8 +92,9 @@ void write_results(const std::filesystem::path& path, const Json& context, const
 
 void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
     static const std::vector<std::string> bookkeeping = {
-        "name", "family_index", "per_family_instance_index", "run_name", "run_type", "repetitions",
-        "repetition_index", "threads", "time_unit"};
+        "name",     "family_index", "per_family_instance_index", "run_name",
+        "run_type", "repetitions",  "repetition_index",          "threads",
+        "time_unit"};
     std::vector<std::string> columns;
     for (const Json& row : rows) {
         for (const auto& [key, value] : row.items()) {

@@ -55,11 +55,11 @@ std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std
         const auto [read_to, error] = std::from_chars(word.data(), end, taps);
         const bool full = word == "full";
         if (!full && (error != std::errc{} || read_to != end || taps == 0)) {
-            throw Failure(Exit::bad_input, fmt::format("--taps: expected a number of at least 1 or full, found {}", word));
+            throw Failure(Exit::bad_input,
+                          fmt::format("--taps: expected a number of at least 1 or full, found {}", word));
         }
-        if (std::none_of(lengths.begin(), lengths.end(), [&](const bench::Length& other) {
-                return other.full == full && other.taps == taps;
-            })) {
+        if (std::none_of(lengths.begin(), lengths.end(),
+                         [&](const bench::Length& other) { return other.full == full && other.taps == taps; })) {
             lengths.push_back({taps, full});
         }
     }
@@ -74,9 +74,8 @@ bench::Sweep to_sweep(const Options& options) {
     sweep.samples = options.quick ? 1000 : 5000;
     sweep.orders = options.orders;
     if (sweep.orders.empty()) {
-        sweep.orders = options.quick
-                           ? std::vector{0.5, 0.98319, 1.9909, -0.5}
-                           : std::vector{0.2, 0.3, 0.5, 0.7, 0.9, 0.98319, 1.5, 1.9909, -0.5};
+        sweep.orders = options.quick ? std::vector{0.5, 0.98319, 1.9909, -0.5}
+                                     : std::vector{0.2, 0.3, 0.5, 0.7, 0.9, 0.98319, 1.5, 1.9909, -0.5};
     }
     for (const double order : sweep.orders) {
         if (!glsum::order_in_range(order)) {
@@ -112,7 +111,8 @@ bench::Sweep to_sweep(const Options& options) {
         }
     }
     if (sweep.kernels.empty() && sweep.peers.empty()) {
-        throw Failure(Exit::bad_input, fmt::format("--kernels: no kernel is called {}", fmt::join(options.kernels, ", ")));
+        throw Failure(Exit::bad_input,
+                      fmt::format("--kernels: no kernel is called {}", fmt::join(options.kernels, ", ")));
     }
     return sweep;
 }
@@ -165,9 +165,9 @@ void run(const Options& options, const PassedOn& flags) {
     const auto wrong = std::count_if(rows.begin(), rows.end(),
                                      [](const bench::Json& row) { return row.value("error_occurred", false); });
     if (wrong > 0) {
-        throw Failure(Exit::check_failed,
-                      fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong,
-                                  rows.size()));
+        throw Failure(
+            Exit::check_failed,
+            fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong, rows.size()));
     }
 }
 
@@ -175,7 +175,8 @@ void run(const Options& options, const PassedOn& flags) {
 
 void add_bench(CLI::App& app, const PassedOn& passed_on) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions");
+    CLI::App* command =
+        app.add_subcommand("bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions");
     command->footer(
         "Flags --benchmark_... go to Google Benchmark.\n"
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");

@@ -11,7 +11,8 @@
 namespace {
 
 bool is_negative_number(const std::string& word) {
-    return word.size() > 1 && word[0] == '-' && (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
+    return word.size() > 1 && word[0] == '-' &&
+           (std::isdigit(static_cast<unsigned char>(word[1])) != 0 || word[1] == '.');
 }
 
 // The words as CLI11 wants them: last first, `--orders -0.5` as `--orders=-0.5` (it takes -0 for an option), and
@@ -42,7 +43,8 @@ int main(int argc, char** argv) {
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {
-            throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: no such command; --help lists them", argv[1]));
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 fmt::format("{}: no such command; --help lists them", argv[1]));
         }
         app.parse(prepare_words(argc, argv, passed_on));
     } catch (const CLI::ParseError& error) {

@@ -35,7 +35,8 @@ public:
         argv.push_back(nullptr);
         int ends[2];
         if (pipe(ends) != 0 || (id_ = fork()) < 0) {
-            throw Failure(Exit::check_failed, fmt::format("cannot start {}: {}", command.string(), std::strerror(errno)));
+            throw Failure(Exit::check_failed,
+                          fmt::format("cannot start {}: {}", command.string(), std::strerror(errno)));
         }
         if (id_ == 0) {
             prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -99,7 +100,8 @@ private:
 
 std::string emulator_version() {
     const char* chosen = std::getenv("GLSUM_QEMU");
-    const std::string command = fmt::format("'{}' --version 2>/dev/null", chosen != nullptr ? chosen : "qemu-system-arm");
+    const std::string command =
+        fmt::format("'{}' --version 2>/dev/null", chosen != nullptr ? chosen : "qemu-system-arm");
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
     char line[256] = "";
     if (!pipe || std::fgets(line, sizeof line, pipe.get()) == nullptr) {

@@ -161,14 +161,15 @@ void check_instrument(Calls& calls, const Watch& watch) {
     for (std::size_t i = 0; i < watch.loops.size(); ++i) {
         const KnownLoop& loop = known_loops[i];
         for (const std::uint64_t turns : known_turns) {
-            const CallCounts expected{
-                loop.per_turn.instructions * turns + loop.once.instructions, loop.per_turn.loads * turns + loop.once.loads,
-                loop.per_turn.stores * turns + loop.once.stores, loop.per_turn.branches * turns + loop.once.branches};
+            const CallCounts expected{loop.per_turn.instructions * turns + loop.once.instructions,
+                                      loop.per_turn.loads * turns + loop.once.loads,
+                                      loop.per_turn.stores * turns + loop.once.stores,
+                                      loop.per_turn.branches * turns + loop.once.branches};
             const CallCounts found = calls.take(watch.loops[i], 1).front().counts;
             if (found != expected) {
                 throw Failure(Exit::check_failed,
-                              fmt::format("the instrument miscounts: {} with {} turns: expected {}; found {}", loop.name,
-                                          turns, to_text(expected), to_text(found)));
+                              fmt::format("the instrument miscounts: {} with {} turns: expected {}; found {}",
+                                          loop.name, turns, to_text(expected), to_text(found)));
             }
         }
     }
@@ -193,8 +194,9 @@ void summarise(MeasuredRow& row, Calls& calls, std::uint32_t entry, std::size_t 
     std::size_t seen = 0;
     for (const CallRun& run : calls.take(entry, turn)) {
         row.worst_instructions = std::max(row.worst_instructions, run.counts.instructions);
-        const auto share = static_cast<double>(std::min<std::uint64_t>(run.calls, steady_calls - std::min(seen, steady_calls))) /
-                           static_cast<double>(steady_calls);
+        const auto share =
+            static_cast<double>(std::min<std::uint64_t>(run.calls, steady_calls - std::min(seen, steady_calls))) /
+            static_cast<double>(steady_calls);
         row.instructions += share * static_cast<double>(run.counts.instructions);
         row.loads += share * static_cast<double>(run.counts.loads);
         row.stores += share * static_cast<double>(run.counts.stores);
@@ -211,9 +213,10 @@ Board find_board(const std::filesystem::path& build, const std::filesystem::path
     Board board{build / "targets" / "measure.elf", build / "targets" / "replay.elf", plugin, {emulate}};
     for (const auto& file : {board.measure_elf, board.replay_elf, board.plugin, board.emulator.command}) {
         if (!std::filesystem::exists(file)) {
-            throw Failure(Exit::missing,
-                          fmt::format("{}: not found; expected from `cmake --preset {}` and `cmake --build --preset {}`",
-                                      file.string(), build.filename().string(), build.filename().string()));
+            throw Failure(
+                Exit::missing,
+                fmt::format("{}: not found; expected from `cmake --preset {}` and `cmake --build --preset {}`",
+                            file.string(), build.filename().string(), build.filename().string()));
         }
     }
     return board;
@@ -295,7 +298,8 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
             MeasuredRow row{};
             row.status = static_cast<glsum::Status>(status);
             if (row.status == glsum::Status::ok) {
-                *words >> std::hex >> row.hash >> std::dec >> row.stack_bytes >> row.state_bytes >> row.coefficient_bytes;
+                *words >> std::hex >> row.hash >> std::dec >> row.stack_bytes >> row.state_bytes >>
+                    row.coefficient_bytes;
             }
             rows.push_back(*words ? row : damaged<MeasuredRow>(line));
             done();

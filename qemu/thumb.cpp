@@ -11,20 +11,20 @@ bool is_branch_16(std::uint32_t e) {
     const bool conditional = matches(e, 0xF000, 0xD000) && !matches(e, 0xFE00, 0xDE00);  // not UDF, SVC
     const bool add_or_move_to_pc = matches(e, 0xFF87, 0x4487) || matches(e, 0xFF87, 0x4687);
     return conditional || add_or_move_to_pc || matches(e, 0xF800, 0xE000)  // B
-           || matches(e, 0xFF00, 0x4700)                                  // BX, BLX
-           || matches(e, 0xF500, 0xB100)                                  // CBZ, CBNZ
-           || matches(e, 0xFF00, 0xBD00);                                 // POP with PC
+           || matches(e, 0xFF00, 0x4700)                                   // BX, BLX
+           || matches(e, 0xF500, 0xB100)                                   // CBZ, CBNZ
+           || matches(e, 0xFF00, 0xBD00);                                  // POP with PC
 }
 
 bool is_branch_32(std::uint32_t e) {
-    if (matches(e, 0xF8008000, 0xF0008000)) {  // branches and miscellaneous control
-        const bool unconditional = (e & 0x1000) != 0;  // B, BL
+    if (matches(e, 0xF8008000, 0xF0008000)) {                          // branches and miscellaneous control
+        const bool unconditional = (e & 0x1000) != 0;                  // B, BL
         const bool conditional = !matches(e, 0x03800000, 0x03800000);  // else MSR, hints, barriers
         return unconditional || ((e & 0x5000) == 0 && conditional);
     }
-    return matches(e, 0xFF70F000, 0xF850F000)                 // LDR to PC
+    return matches(e, 0xFF70F000, 0xF850F000)                                              // LDR to PC
            || (matches(e, 0xFE508000, 0xE8108000) && !matches(e, 0x00400000, 0x00400000))  // LDM, POP with PC
-           || matches(e, 0xFFF0FFE0, 0xE8D0F000);             // TBB, TBH
+           || matches(e, 0xFFF0FFE0, 0xE8D0F000);                                          // TBB, TBH
 }
 
 }  // namespace

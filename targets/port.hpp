@@ -20,5 +20,6 @@ std::span<std::byte> read_file(std::string_view path, std::span<std::byte> buffe
 
 }  // namespace port
 
-/// The program (one of firmware/), called by the start-up code with the FPU on, data copied and bss cleared. Its result is the exit status.
+/// The program (one of firmware/), called by the start-up code with the FPU on, data copied and bss cleared. Its result
+/// is the exit status.
 int firmware_main();

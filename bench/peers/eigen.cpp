@@ -9,8 +9,8 @@ namespace {
 class EigenDot final : public PeerDot {
 public:
     explicit EigenDot(const std::vector<float>& coefficients)
-        : coefficients_(Eigen::Map<const Eigen::VectorXf>(coefficients.data(),
-                                                          static_cast<Eigen::Index>(coefficients.size()))) {}
+        : coefficients_(
+              Eigen::Map<const Eigen::VectorXf>(coefficients.data(), static_cast<Eigen::Index>(coefficients.size()))) {}
     float dot(const float* window) override {
         return coefficients_.dot(Eigen::Map<const Eigen::VectorXf>(window, coefficients_.size()));
     }

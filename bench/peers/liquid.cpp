@@ -1,6 +1,6 @@
 // liquid-dsp: dotprod_rrrf.
-#include <complex>  // before liquid.h, which then uses std::complex
 #include <liquid/liquid.h>
+#include <complex>  // before liquid.h, which then uses std::complex
 
 #include "bench/peers/peer.hpp"
 

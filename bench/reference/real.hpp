@@ -5,15 +5,15 @@
 
 namespace reference {
 
-using Real = boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
-                                           boost::multiprecision::et_off>;
+using Real =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<50, boost::multiprecision::allocate_stack>,
+                                  boost::multiprecision::et_off>;
 
 /// A Real as the sum of two doubles: 106 bits, enough to see the error of any kernel in double.
 struct Exact {
     double high;
     double low;
-    explicit Exact(const Real& real)
-        : high(static_cast<double>(real)), low(static_cast<double>(Real(real - high))) {}
+    explicit Exact(const Real& real) : high(static_cast<double>(real)), low(static_cast<double>(Real(real - high))) {}
     /// value - this, rounded once or twice.
     [[nodiscard]] double error_of(double value) const { return (value - high) - low; }
 };

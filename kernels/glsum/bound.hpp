@@ -24,7 +24,9 @@ template <class K>
                std::ldexp(absolute, -bits - 1) + std::ldexp(1.0, state.scale.output_exponent - 32);
     } else {
         constexpr double u = Format::unit_roundoff;
-        const auto growth = [](std::size_t roundings) { return std::expm1(static_cast<double>(roundings) * std::log1p(u)); };
+        const auto growth = [](std::size_t roundings) {
+            return std::expm1(static_cast<double>(roundings) * std::log1p(u));
+        };
         const auto roundings = [&](std::size_t j) {
             return K::TechniquePart::template roundings<Format>(j, design.taps) + 1;
         };

@@ -28,6 +28,6 @@ using Registry = KernelList<Null
 #include "glsum/registry.def"
 #undef GLSUM_KERNEL
 #undef GLSUM_HOST_KERNEL
-                           >;
+                            >;
 
 }  // namespace glsum

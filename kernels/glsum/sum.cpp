@@ -8,9 +8,7 @@
 namespace glsum {
 
 Status Null::prepare(State&, const Design& design, std::span<float>, std::span<float>) {
-    return design.taps == 0 ? Status::no_taps
-           : order_in_range(design.order) ? Status::ok
-                                          : Status::order_out_of_range;
+    return design.taps == 0 ? Status::no_taps : order_in_range(design.order) ? Status::ok : Status::order_out_of_range;
 }
 void Null::reset(State&) {}
 float Null::step(State&, float newest) { return newest; }
@@ -57,9 +55,9 @@ template <class History, class Technique, class Format>
 auto Sum<History, Technique, Format>::step(State& state, Sample newest) -> Output {
     if constexpr (requires { &Technique::template sum_and_push<Format>; }) {
         static_assert(History::contiguous && History::word == "shift");
-        return Format::finish(Technique::template sum_and_push<Format>(state.table, state.past, state.past_samples,
-                                                                       newest, state.scale),
-                              state.scale);
+        return Format::finish(
+            Technique::template sum_and_push<Format>(state.table, state.past, state.past_samples, newest, state.scale),
+            state.scale);
     } else {
         const auto window = History::template window<Sample>(state.past, state.past_samples, state.head);
         const auto sum = Technique::template sum<Format>(state.table, window, newest, state.scale);

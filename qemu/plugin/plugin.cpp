@@ -34,8 +34,7 @@ qemu::Instruction* instruction_at(const qemu_plugin_insn* translated) {
         const auto bytes = qemu_plugin_insn_size(translated);
         std::uint16_t half[2] = {};
         std::memcpy(half, qemu_plugin_insn_data(translated), bytes);
-        const std::uint32_t encoding =
-            bytes == 2 ? half[0] : static_cast<std::uint32_t>(half[0]) << 16 | half[1];
+        const std::uint32_t encoding = bytes == 2 ? half[0] : static_cast<std::uint32_t>(half[0]) << 16 | half[1];
         slot = std::make_unique<qemu::Instruction>(
             qemu::Instruction{address, encoding, static_cast<std::uint8_t>(bytes), index});
     }
@@ -48,8 +47,8 @@ void executes(unsigned int, void* instruction) {
 
 void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
     session->counter.accesses({static_cast<std::uint32_t>(address),
-                       static_cast<std::uint8_t>(1U << qemu_plugin_mem_size_shift(info)),
-                       qemu_plugin_mem_is_store(info)});
+                               static_cast<std::uint8_t>(1U << qemu_plugin_mem_size_shift(info)),
+                               qemu_plugin_mem_is_store(info)});
 }
 
 void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {

@@ -70,26 +70,26 @@ int firmware_main() {
             firmware::Answer("check ").add(check.name).number(turns).write();
         }
     }
-    return firmware::run_plan([]<class K>(const firmware::PlanRow& row, firmware::Signal signal,
-                                          firmware::Answer& answer) {
-        const auto buffers = firmware::buffers<K>();
-        typename K::State state;
-        const glsum::Status status = K::prepare(state, {row.order, row.taps}, buffers.table, buffers.past);
-        answer.number(static_cast<unsigned>(status));
-        if (status != glsum::Status::ok) {
-            return;
-        }
-        firmware::OutputHash hash;
-        for (std::size_t k = 0; k < row.calls; ++k) {
-            hash.add(K::step(state, K::from_real(signal.at(k))));
-        }
-        const auto last = K::from_real(signal.at(row.calls));
-        typename K::Output output;
-        const std::size_t stack = cortex_m7::stack_bytes([&] { output = K::step(state, last); });
-        hash.add(output);
-        answer.number(hash.value(), 16);
-        answer.number(stack);
-        answer.number(sizeof state + K::past_count(row.taps) * sizeof(typename K::Sample));
-        answer.number(K::table_count(row.taps) * sizeof(typename K::Coefficient));
-    });
+    return firmware::run_plan(
+        []<class K>(const firmware::PlanRow& row, firmware::Signal signal, firmware::Answer& answer) {
+            const auto buffers = firmware::buffers<K>();
+            typename K::State state;
+            const glsum::Status status = K::prepare(state, {row.order, row.taps}, buffers.table, buffers.past);
+            answer.number(static_cast<unsigned>(status));
+            if (status != glsum::Status::ok) {
+                return;
+            }
+            firmware::OutputHash hash;
+            for (std::size_t k = 0; k < row.calls; ++k) {
+                hash.add(K::step(state, K::from_real(signal.at(k))));
+            }
+            const auto last = K::from_real(signal.at(row.calls));
+            typename K::Output output;
+            const std::size_t stack = cortex_m7::stack_bytes([&] { output = K::step(state, last); });
+            hash.add(output);
+            answer.number(hash.value(), 16);
+            answer.number(stack);
+            answer.number(sizeof state + K::past_count(row.taps) * sizeof(typename K::Sample));
+            answer.number(K::table_count(row.taps) * sizeof(typename K::Coefficient));
+        });
 }

@@ -16,8 +16,8 @@ constexpr const char* order_texts[] = {"0.3", "0.5", "0.9", "0.98319", "1.9909",
 constexpr std::size_t samples = 650;
 
 void expect_thirty_digits(const Real& found, const Real& expected, const std::string& what) {
-    EXPECT_LE(abs(found - expected), abs(expected) * Real("1e-30")) << what << ": expected " << expected << ", found "
-                                                                    << found;
+    EXPECT_LE(abs(found - expected), abs(expected) * Real("1e-30"))
+        << what << ": expected " << expected << ", found " << found;
 }
 
 Real to_real(const reference::Exact& exact) { return Real(exact.high) + Real(exact.low); }

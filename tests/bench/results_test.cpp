@@ -31,7 +31,8 @@ const bench::Entry& entry(const std::vector<bench::Group>& groups, const std::st
 }
 
 TEST(Results, NamesAreShortestRoundTripAndReadBack) {
-    EXPECT_EQ(bench::row_name("ring_plain_f32", 0.98319, {600}, "host"), "gl/ring_plain_f32/order:0.98319/taps:600/host");
+    EXPECT_EQ(bench::row_name("ring_plain_f32", 0.98319, {600}, "host"),
+              "gl/ring_plain_f32/order:0.98319/taps:600/host");
     EXPECT_EQ(bench::row_name("null", -0.5, {1000, true}, "m7:count"), "gl/null/order:-0.5/taps:full/m7:count");
     EXPECT_EQ(bench::row_name("null", 1.0, {1}, "host"), "gl/null/order:1/taps:1/host");
     const auto key = bench::parse_key("gl/ring_plain_f32/order:0.5/taps:2+7/accuracy/signal:sine5");
@@ -52,10 +53,18 @@ TEST(Results, TheWorstSignalCounts) {
 
 TEST(Results, TheFrontHoldsWhatNothingBeatsAtItsError) {
     const auto groups = bench::group({
-        accuracy("exact", 1e-6), timing("exact", "host", 50), timing("exact", "m7:count", 500),
-        accuracy("cheap", 1e-2), timing("cheap", "host", 10), timing("cheap", "m7:count", 100),
-        accuracy("slow", 1e-6), timing("slow", "host", 60), timing("slow", "m7:count", 600),
-        accuracy("near", 1.005e-6), timing("near", "host", 40), timing("near", "m7:count", 700),
+        accuracy("exact", 1e-6),
+        timing("exact", "host", 50),
+        timing("exact", "m7:count", 500),
+        accuracy("cheap", 1e-2),
+        timing("cheap", "host", 10),
+        timing("cheap", "m7:count", 100),
+        accuracy("slow", 1e-6),
+        timing("slow", "host", 60),
+        timing("slow", "m7:count", 600),
+        accuracy("near", 1.005e-6),
+        timing("near", "host", 40),
+        timing("near", "m7:count", 700),
     });
     EXPECT_FALSE(entry(groups, "exact").host_front);  // "near" has the same error within 1 % and costs less
     EXPECT_TRUE(entry(groups, "exact").target_front);
@@ -70,7 +79,8 @@ TEST(Results, TheFrontHoldsWhatNothingBeatsAtItsError) {
 TEST(Results, AWrongRowIsNeverRanked) {
     bench::Json wrong = timing("fast", "host", 1);
     bench::mark_error(wrong, "wrong answer");
-    const auto groups = bench::group({accuracy("fast", 1e-9), wrong, accuracy("right", 1e-6), timing("right", "host", 50)});
+    const auto groups =
+        bench::group({accuracy("fast", 1e-9), wrong, accuracy("right", 1e-6), timing("right", "host", 50)});
     EXPECT_FALSE(entry(groups, "fast").host_front);
     EXPECT_TRUE(entry(groups, "right").host_front);
     EXPECT_NE(bench::to_table(groups, false).find("wrong answer"), std::string::npos);

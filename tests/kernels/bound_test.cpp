@@ -1,7 +1,7 @@
 // The error bound that each kernel promises holds on every signal, order and length; and it is not an empty promise.
+#include "glsum/bound.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signals.hpp"
-#include "glsum/bound.hpp"
 #include "tests/kernels/registered.hpp"
 
 namespace {

@@ -20,9 +20,7 @@ constexpr double orders[] = {0.2, 0.5, 0.98319, 1.0, 1.5, 1.9909, 2.0, -0.5, -1.
 // 1, around the unroll of every loop (pairs, blocks of 8 and 16, four accumulators of them) and beyond it.
 constexpr std::size_t lengths[] = {1, 2, 3, 4, 5, 8, 9, 15, 16, 17, 18, 31, 32, 33, 34, 63, 64, 65, 66, 128, 129, 200};
 
-double noise(std::mt19937_64& generator) {
-    return 0.9 * (static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0);
-}
+double noise(std::mt19937_64& generator) { return 0.9 * (static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0); }
 
 TYPED_TEST(KernelTest, ImpulseGivesTheWeightsOverTheWholeWindowAndNothingAfter) {
     for (const double order : orders) {

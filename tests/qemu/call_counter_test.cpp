@@ -17,9 +17,10 @@ struct Program {
 
     void run(std::uint32_t address, std::uint32_t encoding, std::uint8_t bytes) {
         const auto index = static_cast<std::uint32_t>(instructions.size());
-        counter.executes(instructions.try_emplace(address, qemu::Instruction{address, encoding, bytes, index}).first->second);
+        counter.executes(
+            instructions.try_emplace(address, qemu::Instruction{address, encoding, bytes, index}).first->second);
     }
-    void call() { run(0x10, 0xF000F876, 4); }        // bl 0x100
+    void call() { run(0x10, 0xF000F876, 4); }  // bl 0x100
     void add(std::uint32_t address) { run(address, 0x3001, 2); }
     void load(std::uint32_t address, bool store = false) {
         run(address, 0x6808, 2);

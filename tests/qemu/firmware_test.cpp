@@ -54,8 +54,8 @@ TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) {
     for (std::size_t i = 0; i < plan.size(); ++i) {
         const auto here = qemu::replay_here(plan[i], signals_);
         ASSERT_EQ(rows[i].status, here.status);
-        ASSERT_EQ(rows[i].hash, here.hash) << plan[i].kernel << ", order " << plan[i].order << ", taps "
-                                           << plan[i].taps << ", signal " << bench::signal_names[plan[i].signal];
+        ASSERT_EQ(rows[i].hash, here.hash) << plan[i].kernel << ", order " << plan[i].order << ", taps " << plan[i].taps
+                                           << ", signal " << bench::signal_names[plan[i].signal];
     }
 }
 

@@ -16,8 +16,8 @@ TEST(Thumb, KnowsBranches) {
     }
     for (const std::uint32_t e :
          {0xF7FFFFFEU /* bl */, 0xF000B800U /* b.w */, 0xF4018000U /* beq.w */, 0xE8DFF000U /* tbb [pc, r0] */,
-          0xE8DFF010U /* tbh [pc, r0, lsl 1] */, 0xE8BD8FF0U /* pop.w {r4-r11, pc} */, 0xF85DFB04U /* ldr pc, [sp], 4 */,
-          0xF8DFF000U /* ldr.w pc, [pc] */}) {
+          0xE8DFF010U /* tbh [pc, r0, lsl 1] */, 0xE8BD8FF0U /* pop.w {r4-r11, pc} */,
+          0xF85DFB04U /* ldr pc, [sp], 4 */, 0xF8DFF000U /* ldr.w pc, [pc] */}) {
         EXPECT_TRUE(qemu::is_branch(wide(e))) << std::hex << e;
     }
 }

@@ -129,8 +129,7 @@ struct Fixed {
         return sum + static_cast<std::int64_t>(a) * x;
     }
     static Output finish(Accumulator sum, Scale& scale) {
-        const Rounded rounded =
-            round_shift(sum, 2 * fraction_bits - scale.table_exponent - 31 + scale.output_exponent);
+        const Rounded rounded = round_shift(sum, 2 * fraction_bits - scale.table_exponent - 31 + scale.output_exponent);
         scale.saturations += rounded.saturated ? 1U : 0U;
         return rounded.value;
     }

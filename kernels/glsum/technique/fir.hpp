@@ -48,9 +48,11 @@ struct FirFma : WeightTable {
     static constexpr bool host_only = false;
 
     template <class Format>
-    GLSUM_FUSED_CLONES static typename Format::Accumulator sum_and_push(
-        const typename Format::Coefficient* table, typename Format::Sample* samples, std::size_t past,
-        typename Format::Sample newest, const typename Format::Scale& scale) {
+    GLSUM_FUSED_CLONES static typename Format::Accumulator sum_and_push(const typename Format::Coefficient* table,
+                                                                        typename Format::Sample* samples,
+                                                                        std::size_t past,
+                                                                        typename Format::Sample newest,
+                                                                        const typename Format::Scale& scale) {
         auto sum = Format::start(newest, scale);
         auto moving = newest;
         for (std::size_t i = 0; i < past; ++i) {

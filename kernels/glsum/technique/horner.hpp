@@ -51,7 +51,9 @@ struct Horner {
 
     /// j + 1 additions, j products and j factors, each rounded once.
     template <class Format>
-    static constexpr std::size_t roundings(std::size_t j, std::size_t) { return 3 * j + 1; }
+    static constexpr std::size_t roundings(std::size_t j, std::size_t) {
+        return 3 * j + 1;
+    }
 };
 
 }  // namespace glsum
