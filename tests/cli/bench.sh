@@ -41,10 +41,10 @@ pkill -9 -P "$child" 2>/dev/null
 wait "$child" 2>/dev/null
 [ "$sum" = "$(cksum <"$folder/first.json")" ] || fail "a killed run changed the last result"
 
-# Google Benchmark's own comparison reads the files, where it is installed (Debian package libbenchmark-tools).
-compare=$(command -v google-benchmark-compare || ls /usr/share/benchmark/compare.py /usr/share/google-benchmark/compare.py 2>/dev/null | head -n 1)
-if [ -n "$compare" ]; then
-    python3 "$compare" benchmarks "$folder/first.json" "$folder/second.json" >"$folder/compared" 2>&1 ||
+# Google Benchmark's own comparison reads the files, where it is installed (Debian packages libbenchmark-tools, python3-scipy).
+compare=/usr/share/benchmark/compare.py
+if [ -e "$compare" ] && /usr/bin/python3 -c 'import scipy.stats' 2>/dev/null; then
+    /usr/bin/python3 "$compare" benchmarks "$folder/first.json" "$folder/second.json" >"$folder/compared" 2>&1 ||
         fail "compare.py: $(tail -n 3 "$folder/compared")"
 fi
 [ "$failures" -eq 0 ]
