@@ -96,7 +96,7 @@ void time_peer(benchmark::State& state, const Peer& peer, double order, std::siz
     PeerLine line(peer, coefficients);
     const std::vector<float> samples(stream().begin(), stream().end());
     // Any order of summation: every term may pass every addition.
-    const double bound = 1.01 * static_cast<double>(taps + 2) * glsum::F32::unit_roundoff * signal_peak *
+    const double bound = 1.01 * static_cast<double>(taps + 2) * glsum::F32::sum_roundoff * signal_peak *
                          glsum::absolute_sum(order, taps);
     time_line(
         state, samples, weights, bound, [&](float x) { return line.step(x); },

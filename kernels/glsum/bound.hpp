@@ -16,29 +16,28 @@ namespace glsum {
 template <class K>
 [[nodiscard]] double error_bound(const Design& design, const typename K::State& state, double peak) {
     using Format = typename K::FormatPart;
-    const double absolute = absolute_sum(design.order, design.taps);
-    const auto taps = static_cast<double>(design.taps);
+    using Technique = typename K::TechniquePart;
     if constexpr (Format::fixed_point) {
-        constexpr int bits = Format::fraction_bits;
-        return (taps - 1.0) * std::ldexp(peak, state.scale.table_exponent - bits - 1) +
-               std::ldexp(absolute, -bits - 1) + std::ldexp(1.0, state.scale.output_exponent - 32);
+        return Technique::template fixed_error<Format>(design, state.scale, peak) +
+               std::ldexp(absolute_sum(design.order, design.taps), -Format::sample_bits - 1) +
+               std::ldexp(1.0, state.scale.output_exponent - 32);
     } else {
-        constexpr double u = Format::unit_roundoff;
-        const auto growth = [](std::size_t roundings) {
-            return std::expm1(static_cast<double>(roundings) * std::log1p(u));
+        // (1 + data)^(coefficients + input) (1 + sum)^operations (1 + output) - 1
+        const auto growth = [&](std::size_t j) {
+            const auto data = static_cast<double>(Technique::coefficient_roundings(j) + 1);
+            const auto sum = static_cast<double>(Technique::template sum_roundings<Format>(j, design.taps));
+            return std::expm1(data * std::log1p(Format::data_roundoff) + sum * std::log1p(Format::sum_roundoff) +
+                              std::log1p(Format::output_roundoff));
         };
-        const auto roundings = [&](std::size_t j) {
-            return K::TechniquePart::template roundings<Format>(j, design.taps) + 1;
-        };
-        double bound = growth(roundings(0));
+        double bound = growth(0);
         Weights weights(design.order);
         for (std::size_t j = 1; j < design.taps; ++j) {
             weights.next();
-            bound += growth(roundings(j)) * std::fabs(weights.weight());
+            bound += growth(j) * std::fabs(weights.weight());
         }
         // Products below the smallest normal number lose half of the smallest denormal one.
         constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
-        return peak * bound + taps * denormal;
+        return peak * bound + static_cast<double>(design.taps) * denormal;
     }
 }
 

@@ -24,4 +24,15 @@ namespace glsum::dsp {
 #endif
 }
 
+/// The same in 32 bits. The sum must not overflow.
+[[nodiscard]] inline std::int32_t smlad(std::int32_t a, std::int32_t b, std::int32_t sum) {
+#if defined(__ARM_FEATURE_DSP)
+    return __builtin_arm_smlad(a, b, sum);
+#else
+    const std::int32_t low = static_cast<std::int16_t>(a) * static_cast<std::int16_t>(b);
+    const std::int32_t high = (a >> 16) * (b >> 16);
+    return sum + low + high;
+#endif
+}
+
 }  // namespace glsum::dsp

@@ -9,11 +9,16 @@
 #include "glsum/kernel.hpp"
 #include "glsum/null.hpp"
 #include "glsum/sum.hpp"
+#include "glsum/technique/compensated.hpp"
 #include "glsum/technique/fir.hpp"
 #include "glsum/technique/horner.hpp"
+#include "glsum/technique/hornersplit.hpp"
+#include "glsum/technique/multi.hpp"
+#include "glsum/technique/oldest.hpp"
+#include "glsum/technique/paired.hpp"
 #include "glsum/technique/plain.hpp"
+#include "glsum/technique/scaled.hpp"
 #include "glsum/technique/simd.hpp"
-#include "glsum/technique/smlald.hpp"
 
 namespace glsum {
 

@@ -1,9 +1,47 @@
 // Compiled once for each instruction set, with GLSUM_SIMD_ARCHITECTURE naming it.
 #include "glsum/simd_dot_arch.hpp"
 
-namespace glsum {
+#include <cmath>
+#include <type_traits>
 
-template <class T, class Architecture>
+namespace glsum {
+namespace {
+
+// Whether the instruction set has a fused multiply-add. Where it has not, the scalar one gives the same bits, slowly.
+template <class Architecture>
+constexpr bool has_fused =
+#if defined(__x86_64__)
+    std::is_same_v<Architecture, xsimd::avx512f> || std::is_same_v<Architecture, xsimd::fma3<xsimd::avx2>>;
+#else
+    true;
+#endif
+
+template <bool fused, class T, class Architecture>
+xsimd::batch<T, Architecture> add_product(const xsimd::batch<T, Architecture>& sum,
+                                          const xsimd::batch<T, Architecture>& a,
+                                          const xsimd::batch<T, Architecture>& x) {
+    using Batch = xsimd::batch<T, Architecture>;
+    if constexpr (!fused) {
+        return sum + a * x;
+    } else if constexpr (has_fused<Architecture>) {
+        return xsimd::fma(a, x, sum);
+    } else {
+        alignas(64) T sums[Batch::size];
+        alignas(64) T as[Batch::size];
+        alignas(64) T xs[Batch::size];
+        sum.store_aligned(sums);
+        a.store_aligned(as);
+        x.store_aligned(xs);
+        for (std::size_t i = 0; i < Batch::size; ++i) {
+            sums[i] = std::fma(as[i], xs[i], sums[i]);
+        }
+        return Batch::load_aligned(sums);
+    }
+}
+
+}  // namespace
+
+template <class T, bool fused, class Architecture>
 T simd_dot_on(const T* a, const T* x, std::size_t blocks) {
     using Batch = xsimd::batch<T, Architecture>;
     constexpr std::size_t block = 64 / sizeof(T);
@@ -21,7 +59,8 @@ T simd_dot_on(const T* a, const T* x, std::size_t blocks) {
     const auto add_block = [&](Batch(&accumulator)[parts], std::size_t first) {
         for (std::size_t part = 0; part < parts; ++part) {
             const std::size_t i = first + part * Batch::size;
-            accumulator[part] = accumulator[part] + Batch::load_unaligned(a + i) * Batch::load_unaligned(x + i);
+            accumulator[part] =
+                add_product<fused>(accumulator[part], Batch::load_unaligned(a + i), Batch::load_unaligned(x + i));
         }
     };
     std::size_t done = 0;
@@ -46,7 +85,10 @@ T simd_dot_on(const T* a, const T* x, std::size_t blocks) {
     return lanes[0];
 }
 
-template float simd_dot_on<float, xsimd::GLSUM_SIMD_ARCHITECTURE>(const float*, const float*, std::size_t);
-template double simd_dot_on<double, xsimd::GLSUM_SIMD_ARCHITECTURE>(const double*, const double*, std::size_t);
+using Here = GLSUM_SIMD_ARCHITECTURE;
+template float simd_dot_on<float, false, Here>(const float*, const float*, std::size_t);
+template float simd_dot_on<float, true, Here>(const float*, const float*, std::size_t);
+template double simd_dot_on<double, false, Here>(const double*, const double*, std::size_t);
+template double simd_dot_on<double, true, Here>(const double*, const double*, std::size_t);
 
 }  // namespace glsum

@@ -9,14 +9,14 @@
 namespace glsum {
 
 #if defined(__x86_64__)
-using SimdArchitectures = xsimd::arch_list<xsimd::avx512f, xsimd::avx2, xsimd::sse2>;
+using SimdArchitectures = xsimd::arch_list<xsimd::avx512f, xsimd::fma3<xsimd::avx2>, xsimd::avx2, xsimd::sse2>;
 #elif defined(__aarch64__)
 using SimdArchitectures = xsimd::arch_list<xsimd::neon64>;
 #else
 #error "no xsimd instruction set is listed for this machine: configure with GLSUM_SIMD=OFF"
 #endif
 
-template <class T, class Architecture>
+template <class T, bool fused, class Architecture>
 T simd_dot_on(const T* a, const T* x, std::size_t blocks);
 
 }  // namespace glsum

@@ -29,7 +29,7 @@ Status Sum<History, Technique, Format>::prepare(State& state, const Design& desi
         return Status::past_too_small;
     }
     typename Format::Scale scale;
-    if (const Status status = Format::choose_scale(design, scale); status != Status::ok) {
+    if (const Status status = Technique::template choose_scale<Format>(design, scale); status != Status::ok) {
         return status;
     }
     const std::size_t past_samples = design.taps - 1;

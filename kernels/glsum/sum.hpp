@@ -54,6 +54,7 @@ struct Sum {
     static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
 
 private:
+    static_assert(History::contiguous || !Technique::contiguous_only, "this technique needs one contiguous piece");
     static constexpr auto name_ = [] {
         constexpr std::size_t size = History::word.size() + Technique::word.size() + Format::word.size() + 2;
         std::array<char, size> joined{};

@@ -1,34 +1,30 @@
-// The fixed-point formats q31 and q15.
+// The fixed-point formats q31, q15 and q15c31 (q15 samples, coefficients of 31 bits).
 //
-// Sample: a fraction in [-1, 1) of 31 or 15 bits. Coefficient: a_j 2^-s, rounded to nearest, as a fraction of as
-// many bits; a_0 = 1, which no fraction holds, is added apart and is exact.
-// Sum: exact, in 64 bits; products are not shortened. s is the smallest scale at which neither a coefficient nor
-// the sum can overflow, whatever the samples; that follows from sum |a_j|, not from the length: s = 0 for
-// 0 < v <= 1, 1 for 1 < v <= 2, and growing with the length only for v < 0.
-// Output: 32 bits with e integer bits, S_k = output 2^(e-31), rounded to nearest, halves up. e is the smallest
-// number of integer bits that holds sum |a_j| (1 for 0 < v <= 1, 2 for 1 < v <= 2). q15 kernels give 32 bits too:
-// the sum has them, and the factor h^-v, still to come, would magnify what 16 bits drop.
-// Overflow: none in the sum; the output saturates, and counts it in `Scale::saturations`. With this e only
-// a sum within half a unit of 2^e can reach it.
-// Error: |S - exact| <= (L-1) 2^(s-n-1) peak + 2^-(n+1) sum|a_j| + 2^(e-32), n = 31 or 15: coefficients, input,
-// output. No rounding depends on the order of summation, so every technique gives the same bits.
+// Sample: a fraction in [-1, 1) of n = 31 or 15 bits. Coefficient: a_j 2^-s, rounded to nearest, as a fraction of m
+// bits; a_0 = 1, which no fraction holds, is added apart and is exact. Sum: exact, in 64 bits (32 for smlad); products
+// are not shortened. s is the smallest scale at which neither a coefficient nor the sum can overflow, whatever the
+// samples; that follows from sum |a_j|, not from the length: in 64 bits s = 0 for 0 < v <= 1, 1 for 1 < v <= 2, and
+// growing with the length only for v < 0. The nested form rounds at each step. Output: 32 bits with e integer bits, S_k
+// = output 2^(e-31), rounded to nearest, halves up. e is the smallest number of integer bits that holds sum |a_j| (1
+// for 0 < v <= 1, 2 for 1 < v <= 2). q15 kernels give 32 bits too: the sum has them, and the factor h^-v, still to
+// come, would magnify what 16 bits drop. Overflow: none in the sum; the output saturates, and counts it in
+// `Scale::saturations`. With this e only a sum within half a unit of 2^e can reach it. Error: |S - exact| <= what the
+// technique's coefficients and steps lose (its `fixed_error`; (L-1) 2^(s-m-1) peak for a table that is rounded to
+// nearest) + 2^-(n+1) sum|a_j| (input) + 2^(e-32) (output). No rounding depends on the order of summation, so every
+// technique but the nested form gives the same bits from the same table.
 #pragma once
 
-#include <bit>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string_view>
 
 #include "glsum/kernel.hpp"
+#include "glsum/power_of_two.hpp"
 #include "glsum/weights.hpp"
 
 namespace glsum {
-
-/// 2^exponent, exactly, without the mathematical library; exponent in [-1022, 1023].
-[[nodiscard]] constexpr double power_of_two(int exponent) {
-    return std::bit_cast<double>(static_cast<std::uint64_t>(1023 + exponent) << 52);
-}
 
 /// Rounds to nearest, halves away from zero, and saturates. NaN gives the most negative value.
 template <class Integer>
@@ -68,99 +64,136 @@ struct Rounded {
     return {static_cast<std::int32_t>(value), false};
 }
 
-template <class Integer>
+template <class SampleInteger, class CoefficientInteger = SampleInteger>
 struct Fixed {
-    using Sample = Integer;
-    using Coefficient = Integer;
+    using Sample = SampleInteger;
+    using Coefficient = CoefficientInteger;
     using Accumulator = std::int64_t;
     using Output = std::int32_t;
 
     static constexpr bool fixed_point = true;
-    static constexpr int fraction_bits = std::numeric_limits<Integer>::digits;
+    static constexpr int sample_bits = std::numeric_limits<Sample>::digits;
+    static constexpr int coefficient_bits = std::numeric_limits<Coefficient>::digits;
 
     struct Scale {
         std::int8_t table_exponent = 0;   ///< s: the table holds a_j 2^-s
         std::int8_t output_exponent = 0;  ///< e: S_k = output 2^(e-31)
+        std::int8_t output_shift = 0;     ///< output = sum 2^-output_shift
         std::uint32_t saturations = 0;    ///< outputs that saturated since `reset`
     };
 
+    /// The scale for a table of weights and sums of `accumulator_bits`.
+    template <int accumulator_bits>
     static Status choose_scale(const Design& design, Scale& scale) {
         scale = {};
-        // The estimate in reals may be one too small, by the rounding of the coefficients; never more.
-        Weights weights(design.order);
+        // The sum of products has sample_bits + coefficient_bits of fraction: it may reach 2^(s + guard_bits).
+        constexpr int guard_bits = accumulator_bits - 1 - sample_bits - coefficient_bits;
         double largest = 0.0;
         double absolute = 1.0;
+        Weights weights(design.order);
         for (std::size_t j = 1; j < design.taps; ++j) {
             weights.next();
-            const double magnitude = weights.weight() < 0.0 ? -weights.weight() : weights.weight();
-            largest = magnitude > largest ? magnitude : largest;
-            absolute += magnitude;
+            largest = std::max(largest, magnitude(weights.weight()));
+            absolute += magnitude(weights.weight());
         }
+        // In reals first, which may be one too small by the rounding of the coefficients; then exactly.
         int exponent = 0;
-        while (exponent <= fraction_bits &&
+        while (exponent <= coefficient_bits &&
                (largest > power_of_two(exponent) || absolute > power_of_two(exponent + guard_bits))) {
             ++exponent;
         }
         std::int64_t table_sum = 0;
-        for (; exponent <= fraction_bits; ++exponent) {
+        for (; exponent <= coefficient_bits; ++exponent) {
             scale.table_exponent = static_cast<std::int8_t>(exponent);
-            if (table_fits(design, scale, table_sum)) {
+            if (table_fits(design, scale, coefficient_bits + guard_bits, table_sum)) {
                 break;
             }
         }
-        if (exponent > fraction_bits) {
+        if (exponent > coefficient_bits) {
             return Status::format_too_narrow;
         }
-        while ((std::int64_t{1} << (fraction_bits - exponent + scale.output_exponent)) < table_sum) {
+        while ((std::int64_t{1} << (coefficient_bits - exponent + scale.output_exponent)) < table_sum) {
             ++scale.output_exponent;
         }
+        scale.output_shift =
+            static_cast<std::int8_t>(sample_bits + coefficient_bits - exponent - 31 + scale.output_exponent);
+        return Status::ok;
+    }
+
+    /// The scale for a table of the factors c_j. The nested sums have 31 bits of fraction in 64: they stay below
+    /// taps^2 for every order, so that lengths to 40 000 cannot overflow.
+    static Status choose_nested_scale(const Design& design, Scale& scale) {
+        static_assert(sample_bits == 31 && coefficient_bits == 31);
+        scale = {};
+        if (design.taps > 40000) {
+            return Status::format_too_narrow;
+        }
+        Weights weights(design.order);
+        for (std::size_t j = 1; j < design.taps; ++j) {
+            weights.next();
+            // -1 fits, +1 does not.
+            const bool fits = weights.factor() >= -1.0 && weights.factor() < 1.0 - power_of_two(-32);
+            scale.table_exponent = fits ? scale.table_exponent : std::int8_t{1};
+        }
+        const double absolute = absolute_sum(design.order, design.taps);
+        while (power_of_two(scale.output_exponent) * (1.0 + 1e-12) < absolute) {
+            ++scale.output_exponent;
+        }
+        scale.output_shift = scale.output_exponent;
         return Status::ok;
     }
 
     static Coefficient coefficient(double real, const Scale& scale) {
-        return round_to_integer<Coefficient>(real * power_of_two(fraction_bits - scale.table_exponent));
+        return round_to_integer<Coefficient>(real * power_of_two(coefficient_bits - scale.table_exponent));
     }
 
     static Accumulator start(Sample sample, const Scale& scale) {
-        return static_cast<std::int64_t>(sample) * (std::int64_t{1} << (fraction_bits - scale.table_exponent));
+        return static_cast<std::int64_t>(sample) * (std::int64_t{1} << (coefficient_bits - scale.table_exponent));
     }
     static Accumulator zero() { return 0; }
     static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) {
         return sum + static_cast<std::int64_t>(a) * x;
     }
+    /// x + c inner, rounded to nearest, halves up; inner has 31 bits of fraction.
+    template <bool fuse>
+    static Accumulator nest(Sample x, Coefficient c, Accumulator inner, const Scale& scale) {
+        static_assert(!fuse, "fixed point has no fused form");
+        // 64 by 32 bits in two products; the upper one is a whole number of units and needs no rounding.
+        const int shift = coefficient_bits - scale.table_exponent;
+        const auto upper = static_cast<std::int64_t>(static_cast<std::int32_t>(inner >> 32)) * c;
+        const auto lower = static_cast<std::int64_t>(static_cast<std::uint32_t>(inner)) * c;
+        return x + upper * (std::int64_t{1} << (32 - shift)) + ((lower + (std::int64_t{1} << (shift - 1))) >> shift);
+    }
     static Output finish(Accumulator sum, Scale& scale) {
-        const Rounded rounded = round_shift(sum, 2 * fraction_bits - scale.table_exponent - 31 + scale.output_exponent);
+        const Rounded rounded = round_shift(sum, scale.output_shift);
         scale.saturations += rounded.saturated ? 1U : 0U;
         return rounded.value;
     }
 
-    static Sample from_real(double real) { return round_to_integer<Sample>(real * power_of_two(fraction_bits)); }
+    static Sample from_real(double real) { return round_to_integer<Sample>(real * power_of_two(sample_bits)); }
     static double to_real(Output output, const Scale& scale) {
         return output * power_of_two(scale.output_exponent - 31);
     }
 
 private:
-    // The sum of products has 2 fraction_bits of fraction in 63 bits: it may reach 2^guard_bits.
-    static constexpr int guard_bits = 63 - 2 * fraction_bits;
+    static constexpr double magnitude(double real) { return real < 0.0 ? -real : real; }
 
     // Whether the rounded table at this scale overflows neither a coefficient nor, for any samples, the sum.
-    // table_sum: the sum of the magnitudes, a_0 included, in units of the table.
-    static bool table_fits(const Design& design, const Scale& scale, std::int64_t& table_sum) {
-        const double unit = power_of_two(fraction_bits - scale.table_exponent);
-        table_sum = std::int64_t{1} << (fraction_bits - scale.table_exponent);
+    // table_sum: the sum of the magnitudes, a_0 included, in units of the table; it may reach 2^limit_bits.
+    static bool table_fits(const Design& design, const Scale& scale, int limit_bits, std::int64_t& table_sum) {
+        const double unit = power_of_two(coefficient_bits - scale.table_exponent);
+        table_sum = std::int64_t{1} << (coefficient_bits - scale.table_exponent);
         Weights weights(design.order);
         for (std::size_t j = 1; j < design.taps; ++j) {
             weights.next();
-            const double scaled = weights.weight() * unit;
             const Coefficient rounded = coefficient(weights.weight(), scale);
-            const double excess = scaled - static_cast<double>(rounded);
-            if (excess > 0.5 || excess < -0.5) {
+            if (magnitude(weights.weight() * unit - static_cast<double>(rounded)) > 0.5) {
                 return false;  // it saturated: +1 does not fit, -1 does
             }
             table_sum += rounded < 0 ? -static_cast<std::int64_t>(rounded) : static_cast<std::int64_t>(rounded);
         }
         // <=: the sum reaches its bound only if every product is positive, and +1 is no sample, so x_k = 1 is not.
-        return table_sum <= std::int64_t{1} << (63 - fraction_bits);
+        return table_sum <= std::int64_t{1} << limit_bits;
     }
 };
 
@@ -169,6 +202,9 @@ struct Q31 : Fixed<std::int32_t> {
 };
 struct Q15 : Fixed<std::int16_t> {
     static constexpr std::string_view word = "q15";
+};
+struct Q15C31 : Fixed<std::int16_t, std::int32_t> {
+    static constexpr std::string_view word = "q15c31";
 };
 
 }  // namespace glsum

@@ -1,8 +1,9 @@
-// The formats f64 and f32.
+// The formats f64, f32 and f32a64 (f32 samples, coefficients and output, sums in f64).
 //
 // Range: |S_k| and |x_k| anywhere below overflow (about 10^38 in f32); no saturation. Infinities and NaN pass through.
-// Overflow: as IEEE 754 has it. Denormals are kept: the bound below adds half of the smallest one per product.
-// Error: each rounding is relative, at most `unit_roundoff`; how many a term meets is the technique's affair.
+// Overflow: as IEEE 754 has it. Denormals are kept: the bound adds half of the smallest one per product.
+// Error: each rounding is relative, at most half a unit in the last place of the format that it rounds to; how many a
+// term meets is the technique's affair.
 #pragma once
 
 #include <cstddef>
@@ -13,36 +14,60 @@
 
 namespace glsum {
 
-template <class T>
+/// \tparam Data  samples, coefficients and output
+/// \tparam Wide  sums
+template <class Data, class Wide = Data>
 struct Floating {
-    using Sample = T;
-    using Coefficient = T;
-    using Accumulator = T;
-    using Output = T;
+    using Sample = Data;
+    using Coefficient = Data;
+    using Accumulator = Wide;
+    using Output = Data;
     struct Scale {};
 
     static constexpr bool fixed_point = false;
-    static constexpr double unit_roundoff = std::numeric_limits<T>::epsilon() / 2.0;
+    static constexpr double data_roundoff = std::numeric_limits<Data>::epsilon() / 2.0;
+    static constexpr double sum_roundoff = std::numeric_limits<Wide>::epsilon() / 2.0;
+    static constexpr double output_roundoff = sizeof(Data) < sizeof(Wide) ? data_roundoff : 0.0;
 
-    static Status choose_scale(const Design&, Scale&) { return Status::ok; }
-    static Coefficient coefficient(double real, const Scale&) { return static_cast<T>(real); }
+    template <int>
+    static Status choose_scale(const Design&, Scale&) {
+        return Status::ok;
+    }
+    static Status choose_nested_scale(const Design&, Scale&) { return Status::ok; }
+    static Coefficient coefficient(double real, const Scale&) { return static_cast<Data>(real); }
 
     /// The accumulator that holds a_0 x_k = x_k alone.
-    static Accumulator start(Sample sample, const Scale&) { return sample; }
-    static Accumulator zero() { return T(0); }
-    static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) { return sum + a * x; }
+    static Accumulator start(Sample sample, const Scale&) { return static_cast<Wide>(sample); }
+    static Accumulator zero() { return Wide(0); }
+    static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) {
+        return sum + static_cast<Wide>(a) * static_cast<Wide>(x);
+    }
     /// One rounding in place of two.
     static Accumulator fused_multiply_add(Accumulator sum, Coefficient a, Sample x) {
-        if constexpr (sizeof(T) == sizeof(float)) {
-            return __builtin_fmaf(a, x, sum);
+        return fused(static_cast<Wide>(a), static_cast<Wide>(x), sum);
+    }
+    /// x + c inner, a step of the nested form.
+    template <bool fuse>
+    static Accumulator nest(Sample x, Coefficient c, Accumulator inner, const Scale&) {
+        if constexpr (fuse) {
+            return fused(static_cast<Wide>(c), inner, static_cast<Wide>(x));
         } else {
-            return __builtin_fma(a, x, sum);
+            return static_cast<Wide>(x) + static_cast<Wide>(c) * inner;
         }
     }
-    static Output finish(Accumulator sum, Scale&) { return sum; }
+    static Output finish(Accumulator sum, Scale&) { return static_cast<Data>(sum); }
 
-    static Sample from_real(double real) { return static_cast<T>(real); }
+    static Sample from_real(double real) { return static_cast<Data>(real); }
     static double to_real(Output output, const Scale&) { return static_cast<double>(output); }
+
+private:
+    [[gnu::always_inline]] static inline Wide fused(Wide a, Wide b, Wide sum) {
+        if constexpr (sizeof(Wide) == sizeof(float)) {
+            return __builtin_fmaf(a, b, sum);
+        } else {
+            return __builtin_fma(a, b, sum);
+        }
+    }
 };
 
 struct F64 : Floating<double> {
@@ -50,6 +75,9 @@ struct F64 : Floating<double> {
 };
 struct F32 : Floating<float> {
     static constexpr std::string_view word = "f32";
+};
+struct F32A64 : Floating<float, double> {
+    static constexpr std::string_view word = "f32a64";
 };
 
 }  // namespace glsum

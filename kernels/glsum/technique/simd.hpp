@@ -1,8 +1,8 @@
-// simd: the host's vector unit through xsimd, the instruction set chosen at run time (SSE2, AVX2, AVX-512; NEON on
-// AArch64). Host only; needs a contiguous window.
-// Every instruction set adds in the same order, that of four accumulators of 64 bytes: sample i goes to lane
-// i mod (256 bytes / sample size), and the lanes are added pairwise at the end. So the bits do not depend on the
-// machine, and an accuracy measured on one holds on all. No product is fused with its addition.
+// simd, simdfma: the host's vector unit through xsimd, the instruction set chosen at run time (SSE2, AVX2, AVX-512;
+// NEON on AArch64). Host only; needs a contiguous window. Every instruction set adds in the same order, that of four
+// accumulators of 64 bytes: sample i goes to lane i mod (256 bytes / sample size), and the lanes are added pairwise at
+// the end. So the bits do not depend on the machine, and an accuracy measured on one holds on all. simdfma rounds
+// product and addition once, on every machine.
 #pragma once
 
 #include <cstddef>
@@ -16,12 +16,16 @@ namespace glsum {
 /// sum of a[i] x[i] over blocks of 64 bytes, in the order above, on the best instruction set of this machine.
 [[nodiscard]] float simd_dot(const float* a, const float* x, std::size_t blocks);
 [[nodiscard]] double simd_dot(const double* a, const double* x, std::size_t blocks);
+/// The same with each product and its addition rounded once.
+[[nodiscard]] float simd_dot_fused(const float* a, const float* x, std::size_t blocks);
+[[nodiscard]] double simd_dot_fused(const double* a, const double* x, std::size_t blocks);
 /// The name of that instruction set, as xsimd has it: "avx512f", "avx2", "sse2", "arm64+neon".
 [[nodiscard]] std::string_view simd_instruction_set();
 
-struct Simd {
+struct Simd : WeightTable {
     static constexpr std::string_view word = "simd";
     static constexpr bool host_only = true;
+    static constexpr bool contiguous_only = true;
 
     static constexpr std::size_t accumulators = 4;
     template <class Format>
@@ -51,15 +55,26 @@ struct Simd {
         return newest + simd_dot(table, window.newer, table_count<Format>(window.newer_count) / block<Format>);
     }
 
-    /// Coefficient and product; the additions within a lane, of the accumulators, of the lanes, and of x_k.
+    /// The product; the additions within a lane, of the accumulators, of the lanes, and of x_k.
     template <class Format>
-    static constexpr std::size_t roundings(std::size_t j, std::size_t taps) {
+    static constexpr std::size_t sum_roundings(std::size_t j, std::size_t taps) {
         constexpr std::size_t lanes = accumulators * block<Format>;
         std::size_t tree = 0;
         for (std::size_t width = lanes; width > 1; width /= 2) {
             ++tree;
         }
-        return j == 0 ? 1 : 2 + (taps - 1) / lanes + tree + 1;
+        return j == 0 ? 1 : 1 + (taps - 1) / lanes + tree + 1;
+    }
+};
+
+struct SimdFma : Simd {
+    static constexpr std::string_view word = "simdfma";
+
+    template <class Format>
+    static typename Format::Accumulator sum(const typename Format::Coefficient* table,
+                                            const Window<typename Format::Sample>& window,
+                                            typename Format::Sample newest, const typename Format::Scale&) {
+        return newest + simd_dot_fused(table, window.newer, table_count<Format>(window.newer_count) / block<Format>);
     }
 };
 

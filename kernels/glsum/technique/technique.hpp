@@ -2,26 +2,34 @@
 //
 //   word                              its word in kernel names
 //   host_only                         whether it needs the host's vector unit
+//   contiguous_only                   whether it needs a history that gives one contiguous piece
 //   table_count<Format>(past)         coefficients it keeps for `past` past samples
 //   overread<Format>                  samples beyond the window that it may load (and multiply by zero)
 //   fill<Format>(table, past, order, scale)
+//   choose_scale<Format>(design, scale)
 //   sum<Format>(table, window, x_k, scale)            -> the accumulator, or, where it also keeps the past,
 //   sum_and_push<Format>(table, samples, past, x_k, scale)
-//   roundings<Format>(j, taps)        in floating point: how many relative roundings reach the term of a_j, the
-//                                     product's and the coefficient's included, the input's not
+//   coefficient_roundings(j)          how many rounded coefficients are factors of the term of a_j
+//   sum_roundings<Format>(j, taps)    in floating point: how many rounded operations that term passes
 //
-// The last gives the error bound of every floating-point kernel (`bound.hpp`):
-//   |S - exact| <= peak sum_j ((1 + u)^(roundings(j) + 1) - 1) |a_j|.
+//   fixed_error<Format>(design, scale, peak)          in fixed point: what coefficients and steps lose
+//
+// The last three give the error bound of every kernel (bound.hpp).
 #pragma once
 
 #include <cstddef>
 
+#include "glsum/kernel.hpp"
+#include "glsum/power_of_two.hpp"
 #include "glsum/weights.hpp"
 
 namespace glsum {
 
-/// The usual table: a_1 ... a_past, in this order.
+/// What most techniques share: the table a_1 ... a_past, in this order, and 64-bit sums in fixed point.
 struct WeightTable {
+    static constexpr bool host_only = false;
+    static constexpr bool contiguous_only = false;
+
     template <class Format>
     static constexpr std::size_t table_count(std::size_t past) {
         return past;
@@ -38,6 +46,38 @@ struct WeightTable {
             table[i] = Format::coefficient(weights.weight(), scale);
         }
     }
+
+    template <class Format>
+    static Status choose_scale(const Design& design, typename Format::Scale& scale) {
+        return Format::template choose_scale<64>(design, scale);
+    }
+
+    static constexpr std::size_t coefficient_roundings(std::size_t j) { return j == 0 ? 0 : 1; }
+
+    /// Half a unit of the table for each coefficient; the sum is exact.
+    template <class Format>
+    static double fixed_error(const Design& design, const typename Format::Scale& scale, double peak) {
+        return static_cast<double>(design.taps - 1) * peak *
+               power_of_two(scale.table_exponent - Format::coefficient_bits - 1);
+    }
 };
 
+/// The step sum + a x of a technique, by product and addition or fused.
+template <class Format, bool fused>
+inline typename Format::Accumulator accumulate(typename Format::Accumulator sum, typename Format::Coefficient a,
+                                               typename Format::Sample x) {
+    if constexpr (fused) {
+        return Format::fused_multiply_add(sum, a, x);
+    } else {
+        return Format::multiply_add(sum, a, x);
+    }
+}
+
 }  // namespace glsum
+
+// On x86 the fused instruction is chosen when the program is loaded; without it the same bits come from the C library.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define GLSUM_FUSED_CLONES [[gnu::target_clones("default", "fma")]]
+#else
+#define GLSUM_FUSED_CLONES
+#endif
