@@ -1,5 +1,7 @@
 #include "bench/accuracy.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,6 +15,10 @@
 
 namespace bench {
 namespace {
+
+// The amplitude sweep: one length, one smooth and one measured signal.
+constexpr std::size_t amplitude_taps = 600;
+constexpr std::string_view amplitude_signals[] = {"sine5", "drive"};
 
 // One order and one signal: the reference is made once and every kernel and length is held against it.
 struct Case {
@@ -45,9 +51,12 @@ double largest_difference(const reference::Sums& one, const reference::Sums& oth
 }
 
 template <class K>
-Json measure(const Case& test, const Length& length, const reference::Sums& same_length) {
-    Json row = make_row(row_name(std::string(K::name()), test.order, length, "accuracy/signal:" + test.signal),
-                        test.record.size());
+Json measure(const Case& test, const Length& length, const reference::Sums& same_length, double amplitude) {
+    std::string aspect = "accuracy/signal:" + test.signal;
+    if (amplitude != 1.0) {
+        aspect += fmt::format("/amplitude:{}", amplitude);
+    }
+    Json row = make_row(row_name(std::string(K::name()), test.order, length, aspect), test.record.size());
     HostLine<K> line({test.order, length.taps});
     if (line.status() != glsum::Status::ok) {
         mark_error(row, to_text(line.status()));
@@ -58,7 +67,8 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
     double squares = 0.0;
     double rounding = 0.0;
     for (std::size_t k = 0; k < test.record.size(); ++k) {
-        const double sum = line.step_real(test.record[k]);
+        // Powers of two: the scaled record and its exact sums are exact too.
+        const double sum = line.step_real(amplitude * test.record[k]) / amplitude;
         const double error = full[k].error_of(sum);
         largest = std::max(largest, std::fabs(error));
         squares += error * error;
@@ -97,7 +107,14 @@ std::vector<Json> measure_accuracy(const Sweep& sweep) {
                     return;
                 }
                 for (std::size_t l = 0; l < sweep.lengths.size(); ++l) {
-                    rows[i].push_back(measure<K>(test, sweep.lengths[l], test.exact[l]));
+                    rows[i].push_back(measure<K>(test, sweep.lengths[l], test.exact[l], 1.0));
+                    if (sweep.lengths[l].taps == amplitude_taps &&
+                        std::find(std::begin(amplitude_signals), std::end(amplitude_signals), test.signal) !=
+                            std::end(amplitude_signals)) {
+                        for (const double amplitude : {0x1p-4, 0x1p-8}) {
+                            rows[i].push_back(measure<K>(test, sweep.lengths[l], test.exact[l], amplitude));
+                        }
+                    }
                 }
             }
         });

@@ -77,6 +77,7 @@ std::optional<RowKey> parse_key(const std::string& name) {
         key.taps = take(rest, "taps:");
         key.aspect = take(rest, "");
         key.signal = take(rest, "signal:");
+        key.amplitude = take(rest, "amplitude:");
     }
     const bool whole = name.starts_with("gl/") && !key.kernel.empty() && !key.order.empty() && !key.taps.empty() &&
                        !key.aspect.empty();
@@ -104,11 +105,12 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
             }
         }
     }
-    std::string text = fmt::format("name,kernel,order,taps,aspect,signal,{}\n", fmt::join(columns, ","));
+    std::string text = fmt::format("name,kernel,order,taps,aspect,signal,amplitude,{}\n", fmt::join(columns, ","));
     for (const Json& row : rows) {
         const std::string name = row.value("name", "");
         const RowKey key = parse_key(name).value_or(RowKey{});
-        text += fmt::format("{},{},{},{},{},{}", name, key.kernel, key.order, key.taps, key.aspect, key.signal);
+        text += fmt::format("{},{},{},{},{},{},{}", name, key.kernel, key.order, key.taps, key.aspect, key.signal,
+                            key.amplitude);
         for (const std::string& column : columns) {
             const auto found = row.find(column);
             text += ',';
@@ -142,7 +144,8 @@ std::vector<Group> group(const std::vector<Json>& rows) {
     };
     for (const Json& row : rows) {
         const auto key = parse_key(row.value("name", ""));
-        if (!key || row.value("run_type", "iteration") != "iteration") {
+        // The amplitude sweep is another question: tables and fronts are of full scale.
+        if (!key || !key->amplitude.empty() || row.value("run_type", "iteration") != "iteration") {
             continue;
         }
         if (key->aspect == "host") {

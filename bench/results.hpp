@@ -10,13 +10,14 @@
 
 namespace bench {
 
-/// The parts of "gl/<kernel>/order:<v>/taps:<L>/<aspect>[/signal:<s>]".
+/// The parts of "gl/<kernel>/order:<v>/taps:<L>/<aspect>[/signal:<s>[/amplitude:<a>]]".
 struct RowKey {
     std::string kernel;
     std::string order;
     std::string taps;
     std::string aspect;  ///< accuracy, host, m7:<core>
     std::string signal;
+    std::string amplitude;  ///< empty: 1
 };
 /// Empty for another kind of row.
 [[nodiscard]] std::optional<RowKey> parse_key(const std::string& name);

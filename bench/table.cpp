@@ -24,7 +24,7 @@ std::string line_of(const Entry& entry) {
         note = note.empty() ? "dominated" : "dominated; " + note;
     }
     std::string line = fmt::format(
-        "  {:<20} {:>9} {:>9}  {:>9}{} {:>9}  {:>10}{} {:>10}  {:>8}  {}", entry.kernel, error(entry.error_max),
+        "  {:<25} {:>9} {:>9}  {:>9}{} {:>9}  {:>10}{} {:>10}  {:>8}  {}", entry.kernel, error(entry.error_max),
         error(entry.rounding_error_max), count(entry.host_ns, "{:.1f}"), entry.host_front ? '*' : ' ',
         count(entry.host_cycles, "{:.0f}"), count(entry.target_instructions, "{:.1f}"), entry.target_front ? '*' : ' ',
         count(entry.target_worst, "{:.0f}"), count(entry.bytes, "{:.0f}"), note);
@@ -42,7 +42,7 @@ std::string to_table(const std::vector<Group>& groups, bool colour) {
             return a.error_max.value_or(1e300) < b.error_max.value_or(1e300);
         });
         text += fmt::format("\norder {}, {} taps\n", group.order, group.taps);
-        text += fmt::format("  {:<20} {:>9} {:>9}  {:>9}  {:>9}  {:>10}  {:>10}  {:>8}\n", "kernel", "error max",
+        text += fmt::format("  {:<25} {:>9} {:>9}  {:>9}  {:>9}  {:>10}  {:>10}  {:>8}\n", "kernel", "error max",
                             "rounding", "host ns", "cycles", "M7 instr.", "M7 worst", "bytes");
         for (const Entry& entry : entries) {
             const bool dim = colour && (!entry.fault.empty() || (!entry.host_front && !entry.target_front));
