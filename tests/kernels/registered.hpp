@@ -20,18 +20,25 @@ struct AsTypes<glsum::KernelList<Null, Ks...>> {
 /// Every kernel but `null`.
 using Kernels = AsTypes<glsum::Registry>::Types;
 
-template <class List, class... Kept>
-struct FixedOf;
-template <class... Kept>
-struct FixedOf<testing::Types<>, Kept...> {
+template <template <class> class Wanted, class List, class... Kept>
+struct Filter;
+template <template <class> class Wanted, class... Kept>
+struct Filter<Wanted, testing::Types<>, Kept...> {
     using Types = testing::Types<Kept...>;
 };
-template <class K, class... Rest, class... Kept>
-struct FixedOf<testing::Types<K, Rest...>, Kept...>
-    : std::conditional_t<K::FormatPart::fixed_point, FixedOf<testing::Types<Rest...>, Kept..., K>,
-                         FixedOf<testing::Types<Rest...>, Kept...>> {};
-/// The fixed-point kernels.
-using FixedKernels = FixedOf<Kernels>::Types;
+template <template <class> class Wanted, class K, class... Rest, class... Kept>
+struct Filter<Wanted, testing::Types<K, Rest...>, Kept...>
+    : std::conditional_t<Wanted<K>::value, Filter<Wanted, testing::Types<Rest...>, Kept..., K>,
+                         Filter<Wanted, testing::Types<Rest...>, Kept...>> {};
+
+template <class K>
+using IsFixed = std::bool_constant<K::FormatPart::fixed_point>;
+/// Floating point with an order that scalar code can state; the vector kernels have a test of their own.
+template <class K>
+using IsScalarFloating = std::bool_constant<!K::FormatPart::fixed_point && !K::host_only>;
+
+using FixedKernels = Filter<IsFixed, Kernels>::Types;
+using FloatingKernels = Filter<IsScalarFloating, Kernels>::Types;
 
 struct KernelNames {
     template <class K>
