@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "bench/host_line.hpp"
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
 #include "bench/reference/sums.hpp"
+#include "bench/signal_derivatives.hpp"
 #include "bench/signals.hpp"
 #include "glsum/registry.hpp"
 
@@ -20,6 +22,28 @@ namespace {
 constexpr std::size_t amplitude_taps = 600;
 constexpr std::string_view amplitude_signals[] = {"sine5", "drive"};
 
+// max |E_k - h^v D^v x(t_k)| over some k > 0, dense where the start of the signal still shows.
+std::optional<double> discretisation_error(const reference::Sums& exact, double order, const Derivative& derivative) {
+    if (!derivative || exact.size() < 2) {
+        return std::nullopt;
+    }
+    constexpr int points = 200;  // within 1 % of the maximum over all k; 24 can miss a tenth of it
+    const reference::Real v = order;
+    const reference::Real scale = pow(reference::Real(step_s), v);
+    const auto last = static_cast<double>(exact.size() - 1);
+    double largest = 0.0;
+    std::size_t before = 0;
+    for (int i = 0; i < points; ++i) {
+        const auto k = static_cast<std::size_t>(std::lround(std::pow(last, i / (points - 1.0))));
+        if (k != before) {
+            const reference::Real limit = scale * derivative(v, k * reference::Real(step_s));
+            largest = std::max(largest, std::fabs(exact[k].error_of(static_cast<double>(limit))));
+            before = k;
+        }
+    }
+    return largest;
+}
+
 // One order and one signal: the reference is made once and every kernel and length is held against it.
 struct Case {
     double order;
@@ -27,6 +51,7 @@ struct Case {
     std::vector<double> record;
     std::vector<reference::Sums> exact;  // of each length, full memory last
     double peak = 0.0;                   // max_k |E_k|
+    std::optional<double> discretisation;
 
     Case(const Sweep& sweep, double v, const std::string& name)
         : order(v), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
@@ -39,6 +64,7 @@ struct Case {
         for (const auto& sum : exact.back()) {
             peak = std::max(peak, std::fabs(sum.high));
         }
+        discretisation = discretisation_error(exact.back(), order, derivative_of_signal(name, sweep.samples));
     }
 };
 
@@ -83,6 +109,9 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
     row["error_rms"] = rms / test.peak;
     row["rounding_error_max"] = rounding / test.peak;
     row["truncation_error_max"] = largest_difference(same_length, full) / test.peak;
+    if (test.discretisation) {
+        row["discretisation_error_max"] = *test.discretisation / test.peak;
+    }
     if constexpr (K::FormatPart::fixed_point) {
         row["saturations"] = line.state().scale.saturations;
     }

@@ -13,6 +13,9 @@ namespace bench {
 ///   error_max, error_rms                            kernel against E
 ///   rounding_error_max                              kernel against the exact sum of the same length
 ///   truncation_error_max                            that sum against E
+///   discretisation_error_max                        E against h^v D^v x(t_k), the exact derivative, at up to 200 k
+///                                                   log-spaced over 1..N-1; of the order and the signal, whatever the
+///                                                   kernel and the length; none for signals without a formula
 /// At 600 taps the signals sine5 and drive are repeated at 2^-4 and 2^-8 of their size, named
 /// ".../signal:<s>/amplitude:<a>"; their errors are relative to their own, smaller, sums.
 [[nodiscard]] std::vector<Json> measure_accuracy(const Sweep& sweep);

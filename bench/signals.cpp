@@ -69,6 +69,16 @@ std::vector<double> drive(std::size_t samples) {
 
 }  // namespace
 
+std::optional<double> sine_hz(std::string_view name) {
+    if (name == "sine1") {
+        return 1.0;
+    }
+    if (name == "sine5") {
+        return 5.0;
+    }
+    return name == "sine50" ? std::optional(50.0) : std::nullopt;
+}
+
 std::vector<double> make_signal(std::string_view name, std::size_t samples, std::uint64_t seed) {
     if (name == "step") {
         return std::vector<double>(samples, signal_peak);
@@ -80,14 +90,8 @@ std::vector<double> make_signal(std::string_view name, std::size_t samples, std:
         }
         return x;
     }
-    if (name == "sine1") {
-        return sine(1.0, samples);
-    }
-    if (name == "sine5") {
-        return sine(5.0, samples);
-    }
-    if (name == "sine50") {
-        return sine(50.0, samples);
+    if (const auto hz = sine_hz(name)) {
+        return sine(*hz, samples);
     }
     if (name == "noise") {
         return noise(samples, seed);

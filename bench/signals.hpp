@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,6 +13,9 @@ namespace bench {
 inline constexpr double step_s = 1e-3;      ///< h of every record
 inline constexpr double signal_peak = 0.9;  ///< of full scale
 inline constexpr std::string_view signal_names[] = {"step", "ramp", "sine1", "sine5", "sine50", "noise", "drive"};
+
+/// The frequency of the signals `sine<f>`, in Hz; nothing for all others.
+[[nodiscard]] std::optional<double> sine_hz(std::string_view name);
 
 /// A record of a signal, with its largest magnitude at or just below 0.9:
 ///   step    0.9 from k = 0;  ramp  from 0 to 0.9 at the last sample;  sine<f>  0.9 sin(2 pi f k h)

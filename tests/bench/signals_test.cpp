@@ -6,6 +6,9 @@
 #include <cmath>
 #include <random>
 #include <stdexcept>
+#include <string>
+
+#include "bench/signal_derivatives.hpp"
 
 namespace {
 
@@ -59,6 +62,32 @@ TEST(Signals, DriveFollowsTheExactStepResponseWithinItsQuantum) {
         const double counts = sample / scale * 125.0;
         ASSERT_NEAR(counts, std::round(counts), 1e-9);
     }
+}
+
+TEST(Signals, SinesHaveTheFrequencyOfTheirName) {
+    for (const unsigned hz : {1U, 5U, 50U}) {
+        const std::string name = "sine" + std::to_string(hz);
+        EXPECT_EQ(bench::sine_hz(name), hz);
+        EXPECT_NEAR(bench::make_signal(name, 1000, 1)[250 / hz], bench::signal_peak, 1e-15) << name;  // a quarter turn
+    }
+    EXPECT_FALSE(bench::sine_hz("noise"));
+}
+
+// Order 0 gives the signal back and order 1 its slope; so the formula is that of the record, phase, peak and unit.
+TEST(Signals, DerivativesAreOfTheVeryRecord) {
+    for (const std::string_view name : bench::signal_names) {
+        const auto x = bench::make_signal(name, 1000, 1);
+        const auto derivative = bench::derivative_of_signal(name, x.size());
+        ASSERT_EQ(static_cast<bool>(derivative), name != "noise" && name != "drive") << name;
+        for (std::size_t k = 2; derivative && k + 2 < x.size(); k += 83) {
+            const reference::Real t = k * reference::Real(bench::step_s);
+            EXPECT_NEAR(static_cast<double>(derivative(0, t)), x[k], 1e-13) << name << ' ' << k;
+            const double slope =
+                (8.0 * (x[k + 1] - x[k - 1]) - (x[k + 2] - x[k - 2])) / (12.0 * bench::step_s);  // fourth order in h
+            EXPECT_NEAR(static_cast<double>(derivative(1, t)), slope, 0.1) << name << ' ' << k;
+        }
+    }
+    EXPECT_FALSE(bench::derivative_of_signal("ramp", 1));
 }
 
 TEST(Signals, RefusesAnUnknownName) { EXPECT_THROW((void)bench::make_signal("square", 10, 1), std::out_of_range); }

@@ -1,0 +1,100 @@
+#include "bench/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <string>
+
+#include "bench/reference/sums.hpp"
+#include "bench/signal_derivatives.hpp"
+#include "bench/signals.hpp"
+
+namespace {
+
+// The counter of each row of one kernel in double; nothing where the row has none.
+std::vector<std::optional<double>> discretisation(double order, const std::vector<std::string>& signals,
+                                                  std::size_t samples = 1000) {
+    bench::Sweep sweep;
+    sweep.kernels = {"shift_plain_f64"};
+    sweep.orders = {order};
+    sweep.lengths = {{50}, {samples, true}};
+    sweep.signals = signals;
+    sweep.samples = samples;
+    std::vector<std::optional<double>> all;
+    for (const bench::Json& row : bench::measure_accuracy(sweep)) {
+        EXPECT_FALSE(row.contains("error_occurred")) << row;
+        const auto found = row.find("discretisation_error_max");
+        all.push_back(found == row.end() ? std::nullopt : std::optional(found->get<double>()));
+    }
+    return all;
+}
+
+TEST(Accuracy, DiscretisationIsKnownForWholeOrders) {
+    for (const auto& row : discretisation(0.0, {"step", "ramp", "sine1", "sine50"})) {
+        EXPECT_LE(row.value(), 1e-13);
+    }
+    // The difference quotient of a step and of a ramp is exact behind the start, but for the rounding of the record.
+    for (const auto& row : discretisation(1.0, {"step", "ramp"})) {
+        EXPECT_LE(row.value(), 1e-12);
+    }
+    // That of a sine lags by half a step: w h / 2 of its peak, all but the phases that the samples miss.
+    const double lag = 2.0 * std::numbers::pi * 50.0 * 1e-3 / 2.0;
+    for (const auto& row : discretisation(1.0, {"sine50"})) {
+        EXPECT_LE(row.value(), lag * 1.01);
+        EXPECT_GE(row.value(), lag * 0.99);
+    }
+    // Order 2 of a step: 0.9 (1, -1, 0, ...) against 0 from the second sample.
+    for (const auto& row : discretisation(2.0, {"step"})) {
+        EXPECT_NEAR(row.value(), 1.0, 1e-13);
+    }
+}
+
+TEST(Accuracy, DiscretisationIsOfTheOrderAndTheSignalAlone) {
+    const auto rows = discretisation(0.5, {"sine5", "ramp"});
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(rows[0], rows[1]);
+    EXPECT_EQ(rows[2], rows[3]);
+    EXPECT_GT(rows[0].value(), rows[2].value());
+}
+
+// The samples it is taken at see what all would see.
+TEST(Accuracy, DiscretisationMissesNoPhaseOfASine) {
+    constexpr std::size_t samples = 1000;
+    const reference::Real v = -0.5;
+    const reference::Real h = bench::step_s;
+    for (const std::string signal : {"sine1", "sine50"}) {
+        const auto derivative = bench::derivative_of_signal(signal, samples);
+        const std::size_t lengths[] = {samples};
+        const auto exact =
+            reference::sums(reference::weights(v, samples), bench::make_signal(signal, samples, 1), lengths);
+        double peak = 0.0;
+        double largest = 0.0;
+        for (std::size_t k = 1; k < samples; ++k) {
+            const auto limit = static_cast<double>(derivative(v, k * h) * pow(h, v));
+            largest = std::max(largest, std::fabs(exact.front()[k].high - limit));
+            peak = std::max(peak, std::fabs(exact.front()[k].high));
+        }
+        const double found = discretisation(-0.5, {signal}).front().value();
+        EXPECT_NEAR(found / (largest / peak), 1.0, 0.01) << signal;
+    }
+}
+
+TEST(Accuracy, SignalsWithoutFormulaHaveNoDiscretisation) {
+    for (const auto& row : discretisation(0.5, {"noise", "drive"})) {
+        EXPECT_FALSE(row.has_value());
+    }
+}
+
+TEST(Accuracy, ShortRecordsAreMeasured) {
+    for (const std::size_t samples : {2U, 3U, 7U}) {
+        for (const auto& row : discretisation(0.5, {"step"}, samples)) {
+            EXPECT_TRUE(row.has_value());
+        }
+    }
+    EXPECT_FALSE(discretisation(0.5, {"step"}, 1).front().has_value());
+}
+
+}  // namespace

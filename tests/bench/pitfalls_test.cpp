@@ -1,0 +1,82 @@
+// Faults that published codes have. Each is written out here and is wrong by far where our reference is right.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bench/reference/derivatives.hpp"
+#include "bench/reference/sums.hpp"
+#include "tests/bench/closed_forms.hpp"
+#include "tests/bench/digits.hpp"
+
+namespace {
+
+using reference::Real;
+
+Real sum_at(std::span<const Real> a, const std::vector<double>& x, std::size_t k) {
+    const std::size_t lengths[] = {x.size()};
+    const reference::Exact exact = reference::sums(a, x, lengths).front()[k];
+    return Real(exact.high) + Real(exact.low);
+}
+
+// 512 ones on [0, 1], order 0.5: a product of transforms without padding wraps the record around, so that every sample
+// gets what only the last one should.
+TEST(Pitfalls, CircularConvolutionIsRightAtTheLastSampleOnly) {
+    constexpr std::size_t samples = 512;
+    const std::vector<double> x(samples, 1.0);
+    const Real v("0.5");
+    const auto a = reference::weights(v, samples);
+    const auto circular = [&](std::size_t k) {
+        Real total = 0;
+        for (std::size_t j = 0; j < samples; ++j) {
+            total += a[j] * x[(k + samples - j) % samples];
+        }
+        return total;
+    };
+    const Real scale = pow(Real(samples - 1), v);  // h^-v
+    digits::expect_printed(circular(10) * scale, "0.564", 0.5);
+    digits::expect_printed(sum_at(a, x, 10) * scale, "3.983", 0.5);
+    digits::expect_thirty(sum_at(a, x, 10), closed_form::of_step(v, 10), "sum at 10");
+    digits::expect_thirty(circular(samples - 1), sum_at(a, x, samples - 1), "last sample");
+}
+
+// The nested form that stops at c_(k-1) loses a_k x_0.
+TEST(Pitfalls, DroppingTheOldestSampleIsAnError) {
+    const std::vector<double> x(101, 1.0);
+    for (const char* order : {"0.5", "0.98319", "-0.5"}) {
+        const Real v(order);
+        const auto a = reference::weights(v, x.size());
+        for (const unsigned k : {1U, 10U, 100U}) {
+            Real nested = 0;
+            for (unsigned j = k - 1; j > 0; --j) {
+                nested = (1 - (1 + v) / j) * (Real(x[k - j]) + nested);
+            }
+            nested += x[k];
+            const Real right = closed_form::of_step(v, k);
+            digits::expect_thirty(sum_at(a, x, k), right, order);
+            digits::expect_thirty(nested - right, -closed_form::weight(v, k), order);
+            EXPECT_GT(static_cast<double>(abs(nested / right - 1)), 0.004) << order << ' ' << k;
+        }
+    }
+}
+
+// N samples have N - 1 intervals between them.
+TEST(Pitfalls, DividingByTheSamplesInsteadOfTheIntervalsIsAnError) {
+    constexpr std::size_t samples = 101;
+    std::vector<double> ramp(samples);
+    for (std::size_t k = 0; k < samples; ++k) {
+        ramp[k] = static_cast<double>(k) / (samples - 1);
+    }
+    for (const char* order : {"0.5", "0.9", "1.5"}) {
+        const Real v(order);
+        const Real sum = sum_at(reference::weights(v, samples), ramp, samples - 1);
+        const Real exact = reference::derivative_of_power(1, v, 1);
+        const Real leading = -v / 2 / (samples - 1) * reference::derivative_of_power(1, v + 1, 1);
+        const auto error = static_cast<double>(sum * pow(Real(samples - 1), v) - exact);
+        const auto error_by_samples = static_cast<double>(sum * pow(Real(samples), v) - exact);
+        EXPECT_NEAR(error / static_cast<double>(leading), 1.0, 0.03) << order;
+        EXPECT_GE(std::fabs(error_by_samples), 2.0 * std::fabs(error)) << order;
+    }
+}
+
+}  // namespace
