@@ -1,0 +1,93 @@
+#!/bin/sh
+# plant.sh [--rotate N] [--only GLOB] [--list]: plants the bugs of bugs.txt one at a time in a copy of the project, builds,
+# runs the unit tests there, and reports each bug that they do not catch. Exit 0 when all were caught.
+#   --rotate N   only N of them, the next N at each commit: in time, all
+#   --only GLOB  only those whose name matches
+# The copy stays in build/planted; a second run starts faster.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+source=$(cd "$here/../.." && pwd)
+rotate=0
+only='*'
+list=no
+while [ $# -gt 0 ]; do
+    case $1 in
+        --rotate) rotate=$2; shift 2 ;;
+        --only) only=$2; shift 2 ;;
+        --list) list=yes; shift ;;
+        *) echo "plant.sh: expected --rotate N, --only GLOB or --list, found $1" >&2; exit 2 ;;
+    esac
+done
+
+bugs=$(sed '/^ *#/d; /^ *$/d' "$here/bugs.txt")
+total=$(printf '%s\n' "$bugs" | wc -l)
+[ "$list" = no ] || { printf '%s\n' "$bugs" | cut -d '|' -f 1; echo "$total bugs"; exit 0; }
+if [ "$rotate" -gt 0 ]; then
+    commits=$(git -C "$source" rev-list --count HEAD 2>/dev/null || echo 0)
+    first=$((commits * rotate % total))
+    bugs=$(printf '%s\n%s\n' "$bugs" "$bugs" | sed -n "$((first + 1)),$((first + rotate))p")
+fi
+
+# The copy: what git tracks, as it is in the working tree; unchanged files keep their times, so that ninja keeps its objects.
+copy=$source/build/planted/source
+build=$source/build/planted/build
+mkdir -p "$copy"
+(cd "$source" && git ls-files --cached --others --exclude-standard) | while IFS= read -r file; do
+    [ -f "$source/$file" ] || continue
+    cmp -s "$source/$file" "$copy/$file" && continue
+    mkdir -p "$copy/$(dirname "$file")"
+    cp -p "$source/$file" "$copy/$file"
+    touch "$copy/$file"
+done
+tests="kernel_tests bench_tests qemu_tests"
+libraries="kernels/libglsum.a bench/libglsum_reference.a bench/libglsum_bench.a qemu/libglsum_stream.a"
+jobs=$(nproc)
+compile() { ninja -C "$build" -j "$jobs" "$@" >"$build/planted.log" 2>&1; }
+# Emulator tests need firmware and time: the bugs here are of the host's libraries.
+run_tests() {
+    timeout 120 "$build/tests/kernel_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
+        timeout 120 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
+        timeout 60 "$build/tests/qemu_tests" --gtest_brief=1 --gtest_filter='Thumb.*:CallCounter.*' >"$build/tests.log" 2>&1
+}
+cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$source/build/planted/configure.log" 2>&1 ||
+    { tail -n 20 "$source/build/planted/configure.log" >&2; exit 3; }
+compile $tests || { tail -n 20 "$build/planted.log" >&2; echo "plant.sh: the project does not build without a bug" >&2; exit 1; }
+run_tests || { tail -n 20 "$build/tests.log" >&2; echo "plant.sh: the tests fail without a bug" >&2; exit 1; }
+
+caught=0
+missed=''
+number=0
+count=$(printf '%s\n' "$bugs" | wc -l)
+printf '%s\n' "$bugs" >"$build/bugs"
+while IFS='|' read -r name file plant <&3; do
+    name=$(echo $name) file=$(echo $file) plant=$(printf '%s' "$plant" | sed 's/^ *//; s/ *$//')
+    number=$((number + 1))
+    case ${name#!} in $only) ;; *) continue ;; esac
+    cp -p "$copy/$file" "$build/original"
+    touch "$build/marker"
+    perl -0pi -e "$plant" "$copy/$file"
+    if cmp -s "$copy/$file" "$build/original"; then
+        echo "plant.sh: bug ${name#!}: its substitution does not match in $file" >&2
+        exit 2
+    fi
+    how=missed
+    case $name in
+        !*) compile $tests || how='caught (does not compile)' ;;
+        *)
+            # Only the libraries see the bug; then the file is old again, and the tests are linked, not compiled.
+            compile $libraries || how='caught (does not compile)'
+            cp -p "$build/original" "$copy/$file"
+            [ "$how" != missed ] || compile $tests || how='caught (does not link)'
+            ;;
+    esac
+    if [ "$how" = missed ]; then
+        run_tests || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$build/tests.log" | head -n 1)"
+    fi
+    # As it was: the file with its time, and no object that saw the bug.
+    cp -p "$build/original" "$copy/$file"
+    find "$build" -name '*.o' -newer "$build/marker" -delete
+    printf '%3d/%d  %-34s %s\n' "$number" "$count" "${name#!}" "$how"
+    case $how in missed) missed="$missed ${name#!}" ;; *) caught=$((caught + 1)) ;; esac
+done 3<"$build/bugs"
+echo "$caught planted bugs caught, $(echo $missed | wc -w) missed:$missed"
+[ -z "$missed" ]
