@@ -16,62 +16,85 @@ constexpr std::uint32_t no_entry = 0xFFFFFFFFU;  // odd: no instruction's addres
 CallCounter::CallCounter(std::set<std::uint32_t> entries, StreamConsumer* model)
     : entries_(std::move(entries)), model_(model) {}
 
-const CallCounter::Traits& CallCounter::traits(const Instruction& instruction) {
-    while (traits_.size() <= instruction.index) {
-        traits_.push_back({false, false, false, no_entry});
+CallCounter::Piece CallCounter::decode(std::span<const Instruction> instructions) const {
+    const Instruction& first = instructions.front();
+    const Instruction& last = instructions.back();
+    Piece piece{.address = first.address,
+                .behind = last.address + last.bytes,
+                .reached_from = no_entry,
+                .instructions = static_cast<std::uint32_t>(instructions.size()),
+                .branches = 0,
+                .call = is_call(last),
+                .entry = entries_.contains(first.address),
+                .entry_inside = false};
+    for (const Instruction& instruction : instructions) {
+        piece.branches += is_branch(instruction) ? 1U : 0U;
+        piece.entry_inside |= &instruction != &first && entries_.contains(instruction.address);
     }
-    return traits_[instruction.index] = {is_branch(instruction), is_call(instruction),
-                                         entries_.contains(instruction.address), no_entry};
+    return piece;
+}
+
+void CallCounter::executes(std::vector<Piece>& pieces, std::uint32_t index, std::span<const Instruction> instructions) {
+    if (index >= pieces.size()) {
+        pieces.resize(index + 1);
+    }
+    Piece& piece = pieces[index];
+    if (piece.instructions == 0) {
+        piece = decode(instructions);
+    }
+    if (inside_ && piece.address == return_address_) {
+        finish();
+    }
+    if (!inside_ && (piece.entry || piece.entry_inside)) {
+        begin(piece);
+    }
+    if (inside_) {
+        counts_.instructions += piece.instructions;
+        counts_.branches += piece.branches;
+        if (piece.reached_from != entry_) {
+            piece.reached_from = entry_;
+            for (const Instruction& instruction : instructions) {
+                reached_now_->insert(instruction.address);
+            }
+        }
+    }
+    previous_is_call_ = piece.call;
+    next_address_ = piece.behind;
 }
 
 void CallCounter::executes(const Instruction& instruction) {
-    const bool seen = instruction.index < traits_.size();
-    const Traits known = seen ? traits_[instruction.index] : traits(instruction);
-    if (inside_ && instruction.address == return_address_) {
-        finish();
+    executes(instructions_, instruction.index, {&instruction, 1});
+    if (inside_ && model_ != nullptr) {
+        model_->executes(instruction);
     }
-    if (!inside_ && known.entry) {
-        begin(instruction);
-    }
-    if (inside_) {
-        ++counts_.instructions;
-        counts_.branches += known.branch ? 1U : 0U;
-        if (known.reached_from != entry_) {
-            traits_[instruction.index].reached_from = entry_;
-            reached_now_->insert(instruction.address);
-        }
-        if (model_ != nullptr) {
-            model_->executes(instruction);
-        }
-    }
-    previous_is_call_ = known.call;
-    next_address_ = instruction.address + instruction.bytes;
 }
 
+void CallCounter::executes_block(const Block& block) { executes(blocks_, block.index, block.instructions); }
+
 void CallCounter::accesses(const Access& access) {
-    if (!inside_) {
-        return;
-    }
-    ++(access.store ? counts_.stores : counts_.loads);
-    if (model_ != nullptr) {
+    ++(access.store ? totals_.stores : totals_.loads);
+    if (inside_ && model_ != nullptr) {
         model_->accesses(access);
     }
 }
 
-void CallCounter::begin(const Instruction& instruction) {
-    if (!previous_is_call_) {
+void CallCounter::begin(const Piece& piece) {
+    if (!piece.entry || !previous_is_call_) {
         fault_ = "a watched function was entered other than by a call instruction";
         return;
     }
     inside_ = true;
-    entry_ = instruction.address;
+    entry_ = piece.address;
     return_address_ = next_address_;
     counts_ = {};
+    totals_before_ = totals_;
     reached_now_ = &reached_[entry_];
 }
 
 void CallCounter::finish() {
     inside_ = false;
+    counts_.loads = totals_.loads - totals_before_.loads;
+    counts_.stores = totals_.stores - totals_before_.stores;
     if (runs_.empty() || runs_.back().entry != entry_ || runs_.back().counts != counts_) {
         runs_.push_back({entry_, 0, counts_});
     }

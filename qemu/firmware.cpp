@@ -91,7 +91,8 @@ struct KnownLoop {
 };
 constexpr KnownLoop known_loops[] = {
     {"glsum_check_steps", {4, 1, 1, 1}, {1, 0, 0, 1}},    {"glsum_check_one_more", {4, 1, 1, 1}, {2, 0, 0, 1}},
-    {"glsum_check_multiple", {4, 4, 4, 1}, {3, 2, 2, 1}}, {"glsum_check_skipped", {5, 0, 0, 1}, {1, 0, 0, 1}},
+    {"glsum_check_multiple", {4, 4, 4, 1}, {3, 2, 2, 1}}, {"glsum_check_wide", {8, 7, 7, 1}, {1, 0, 0, 1}},
+    {"glsum_check_edge", {4, 1, 1, 1}, {3, 0, 0, 1}},     {"glsum_check_skipped", {5, 0, 0, 1}, {1, 0, 0, 1}},
     {"glsum_check_nested", {6, 1, 1, 3}, {3, 2, 2, 1}},
 };
 constexpr std::uint64_t known_turns[] = {1, 10, 1000};
@@ -273,7 +274,7 @@ std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> 
 }
 
 std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow> plan, const Signals& signals,
-                                 const RowDone& done) {
+                                 const RowDone& done, Counting counting) {
     const Elf elf(board.measure_elf);
     const Watch watch(elf);
     const Scratch scratch;
@@ -289,8 +290,9 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
     }
     Answers answers(plan.size());
     std::vector<MeasuredRow> rows;
-    const std::string plugin = fmt::format("{},watch={},out={}", board.plugin.string(), scratch.file("watch").string(),
-                                           scratch.file("calls").string());
+    const std::string plugin =
+        fmt::format("{},watch={},out={},stream={}", board.plugin.string(), scratch.file("watch").string(),
+                    scratch.file("calls").string(), counting == Counting::stream ? "on" : "off");
     emulate(board.emulator, board.measure_elf, {scratch.file("plan").string()}, plugin, [&](const std::string& line) {
         if (auto words = answers.take(line)) {
             unsigned status = 0;

@@ -56,6 +56,7 @@ struct MeasuredRow {
     double stores;
     double branches;
     std::uint64_t worst_instructions;  ///< of the calls once the past is full
+    bool operator==(const MeasuredRow&) const = default;
 };
 
 /// How many calls `measure` needs at this length: one, a past full, then a whole turn of a ring and at least 32.
@@ -71,9 +72,14 @@ using RowDone = std::function<void()>;
 [[nodiscard]] std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> plan,
                                               const Signals& signals, const RowDone& done);
 
+/// How the plugin is told of the program: the counts are the same. Blocks take a fraction of the time; the stream has
+/// each instruction and each access with its address.
+enum class Counting { blocks, stream };
+
 /// Checks the instrument on loops of known counts first. Every row's `calls` must be `calls_to_measure(taps)`.
 /// \throws glsum::Failure when the instrument miscounts, or the emulator fails.
 [[nodiscard]] std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow> plan,
-                                               const Signals& signals, const RowDone& done);
+                                               const Signals& signals, const RowDone& done,
+                                               Counting counting = Counting::blocks);
 
 }  // namespace qemu

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 namespace qemu {
 
@@ -11,6 +12,12 @@ struct Instruction {
     std::uint32_t encoding;  ///< 16-bit: the halfword; 32-bit: first halfword in the upper half
     std::uint8_t bytes;      ///< 2 or 4
     std::uint32_t index;     ///< numbers the distinct instructions from 0: consumers decode each once and keep it there
+};
+
+/// Instructions that are executed one after the other whenever the first of them is: only the last may branch.
+struct Block {
+    std::vector<Instruction> instructions;  ///< at least one
+    std::uint32_t index;                    ///< numbers the distinct blocks from 0
 };
 
 struct Access {

@@ -27,10 +27,23 @@ bool is_branch_32(std::uint32_t e) {
            || matches(e, 0xFFF0FFE0, 0xE8D0F000);                                          // TBB, TBH
 }
 
+bool stores_16(std::uint32_t e) {
+    return matches(e, 0xFE00, 0x5000) || matches(e, 0xFE00, 0x5200) || matches(e, 0xFE00, 0x5400)  // by register
+           || (e >= 0x6000 && e < 0xA000 && !matches(e, 0x0800, 0x0800))                           // by immediate
+           || matches(e, 0xF800, 0xC000)                                                           // STM
+           || matches(e, 0xFE00, 0xB400);                                                          // PUSH
+}
+
 }  // namespace
 
 bool is_branch(const Instruction& instruction) {
     return instruction.bytes == 2 ? is_branch_16(instruction.encoding) : is_branch_32(instruction.encoding);
+}
+
+bool stores(const Instruction& instruction) {
+    // All 32-bit forms, those of the FPU included, have one bit for it.
+    return instruction.bytes == 2 ? stores_16(instruction.encoding)
+                                  : !matches(instruction.encoding, 1U << 20, 1U << 20);
 }
 
 bool is_call(const Instruction& instruction) {

@@ -1,17 +1,22 @@
-// QEMU glue: turns the emulator's callbacks into the stream of stream.hpp. Nothing is decided here.
-// Options: watch=FILE (entry addresses, decimal, one a line), out=FILE (the call log).
+// QEMU glue: turns the emulator's callbacks into the blocks, or the stream, of stream.hpp. Nothing is decided here.
+// Options: watch=FILE (entry addresses, decimal, one a line), out=FILE (the call log), stream=on (tell every
+// instruction and access, as a timing model needs it; off, the default: tell blocks, and count accesses without a
+// call).
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <map>
 #include <memory>
 #include <set>
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "qemu/call_counter.hpp"
 #include "qemu/plugin/api.h"
+#include "qemu/thumb.hpp"
 
 int qemu_plugin_version = 1;
 
@@ -22,6 +27,9 @@ struct Session {
     std::string out_path;
     // One per address for the whole run: translations come and go.
     std::unordered_map<std::uint32_t, std::unique_ptr<qemu::Instruction>> instructions = {};
+    // By first address and number of instructions: the emulator may cut the same code elsewhere when it is translated
+    // again.
+    std::map<std::pair<std::uint32_t, std::size_t>, std::unique_ptr<qemu::Block>> blocks = {};
 };
 // Never deleted: the emulator asks for the last time after this library's static objects are gone.
 Session* session = nullptr;
@@ -31,12 +39,26 @@ qemu::Instruction* instruction_at(const qemu_plugin_insn* translated) {
     const auto index = static_cast<std::uint32_t>(session->instructions.size());
     auto& slot = session->instructions[address];
     if (!slot) {
-        const auto bytes = qemu_plugin_insn_size(translated);
+        // Not by qemu_plugin_insn_size: at a page's end QEMU looks ahead, and counts what it saw to this instruction.
         std::uint16_t half[2] = {};
+        std::memcpy(half, qemu_plugin_insn_data(translated), 2);
+        const std::uint8_t bytes = qemu::bytes_from(half[0]);
         std::memcpy(half, qemu_plugin_insn_data(translated), bytes);
         const std::uint32_t encoding = bytes == 2 ? half[0] : static_cast<std::uint32_t>(half[0]) << 16 | half[1];
-        slot = std::make_unique<qemu::Instruction>(
-            qemu::Instruction{address, encoding, static_cast<std::uint8_t>(bytes), index});
+        slot = std::make_unique<qemu::Instruction>(qemu::Instruction{address, encoding, bytes, index});
+    }
+    return slot.get();
+}
+
+qemu::Block* block_at(const qemu_plugin_tb* translated) {
+    const std::size_t count = qemu_plugin_tb_n_insns(translated);
+    const auto index = static_cast<std::uint32_t>(session->blocks.size());
+    auto& slot = session->blocks[{instruction_at(qemu_plugin_tb_get_insn(translated, 0))->address, count}];
+    if (!slot) {
+        slot = std::make_unique<qemu::Block>(qemu::Block{{}, index});
+        for (std::size_t i = 0; i < count; ++i) {
+            slot->instructions.push_back(*instruction_at(qemu_plugin_tb_get_insn(translated, i)));
+        }
     }
     return slot.get();
 }
@@ -51,12 +73,25 @@ void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, v
                                qemu_plugin_mem_is_store(info)});
 }
 
-void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
+void executes_block(unsigned int, void* block) { session->counter.executes_block(*static_cast<qemu::Block*>(block)); }
+
+void translates_to_stream(qemu_plugin_id_t, qemu_plugin_tb* block) {
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
         qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
         qemu_plugin_register_vcpu_insn_exec_cb(translated, executes, QEMU_PLUGIN_CB_NO_REGS,
                                                instruction_at(translated));
         qemu_plugin_register_vcpu_mem_cb(translated, accesses, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
+    }
+}
+
+void translates_to_blocks(qemu_plugin_id_t, qemu_plugin_tb* block) {
+    qemu::AccessTotals& totals = session->counter.totals();
+    qemu_plugin_register_vcpu_tb_exec_cb(block, executes_block, QEMU_PLUGIN_CB_NO_REGS, block_at(block));
+    for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
+        qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
+        // Not by QEMU_PLUGIN_MEM_R and _W: QEMU 7.2 counts stores for the first, and every access for the second.
+        auto& counter = qemu::stores(*instruction_at(translated)) ? totals.stores : totals.loads;
+        qemu_plugin_register_vcpu_mem_inline(translated, QEMU_PLUGIN_MEM_RW, QEMU_PLUGIN_INLINE_ADD_U64, &counter, 1);
     }
 }
 
@@ -77,6 +112,7 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
     }
     std::set<std::uint32_t> entries;
     std::string out_path;
+    bool stream = false;
     for (int i = 0; i < argc; ++i) {
         const std::string_view argument = argv[i];
         if (argument.starts_with("watch=")) {
@@ -86,6 +122,11 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
             }
         } else if (argument.starts_with("out=")) {
             out_path = argument.substr(4);
+        } else if (argument == "stream=on" || argument == "stream=off") {
+            stream = argument == "stream=on";
+        } else {
+            std::fprintf(stderr, "plugin: expected watch=FILE, out=FILE or stream=on, found %s\n", argv[i]);
+            return 1;
         }
     }
     if (entries.empty() || out_path.empty()) {
@@ -93,7 +134,7 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
         return 1;
     }
     session = new Session{qemu::CallCounter(std::move(entries)), std::move(out_path)};
-    qemu_plugin_register_vcpu_tb_trans_cb(id, translates);
+    qemu_plugin_register_vcpu_tb_trans_cb(id, stream ? translates_to_stream : translates_to_blocks);
     qemu_plugin_register_atexit_cb(id, ends, nullptr);
     return 0;
 }

@@ -13,6 +13,8 @@ extern "C" {
 void glsum_check_steps(std::uint32_t turns, std::uint32_t* word);
 void glsum_check_one_more(std::uint32_t turns, std::uint32_t* word);
 void glsum_check_multiple(std::uint32_t turns, std::uint32_t* words);
+void glsum_check_wide(std::uint32_t turns, std::uint32_t* words);
+void glsum_check_edge(std::uint32_t turns, std::uint32_t* word);
 void glsum_check_skipped(std::uint32_t turns, std::uint32_t* word);
 void glsum_check_nested(std::uint32_t turns, std::uint32_t* word);
 }
@@ -47,8 +49,9 @@ struct NamedCheck {
     Check call;
 };
 constexpr NamedCheck checks[] = {
-    {"steps", glsum_check_steps},     {"one_more", glsum_check_one_more}, {"multiple", glsum_check_multiple},
-    {"skipped", glsum_check_skipped}, {"nested", glsum_check_nested},
+    {"steps", glsum_check_steps},   {"one_more", glsum_check_one_more}, {"multiple", glsum_check_multiple},
+    {"wide", glsum_check_wide},     {"edge", glsum_check_edge},         {"skipped", glsum_check_skipped},
+    {"nested", glsum_check_nested},
 };
 
 }  // namespace

@@ -103,6 +103,23 @@ TEST_F(FirmwareTest, CountsAreThoseOfTheLoopsAndDoNotDependOnTheRunner) {
     }
 }
 
+TEST_F(FirmwareTest, BlocksAndTheWholeStreamGiveTheSameCounts) {
+    std::vector<qemu::PlannedRow> plan;
+    for_each_target_kernel([&](const std::string& kernel) {
+        for (const std::size_t taps : {1U, 2U, 7U, 100U}) {
+            plan.push_back({kernel, -0.5, taps, 5, qemu::calls_to_measure(taps)});
+        }
+    });
+    const auto by_blocks = qemu::measure(
+        board_, plan, signals_, [] {}, qemu::Counting::blocks);
+    const auto by_stream = qemu::measure(
+        board_, plan, signals_, [] {}, qemu::Counting::stream);
+    ASSERT_EQ(by_blocks.size(), plan.size());
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        EXPECT_EQ(by_blocks[i], by_stream[i]) << plan[i].kernel << " " << plan[i].taps;
+    }
+}
+
 TEST_F(FirmwareTest, ARowBeyondTheCapacityOrFormatComesBackWithItsStatus) {
     const std::vector<qemu::PlannedRow> plan{{"shift_plain_f32", 0.5, 100000, 0, qemu::calls_to_measure(100000)},
                                              {"shift_plain_f32", 0.5, 3, 0, qemu::calls_to_measure(3)}};

@@ -8,6 +8,15 @@ namespace {
 qemu::Instruction narrow(std::uint32_t encoding) { return {0, encoding, 2, 0}; }
 qemu::Instruction wide(std::uint32_t encoding) { return {0, encoding, 4, 0}; }
 
+TEST(Thumb, KnowsTheLength) {
+    for (const unsigned half : {0x4770U /* bx lr */, 0xE7FEU /* b, the last of 16 bits */, 0xBF00U /* nop */}) {
+        EXPECT_EQ(qemu::bytes_from(static_cast<std::uint16_t>(half)), 2) << std::hex << half;
+    }
+    for (const unsigned half : {0xE8BDU /* pop.w */, 0xEE60U /* vmul */, 0xF7FFU /* bl */, 0xFBC1U /* smlal */}) {
+        EXPECT_EQ(qemu::bytes_from(static_cast<std::uint16_t>(half)), 4) << std::hex << half;
+    }
+}
+
 TEST(Thumb, KnowsBranches) {
     for (const std::uint32_t e : {0xD1FBU /* bne */, 0xE7FEU /* b */, 0x4770U /* bx lr */, 0x4798U /* blx r3 */,
                                   0xB108U /* cbz r0 */, 0xB908U /* cbnz r0 */, 0xBB00U /* cbnz, far */,
@@ -33,6 +42,35 @@ TEST(Thumb, KnowsWhatIsNoBranch) {
           0xFBC12304U /* smlal */, 0xEE600A01U /* vmul.f32 */, 0xECB10A01U /* vldmia */, 0xF3BF8F4FU /* dsb */,
           0xF3808811U /* msr basepri */, 0xF3EF8010U /* mrs */, 0xE9D10302U /* ldrd */}) {
         EXPECT_FALSE(qemu::is_branch(wide(e))) << std::hex << e;
+    }
+}
+
+TEST(Thumb, KnowsStores) {
+    for (const std::uint32_t e :
+         {0x5042U /* str r2, [r0, r1] */, 0x5242U /* strh */, 0x5442U /* strb */, 0x600AU /* str r2, [r1] */,
+          0x700AU /* strb */, 0x800AU /* strh */, 0x9201U /* str r2, [sp, 4] */, 0xC13CU /* stmia r1! */,
+          0xB430U /* push {r4, r5} */, 0xB510U /* push {r4, lr} */}) {
+        EXPECT_TRUE(qemu::stores(narrow(e))) << std::hex << e;
+    }
+    for (const std::uint32_t e : {0x4A01U /* ldr r2, [pc, 4] */, 0x5642U /* ldrsb */, 0x5842U /* ldr r2, [r0, r1] */,
+                                  0x5A42U /* ldrh */, 0x5C42U /* ldrb */, 0x5E42U /* ldrsh */, 0x680AU /* ldr */,
+                                  0x780AU /* ldrb */, 0x880AU /* ldrh */, 0x9A01U /* ldr r2, [sp, 4] */,
+                                  0xC93CU /* ldmia r1! */, 0xBC30U /* pop {r4, r5} */, 0xBD10U /* pop {r4, pc} */}) {
+        EXPECT_FALSE(qemu::stores(narrow(e))) << std::hex << e;
+    }
+    for (const std::uint32_t e :
+         {0xF8C12004U /* str.w r2, [r1, 4] */, 0xF8412B04U /* str r2, [r1], 4 */, 0xF8012003U /* strb.w */,
+          0xF8A12004U /* strh.w */, 0xE9C12300U /* strd r2, r3, [r1] */, 0xE881003CU /* stm.w */,
+          0xE92D4FF0U /* push.w */, 0xED810A00U /* vstr s0 */, 0xED810B00U /* vstr d0 */, 0xEC810A04U /* vstm */,
+          0xED2D8B02U /* vpush {d8} */, 0xE8412300U /* strex */}) {
+        EXPECT_TRUE(qemu::stores(wide(e))) << std::hex << e;
+    }
+    for (const std::uint32_t e :
+         {0xF8D12004U /* ldr.w r2, [r1, 4] */, 0xF8512B04U /* ldr r2, [r1], 4 */, 0xF9912000U /* ldrsb.w */,
+          0xF8B12004U /* ldrh.w */, 0xF9B12000U /* ldrsh.w */, 0xE9D12300U /* ldrd r2, r3, [r1] */,
+          0xE8BD0FF0U /* pop.w */, 0xED910A00U /* vldr s0 */, 0xED910B00U /* vldr d0 */, 0xEC910A04U /* vldm */,
+          0xECBD8B02U /* vpop {d8} */, 0xE8DFF000U /* tbb */, 0xE8512F00U /* ldrex */}) {
+        EXPECT_FALSE(qemu::stores(wide(e))) << std::hex << e;
     }
 }
 
