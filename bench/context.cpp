@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "bench/build_info.hpp"
+#include "bench/target_plan.hpp"
 #include "glsum/registry.hpp"
 
 namespace bench {
@@ -75,6 +76,7 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
         context["target_flags"] = target.is_object() ? target.value("flags", "unknown") : "unknown";
         context["qemu_version"] = qemu::emulator_version();
         context["elf_sha256"] = first_line(fmt::format("sha256sum '{}'", board->measure_elf.string())).substr(0, 64);
+        context["target_count_order"] = fmt::format("{}", count_order(sweep));
         context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
     }
     context["n_samples"] = sweep.samples;

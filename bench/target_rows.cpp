@@ -3,43 +3,49 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
-#include <string_view>
 
+#include "bench/deal.hpp"
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
 #include "bench/signals.hpp"
-#include "glsum/registry.hpp"
+#include "bench/target_plan.hpp"
 
 namespace bench {
 namespace {
 
-struct Row {
-    std::string kernel;
-    double order;
-    Length length;
-    bool software_double;
+// An outcome of the target and whether the host's is the same.
+template <class Outcome>
+struct Compared {
+    Outcome target;
+    bool same;
 };
 
-std::vector<Row> rows_of(const Sweep& sweep) {
-    std::vector<Row> rows;
-    for (const double order : sweep.orders) {
-        for (const Length& length : sweep.lengths) {
-            glsum::Registry::for_each([&]<class K>() {
-                const bool wanted =
-                    std::find(sweep.kernels.begin(), sweep.kernels.end(), K::name()) != sweep.kernels.end();
-                if (wanted && !K::host_only) {
-                    rows.push_back({std::string(K::name()), order, length, sizeof(typename K::Output) == 8});
-                }
-            });
-        }
+// Runs the plan in shares of about equal cost: run(plan) gives the target's outcomes, expected(planned) the host's.
+template <class Outcome, class Run, class Expected>
+std::vector<Compared<Outcome>> run_in_shares(const std::vector<qemu::PlannedRow>& plan, unsigned jobs, Run run,
+                                             Expected expected) {
+    std::vector<double> costs;
+    for (const qemu::PlannedRow& planned : plan) {
+        costs.push_back(estimated_cost(planned));
     }
-    return rows;
+    const auto shares = deal(costs, jobs);
+    std::vector<Compared<Outcome>> compared(plan.size());
+    parallel_for(shares.size(), jobs, [&](std::size_t s) {
+        const std::vector<Outcome> outcomes = run(pick(plan, shares[s]));
+        for (std::size_t i = 0; i < outcomes.size(); ++i) {
+            const std::size_t at = shares[s][i];
+            const qemu::ReplayedRow host = expected(plan[at]);
+            compared[at] = {outcomes[i], host.status == outcomes[i].status && host.hash == outcomes[i].hash};
+        }
+    });
+    return compared;
 }
 
-Json to_json(const Row& row, const qemu::MeasuredRow& measured) {
+Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::MeasuredRow& measured) {
     Json json = make_row(row_name(row.kernel, row.order, row.length, "m7:count"), 32);
-    json["label"] = row.software_double ? "instructions only; double precision in software" : "instructions only";
+    json["label"] =
+        fmt::format("instructions only; counted at order {}{}", counted_at,
+                    row.software_double ? "; double precision in software, where the count depends on the data" : "");
     if (measured.status != glsum::Status::ok) {
         mark_error(json, to_text(measured.status));
         return json;
@@ -57,71 +63,46 @@ Json to_json(const Row& row, const qemu::MeasuredRow& measured) {
     return json;
 }
 
-// Every n-th row from the first on: neighbours differ in length, so that the shares weigh the same.
-template <class T>
-std::vector<T> share(const std::vector<T>& all, std::size_t first, std::size_t step) {
-    std::vector<T> part;
-    for (std::size_t i = first; i < all.size(); i += step) {
-        part.push_back(all[i]);
-    }
-    return part;
-}
-
 }  // namespace
 
 std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board) {
-    const std::vector<Row> rows = rows_of(sweep);
+    const TargetPlan plan = make_target_plan(sweep);
     qemu::Signals signals;
     for (const std::string& name : sweep.signals) {
         signals.push_back(make_signal(name, sweep.samples, sweep.seed));
     }
-    signals.push_back(make_signal("noise", sweep.samples, sweep.seed + 1));
-    const std::size_t noise = signals.size() - 1;
-
-    std::vector<qemu::PlannedRow> measured_plan;
-    std::vector<qemu::PlannedRow> replayed_plan;
-    for (const Row& row : rows) {
-        measured_plan.push_back(
-            {row.kernel, row.order, row.length.taps, noise, qemu::calls_to_measure(row.length.taps)});
-        // Past the whole window and a wrap of every history.
-        const std::size_t calls = std::min(sweep.samples, row.length.taps + 64);
-        for (std::size_t signal = 0; signal < noise; ++signal) {
-            replayed_plan.push_back({row.kernel, row.order, row.length.taps, signal, calls});
-        }
+    signals.push_back(make_signal("noise", sweep.samples, sweep.seed + 1));  // the one that counts are taken on
+    std::vector<qemu::PlannedRow> replay_plan;
+    for (const TargetPlan::Replay& replay : plan.replays) {
+        replay_plan.push_back(replay.planned);
     }
 
-    std::vector<Json> result(rows.size());
-    std::vector<char> same_bits(rows.size(), 1);
-    const std::size_t shares = std::max<std::size_t>(1, std::min<std::size_t>(sweep.jobs, rows.size()));
-    Progress progress("emulated Cortex-M7", measured_plan.size() + replayed_plan.size());
+    Progress progress("emulated Cortex-M7", plan.counts.size() + replay_plan.size());
     const auto done = [&] { progress.advance(); };
-    parallel_for(shares, sweep.jobs, [&](std::size_t s) {
-        const auto measured = qemu::measure(board, share(measured_plan, s, shares), signals, done);
-        for (std::size_t i = 0; i < measured.size(); ++i) {
-            const std::size_t row = s + i * shares;
-            qemu::PlannedRow here = measured_plan[row];
-            ++here.calls;  // the firmware makes one more, on a painted stack
-            const qemu::ReplayedRow expected = qemu::replay_here(here, signals);
-            result[row] = to_json(rows[row], measured[i]);
-            same_bits[row] = expected.status == measured[i].status && expected.hash == measured[i].hash ? 1 : 0;
-        }
-    });
-    std::vector<char> replay_same(replayed_plan.size(), 0);
-    parallel_for(shares, sweep.jobs, [&](std::size_t s) {
-        const auto part = share(replayed_plan, s, shares);
-        const auto replayed = qemu::replay(board, part, signals, done);
-        for (std::size_t i = 0; i < replayed.size(); ++i) {
-            const qemu::ReplayedRow expected = qemu::replay_here(part[i], signals);
-            replay_same[s + i * shares] =
-                expected.status == replayed[i].status && expected.hash == replayed[i].hash ? 1 : 0;
-        }
-    });
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        for (std::size_t signal = 0; signal < noise; ++signal) {
-            same_bits[i] = same_bits[i] && replay_same[i * noise + signal] ? 1 : 0;
-        }
-        if (same_bits[i] == 0) {
-            mark_error(result[i], "the target's outputs differ from the host's");
+    const auto counts = run_in_shares<qemu::MeasuredRow>(
+        plan.counts, sweep.jobs, [&](const auto& share) { return qemu::measure(board, share, signals, done); },
+        [&](qemu::PlannedRow planned) {
+            ++planned.calls;  // the firmware makes one more, on a painted stack
+            return qemu::replay_here(planned, signals);
+        });
+    const auto replays = run_in_shares<qemu::ReplayedRow>(
+        replay_plan, sweep.jobs, [&](const auto& share) { return qemu::replay(board, share, signals, done); },
+        [&](const qemu::PlannedRow& planned) { return qemu::replay_here(planned, signals); });
+
+    std::vector<bool> same_bits;
+    for (const TargetPlan::Row& row : plan.rows) {
+        same_bits.push_back(counts[row.count].same);
+    }
+    for (std::size_t i = 0; i < replays.size(); ++i) {
+        const std::size_t row = plan.replays[i].row;
+        same_bits[row] = same_bits[row] && replays[i].same;
+    }
+    std::vector<Json> result;
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        const std::size_t count = plan.rows[i].count;
+        result.push_back(to_json(plan.rows[i], plan.counts[count].order, counts[count].target));
+        if (!same_bits[i]) {
+            mark_error(result.back(), "the target's outputs differ from the host's");
         }
     }
     return result;

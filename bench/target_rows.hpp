@@ -11,8 +11,15 @@ namespace bench {
 
 /// For each kernel that runs on the target, order and length: instructions, loads, stores and branches of the first
 /// call and of a steady one, the worst of a whole turn, bytes of code, stack, state and coefficients. Named
-/// ".../m7:count": counts of instructions, never called cycles. The outputs of these calls, and of the same kernel on
-/// every signal of the sweep, must have the host's hash; a row whose outputs differ is marked wrong.
+/// ".../m7:count": counts of instructions, never called cycles.
+///
+/// Which instructions a kernel executes follows from its length and, in fixed point, the scale; each such case is
+/// counted once, and the rows of every order have it, their labels saying at which order it was taken. In software
+/// double, where the data decides too, the count is that of the sweep's first order.
+///
+/// The outputs of the counted calls must have the host's hash, and so must those of a replay of each row, over up to
+/// 1100 samples of a signal of the sweep: from row to row another one, so that every kernel meets every signal. A row
+/// whose outputs differ is marked wrong.
 [[nodiscard]] std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board);
 
 }  // namespace bench

@@ -14,7 +14,7 @@ for file in first.json first.csv first.svg first.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
 done
 grep -q '"json_schema_version"\|"library_build_type"' "$folder/first.json" || fail "expected Google Benchmark's context"
-for field in glsum_version commit compiler flags contraction cpu cycle_counter core_file qemu_version elf_sha256 placement n_samples seed; do
+for field in glsum_version commit compiler flags contraction cpu cycle_counter core_file qemu_version elf_sha256 target_count_order placement n_samples seed; do
     grep -q "\"$field\"" "$folder/first.json" || fail "expected the context field $field"
 done
 for row in 'gl/mirror_simd_f32/order:0.5/taps:50/accuracy/signal:step' 'gl/ring_horner_f32/order:-0.5/taps:full/m7:count' \
@@ -22,6 +22,8 @@ for row in 'gl/mirror_simd_f32/order:0.5/taps:50/accuracy/signal:step' 'gl/ring_
     grep -q "\"name\": \"$row\"" "$folder/first.json" || fail "expected the row $row"
 done
 grep -q 'gl/mirror_simd_f32/.*/m7' "$folder/first.json" && fail "a host kernel has a target row"
+grep -q '"label": "instructions only; counted at order 0.5; double precision in software' "$folder/first.json" ||
+    fail "expected the order of the count in the label"
 grep -qi 'nan\|infinity' "$folder/first.csv" && fail "a counter is not a number"
 grep -q 'double in software' "$folder/first.txt" || fail "expected the mark of double precision in software"
 grep -q '"error_occurred": true' "$folder/first.json" && fail "a row is wrong"

@@ -1,0 +1,64 @@
+#include "bench/count_path.hpp"
+
+#include <concepts>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "glsum/registry.hpp"
+
+namespace bench {
+namespace {
+
+// visit.operator()<K>() of the kernel with this name.
+template <class Visit>
+auto of_kernel(const std::string& name, Visit visit) {
+    std::optional<decltype(visit.template operator()<glsum::Null>())> result;
+    glsum::Registry::for_each([&]<class K>() {
+        if (K::name() == name) {
+            result = visit.template operator()<K>();
+        }
+    });
+    if (!result) {
+        throw std::out_of_range("no kernel " + name);
+    }
+    return *result;
+}
+
+template <class K>
+concept has_scale = requires(typename K::State state) {
+    state.scale.table_exponent;
+    state.scale.output_exponent;
+};
+
+template <class K>
+constexpr bool uses_double() {
+    bool uses = std::same_as<typename K::Sample, double> || std::same_as<typename K::Coefficient, double> ||
+                std::same_as<typename K::Output, double>;
+    if constexpr (requires { typename K::FormatPart::Accumulator; }) {
+        uses = uses || std::same_as<typename K::FormatPart::Accumulator, double>;
+    }
+    return uses;
+}
+
+}  // namespace
+
+CountPath count_path(const std::string& kernel, const glsum::Design& design) {
+    return of_kernel(kernel, [&]<class K>() {
+        std::vector<typename K::Coefficient> table(K::table_count(design.taps));
+        std::vector<typename K::Sample> past(K::past_count(design.taps));
+        typename K::State state{};
+        CountPath path{.status = K::prepare(state, design, table, past)};
+        if constexpr (has_scale<K>) {
+            path.table_exponent = state.scale.table_exponent;
+            path.output_exponent = state.scale.output_exponent;
+        }
+        return path;
+    });
+}
+
+bool double_in_software(const std::string& kernel) {
+    return of_kernel(kernel, []<class K>() { return uses_double<K>(); });
+}
+
+}  // namespace bench

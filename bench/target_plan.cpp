@@ -1,0 +1,61 @@
+#include "bench/target_plan.hpp"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+
+#include "bench/count_path.hpp"
+#include "glsum/registry.hpp"
+
+namespace bench {
+namespace {
+
+// A replay need not be longer: the counted calls, whose outputs are compared too, go past the whole window and a wrap
+// of every history.
+constexpr std::size_t longest_replay = 1100;
+
+std::vector<std::string> target_kernels(const Sweep& sweep) {
+    std::vector<std::string> kernels;
+    glsum::Registry::for_each([&]<class K>() {
+        if (!K::host_only && std::find(sweep.kernels.begin(), sweep.kernels.end(), K::name()) != sweep.kernels.end()) {
+            kernels.emplace_back(K::name());
+        }
+    });
+    return kernels;
+}
+
+}  // namespace
+
+TargetPlan make_target_plan(const Sweep& sweep) {
+    const std::vector<std::string> kernels = target_kernels(sweep);
+    const std::size_t signals = sweep.signals.size();
+    const std::size_t places = sweep.orders.size() * sweep.lengths.size();
+    TargetPlan plan;
+    std::map<std::tuple<std::size_t, std::size_t, CountPath>, std::size_t> known;
+    for (std::size_t place = 0; place < places; ++place) {
+        const double order = sweep.orders[place / sweep.lengths.size()];
+        const Length& length = sweep.lengths[place % sweep.lengths.size()];
+        const std::size_t taps = length.taps;
+        for (std::size_t k = 0; k < kernels.size(); ++k) {
+            const std::string& kernel = kernels[k];
+            const auto [count, is_new] =
+                known.try_emplace({k, taps, count_path(kernel, {order, taps})}, plan.counts.size());
+            if (is_new) {
+                plan.counts.push_back({kernel, order, taps, signals, qemu::calls_to_measure(taps)});
+            }
+            const std::size_t calls = std::min({sweep.samples, taps + 64, longest_replay});
+            for (std::size_t turn = place; turn == place || turn < signals; turn += places) {
+                plan.replays.push_back({plan.rows.size(), {kernel, order, taps, (turn + k) % signals, calls}});
+            }
+            plan.rows.push_back({kernel, order, length, double_in_software(kernel), count->second});
+        }
+    }
+    return plan;
+}
+
+double estimated_cost(const qemu::PlannedRow& row) {
+    const double per_tap = double_in_software(row.kernel) ? 20.0 : 1.0;
+    return static_cast<double>(row.calls) * static_cast<double>(row.taps) * per_tap;
+}
+
+}  // namespace bench

@@ -1,0 +1,42 @@
+// What the emulated target is to run for a sweep: nothing twice that must come out the same.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bench/sweep.hpp"
+#include "qemu/firmware.hpp"
+
+namespace bench {
+
+struct TargetPlan {
+    struct Row {
+        std::string kernel;
+        double order;
+        Length length;
+        bool software_double;
+        std::size_t count;  ///< index into `counts`
+    };
+    struct Replay {
+        std::size_t row;  ///< index into `rows`
+        qemu::PlannedRow planned;
+    };
+    std::vector<Row> rows;  ///< every order, length and target kernel of the sweep
+    /// One for each kernel, length and `CountPath`, at the first order of the sweep that takes it, on the signal behind
+    /// the sweep's last.
+    std::vector<qemu::PlannedRow> counts;
+    /// At least one for each row. The signal rotates from row to row, so that every kernel meets every signal; where
+    /// the sweep has fewer orders and lengths than signals, rows replay several.
+    std::vector<Replay> replays;
+};
+
+[[nodiscard]] TargetPlan make_target_plan(const Sweep& sweep);
+
+/// The first order of the sweep: counts are taken there wherever those of all orders are equal, and in software double.
+[[nodiscard]] inline double count_order(const Sweep& sweep) { return sweep.orders.front(); }
+
+/// How long the emulator works at a row, in taps of hardware arithmetic.
+[[nodiscard]] double estimated_cost(const qemu::PlannedRow& row);
+
+}  // namespace bench
