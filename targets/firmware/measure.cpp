@@ -6,7 +6,6 @@
 // row of the plan, `calls` calls from a cleared past and one more on a painted stack:
 //   row <n> <status> <hash of the outputs> <bytes of stack> <bytes of state> <bytes of coefficients>
 #include "cortex-m7/stack.hpp"
-#include "output_hash.hpp"
 #include "program.hpp"
 
 extern "C" {
@@ -75,16 +74,10 @@ int firmware_main() {
     }
     return firmware::run_plan(
         []<class K>(const firmware::PlanRow& row, firmware::Signal signal, firmware::Answer& answer) {
-            const auto buffers = firmware::buffers<K>();
             typename K::State state;
-            const glsum::Status status = K::prepare(state, {row.order, row.taps}, buffers.table, buffers.past);
-            answer.number(static_cast<unsigned>(status));
-            if (status != glsum::Status::ok) {
-                return;
-            }
             firmware::OutputHash hash;
-            for (std::size_t k = 0; k < row.calls; ++k) {
-                hash.add(K::step(state, K::from_real(signal.at(k))));
+            if (!firmware::run_row<K>(row, signal, answer, state, hash)) {
+                return;
             }
             const auto last = K::from_real(signal.at(row.calls));
             typename K::Output output;

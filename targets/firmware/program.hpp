@@ -6,6 +6,7 @@
 #include <span>
 
 #include "glsum/registry.hpp"
+#include "output_hash.hpp"
 #include "plan.hpp"
 #include "port.hpp"
 
@@ -34,6 +35,22 @@ struct Signal {
     std::size_t count;
     [[nodiscard]] double at(std::size_t k) const { return samples[k % count]; }
 };
+
+/// Prepares the row's kernel, adds the status to the answer and makes the row's calls from a cleared past, all outputs
+/// into the hash. \return false when `prepare` refused.
+template <class K>
+bool run_row(const PlanRow& row, Signal signal, Answer& answer, typename K::State& state, OutputHash& hash) {
+    const auto memory = buffers<K>();
+    const glsum::Status status = K::prepare(state, {row.order, row.taps}, memory.table, memory.past);
+    answer.number(static_cast<unsigned>(status));
+    if (status != glsum::Status::ok) {
+        return false;
+    }
+    for (std::size_t k = 0; k < row.calls; ++k) {
+        hash.add(K::step(state, K::from_real(signal.at(k))));
+    }
+    return true;
+}
 
 /// Carries out the plan named on the command line: `run_row.template operator()<K>(row, signal, answer)` for each row.
 /// Answers `row <number> ...` for each and `end <rows>` last. \return the exit status.

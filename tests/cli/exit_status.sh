@@ -1,23 +1,8 @@
 #!/bin/sh
 # Exit statuses and messages of wrong use, bad input and missing tools. Argument: the glsum program.
 set -u
-glsum=$1
-folder=$(mktemp -d)
-trap 'rm -rf "$folder"' EXIT
-failures=0
-
-# expect STATUS TEXT ARGUMENT...: the program's status, and a text in what it says.
-expect() {
-    status=$1 text=$2
-    shift 2
-    "$glsum" "$@" >"$folder/said" 2>&1
-    found=$?
-    if [ "$found" -ne "$status" ] || ! grep -qF -e "$text" "$folder/said"; then
-        echo "glsum $*: expected status $status and \"$text\"; found status $found and:"
-        head -n 5 "$folder/said"
-        failures=$((failures + 1))
-    fi
-}
+program=$1
+. "$(dirname "$0")/expect.sh"
 
 small="--quick --kernels null --taps 1 --signals step --out $folder/out.json"
 expect 0 "Example:" bench --help

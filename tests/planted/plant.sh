@@ -40,7 +40,16 @@ mkdir -p "$copy"
     touch "$copy/$file"
 done
 tests="kernel_tests bench_tests qemu_tests"
-libraries="kernels/libglsum.a bench/libglsum_reference.a bench/libglsum_bench.a qemu/libglsum_stream.a"
+# The library that a file belongs to.
+library_of() {
+    case $1 in
+        kernels/*) echo kernels/libglsum.a ;;
+        bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
+        bench/*) echo bench/libglsum_bench.a ;;
+        qemu/*) echo qemu/libglsum_stream.a ;;
+        *) echo "plant.sh: no library is known for $1" >&2; exit 2 ;;
+    esac
+}
 jobs=$(nproc)
 compile() { ninja -C "$build" -j "$jobs" "$@" >"$build/planted.log" 2>&1; }
 # Emulator tests need firmware and time: the bugs here are of the host's libraries.
@@ -74,14 +83,15 @@ while IFS='|' read -r name file plant <&3; do
     case $name in
         !*) compile $tests || how='caught (does not compile)' ;;
         *)
-            # Only the libraries see the bug; then the file is old again, and the tests are linked, not compiled.
-            compile $libraries || how='caught (does not compile)'
+            # Only the library sees the bug; then the file is old again, and the tests are linked, not compiled.
+            compile "$(library_of "$file")" || how='caught (does not compile)'
             cp -p "$build/original" "$copy/$file"
             [ "$how" != missed ] || compile $tests || how='caught (does not link)'
             ;;
     esac
     if [ "$how" = missed ]; then
-        run_tests || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$build/tests.log" | head -n 1)"
+        run_tests || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$build/tests.log" | sed '1q;d')"
+        [ "$how" != "caught by " ] || how='caught by a crash'
     fi
     # As it was: the file with its time, and no object that saw the bug.
     cp -p "$build/original" "$copy/$file"

@@ -26,7 +26,7 @@ struct Mirror {
         if (past == 0) {
             return;
         }
-        head = (head == 0 ? static_cast<std::uint32_t>(past) : head) - 1;
+        head = next_head(head, past);
         samples[head] = newest;
         samples[head + past] = newest;
     }

@@ -26,8 +26,7 @@ struct Ring {
         if (past == 0) {
             return;
         }
-        // Down, so that rising addresses run from new to old, as the coefficients do.
-        head = (head == 0 ? static_cast<std::uint32_t>(past) : head) - 1;
+        head = next_head(head, past);
         samples[head] = newest;
     }
 };

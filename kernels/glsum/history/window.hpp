@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace glsum {
 
@@ -14,5 +15,11 @@ struct Window {
     std::size_t older_count;
     std::size_t first_index;  ///< where `newer` begins in its buffer
 };
+
+/// Where the newest of `past` samples of a ring goes when the one before lies at `head`: down, so that rising addresses
+/// run from new to old, as the coefficients do.
+[[nodiscard]] constexpr std::uint32_t next_head(std::uint32_t head, std::size_t past) {
+    return (head == 0 ? static_cast<std::uint32_t>(past) : head) - 1;
+}
 
 }  // namespace glsum
