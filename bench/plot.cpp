@@ -17,10 +17,33 @@ constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                    "#E69F00", "#56B4E9", "#8C6D1F", "#666666"};
 
 struct Series {
-    std::string title;
     std::optional<double> Entry::*value;
     std::string kernel;  // empty: any (the truncation is the same for all)
+    std::string title;   // empty: not in the key
+    std::string colour;
+    std::size_t shape;  // of the points
 };
+
+// Up to eight kernels have a colour each; of more, those of one number format share theirs.
+std::string label_of(const std::string& kernel, std::size_t kernels) {
+    return kernels <= std::size(palette) ? kernel : kernel.substr(kernel.rfind('_') + 1);
+}
+
+std::vector<Series> series_of(const std::vector<std::string>& kernels, std::optional<double> Entry::*value) {
+    std::vector<Series> series;
+    std::vector<std::string> labels;
+    for (const std::string& kernel : kernels) {
+        const std::string label = label_of(kernel, kernels.size());
+        const auto found = std::find(labels.begin(), labels.end(), label);
+        const auto index = static_cast<std::size_t>(found - labels.begin());
+        series.push_back(
+            {value, kernel, found == labels.end() ? label : "", palette[index % std::size(palette)], 4 + index});
+        if (found == labels.end()) {
+            labels.push_back(label);
+        }
+    }
+    return series;
+}
 
 std::vector<std::string> distinct(const std::vector<Group>& groups, bool kernels) {
     std::vector<std::string> found;
@@ -93,13 +116,12 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
             continue;
         }
         const bool truncation = series[i].kernel.empty();
-        const std::size_t style = i + (series.front().kernel.empty() ? 0 : 1);  // the same in both columns
+        const std::string key_entry =
+            series[i].title.empty() ? "notitle" : fmt::format("title \"{}\" noenhanced", series[i].title);
         blocks += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
-        lines.push_back(fmt::format(
-            "$d{} using 1:2 with linespoints lw {} dt {} pt {} ps 0.7 lc rgb \"{}\" title \"{}\" noenhanced", i,
-            truncation ? 1 : 2, truncation ? 2 : 1 + 2 * static_cast<int>((style - 1) / std::size(palette)),
-            truncation ? -1 : static_cast<int>(4 + style % 10),
-            truncation ? "#000000" : palette[(style + std::size(palette) - 1) % std::size(palette)], series[i].title));
+        lines.push_back(fmt::format("$d{} using 1:2 with linespoints lw 1.5 dt {} pt {} ps 0.6 lc rgb \"{}\" {}", i,
+                                    truncation ? 2 : 1, truncation ? -1 : static_cast<int>(series[i].shape),
+                                    series[i].colour, key_entry));
     }
     if (lines.empty()) {
         return "set multiplot next\n";
@@ -122,8 +144,7 @@ std::string script(const std::vector<Group>& groups, const std::string& terminal
     std::string text = fmt::format(
         "set terminal {}\nset output \"{}\"\n"
         "set multiplot layout {},2 margins 0.06,0.82,{:.3f},{:.3f} spacing 0.06,{:.3f} title \"Grünwald-Letnikov sum: "
-        "error "
-        "against memory length (worst over the signals, relative to the largest exact sum)\"\n"
+        "error against memory length (worst over the signals, relative to the largest exact sum)\"\n"
         "set logscale xy\nset format y \"10^{{%L}}\"\nset xrange [{}:{}]\nset xtics {} nomirror rotate by -45\n"
         "set ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xlabel \"taps\"\n",
         terminal, output, orders.size(), 75.0 / height, 1.0 - 65.0 / height, 110.0 / height, shortest / 1.25,
@@ -131,12 +152,9 @@ std::string script(const std::vector<Group>& groups, const std::string& terminal
     bool key = true;
     for (const std::string& order : orders) {
         for (const bool rounding : {false, true}) {
-            std::vector<Series> series{{"truncation alone", &Entry::truncation_error_max, ""}};
-            if (rounding) {
-                series.clear();
-            }
-            for (const std::string& kernel : kernels) {
-                series.push_back({kernel, rounding ? &Entry::rounding_error_max : &Entry::error_max, kernel});
+            auto series = series_of(kernels, rounding ? &Entry::rounding_error_max : &Entry::error_max);
+            if (!rounding) {
+                series.push_back({&Entry::truncation_error_max, "", "truncation alone", "#000000", 0});
             }
             text += panel(groups, order, series,
                           fmt::format("order {}: {}", order, rounding ? "rounding error" : "total error"),

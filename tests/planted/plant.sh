@@ -58,6 +58,8 @@ run_tests() {
         timeout 120 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
         timeout 60 "$build/tests/qemu_tests" --gtest_brief=1 --gtest_filter='Thumb.*:CallCounter.*' >"$build/tests.log" 2>&1
 }
+# A run that was killed left a bug in objects whose source looks older: none of them can be trusted.
+[ ! -e "$build/marker" ] || find "$build" -name '*.o' -delete
 cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$source/build/planted/configure.log" 2>&1 ||
     { tail -n 20 "$source/build/planted/configure.log" >&2; exit 3; }
 compile $tests || { tail -n 20 "$build/planted.log" >&2; echo "plant.sh: the project does not build without a bug" >&2; exit 1; }
@@ -95,7 +97,9 @@ while IFS='|' read -r name file plant <&3; do
     fi
     # As it was: the file with its time, and no object that saw the bug.
     cp -p "$build/original" "$copy/$file"
-    find "$build" -name '*.o' -newer "$build/marker" -delete
+    case $name in !*) saw=$build ;; *) saw=$build/$(dirname "$(library_of "$file")") ;; esac
+    find "$saw" -name '*.o' -newer "$build/marker" -delete
+    rm "$build/marker"
     printf '%3d/%d  %-34s %s\n' "$number" "$count" "${name#!}" "$how"
     case $how in missed) missed="$missed ${name#!}" ;; *) caught=$((caught + 1)) ;; esac
 done 3<"$build/bugs"

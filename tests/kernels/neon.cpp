@@ -1,0 +1,32 @@
+// simd and simdfma on AArch64's NEON: the bits of the stated order. Needs no GoogleTest, which is not there for
+// AArch64.
+#include <cmath>
+#include <cstdio>
+#include <random>
+#include <vector>
+
+#include "glsum/registry.hpp"
+#include "tests/kernels/stated_simd_order.hpp"
+
+template <class T>
+int wrong_sums() {
+    std::mt19937 generator(5);
+    int wrong = 0;
+    for (std::size_t blocks = 0; blocks < 14; ++blocks) {
+        std::vector<T> a(blocks * 64 / sizeof(T));
+        std::vector<T> x(a.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            a[i] = static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5);
+            x[i] = static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5);
+        }
+        wrong += glsum::simd_dot(a.data(), x.data(), blocks) != test::in_the_stated_order<false>(a, x) ? 1 : 0;
+        wrong += glsum::simd_dot_fused(a.data(), x.data(), blocks) != test::in_the_stated_order<true>(a, x) ? 1 : 0;
+    }
+    return wrong;
+}
+
+int main() {
+    const int wrong = wrong_sums<float>() + wrong_sums<double>();
+    std::printf("%s: %d wrong sums of 56\n", std::string(glsum::simd_instruction_set()).c_str(), wrong);
+    return wrong == 0 ? 0 : 1;
+}
