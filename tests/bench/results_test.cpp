@@ -80,7 +80,10 @@ TEST(Results, AWrongRowIsNeverRanked) {
     bench::Json wrong = timing("fast", "host", 1);
     bench::mark_error(wrong, "wrong answer");
     const auto groups =
-        bench::group({accuracy("fast", 1e-9), wrong, accuracy("right", 1e-6), timing("right", "host", 50)});
+        bench::group({accuracy("fast", 1e-9), wrong, timing("fast", "m7:count", 1), accuracy("right", 1e-6),
+                      timing("right", "host", 50), timing("right", "m7:count", 500)});
+    EXPECT_FALSE(entry(groups, "fast").target_front);  // wrong in one place, trusted in none
+    EXPECT_TRUE(entry(groups, "right").target_front);
     EXPECT_FALSE(entry(groups, "fast").host_front);
     EXPECT_TRUE(entry(groups, "right").host_front);
     EXPECT_NE(bench::to_table(groups, false).find("wrong answer"), std::string::npos);

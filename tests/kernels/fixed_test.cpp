@@ -185,6 +185,17 @@ TEST(Fixed, CoefficientsOfQ15EndWhereTheTheoryHasIt) {
     EXPECT_EQ(test::Line<K>({0.98319, 1000}).effective_taps(), 35U);
 }
 
+// The one sum that leaves the output's range: half a unit below 2, from the extremes of q31 at order 1.
+TEST(Fixed, SaturationsAreCountedUntilReset) {
+    using K = glsum::Sum<glsum::Ring, glsum::Plain, glsum::Q31>;
+    test::Line<K> line({1.0, 4});
+    line.step(std::numeric_limits<std::int32_t>::min());
+    EXPECT_EQ(line.step(std::numeric_limits<std::int32_t>::max()), std::numeric_limits<std::int32_t>::max());
+    EXPECT_EQ(line.state().scale.saturations, 1U);
+    K::reset(line.state());
+    EXPECT_EQ(line.state().scale.saturations, 0U);
+}
+
 TEST(Fixed, RoundShiftRoundsHalvesUpAndSaturates) {
     const auto value = [](std::int64_t sum, int shift) { return glsum::round_shift(sum, shift).value; };
     EXPECT_EQ(value(3, 1), 2);

@@ -31,7 +31,9 @@ fi
 # The copy: what git tracks, as it is in the working tree; unchanged files keep their times, so that ninja keeps its objects.
 copy=$source/build/planted/source
 build=$source/build/planted/build
-mkdir -p "$copy"
+mkdir -p "$copy" "$build"
+exec 9>"$source/build/planted/lock"
+flock --nonblock 9 || { echo "plant.sh: another run is at work in build/planted" >&2; exit 2; }
 (cd "$source" && git ls-files --cached --others --exclude-standard) | while IFS= read -r file; do
     [ -f "$source/$file" ] || continue
     cmp -s "$source/$file" "$copy/$file" && continue
@@ -54,8 +56,8 @@ jobs=$(nproc)
 compile() { ninja -C "$build" -j "$jobs" "$@" >"$build/planted.log" 2>&1; }
 # Emulator tests need firmware and time: the bugs here are of the host's libraries.
 run_tests() {
-    timeout 120 "$build/tests/kernel_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
-        timeout 120 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
+    timeout 60 "$build/tests/kernel_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
+        timeout 30 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
         timeout 60 "$build/tests/qemu_tests" --gtest_brief=1 --gtest_filter='Thumb.*:CallCounter.*' >"$build/tests.log" 2>&1
 }
 # A run that was killed left a bug in objects whose source looks older: none of them can be trusted.
