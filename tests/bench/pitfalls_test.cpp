@@ -4,8 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "bench/host_line.hpp"
 #include "bench/reference/derivatives.hpp"
 #include "bench/reference/sums.hpp"
+#include "glsum/registry.hpp"
+#include "glsum/weights.hpp"
 #include "tests/bench/closed_forms.hpp"
 #include "tests/bench/digits.hpp"
 
@@ -77,6 +80,44 @@ TEST(Pitfalls, DividingByTheSamplesInsteadOfTheIntervalsIsAnError) {
         EXPECT_NEAR(error / static_cast<double>(leading), 1.0, 0.03) << order;
         EXPECT_GE(std::fabs(error_by_samples), 2.0 * std::fabs(error)) << order;
     }
+}
+
+// Gamma(k + 1) leaves the range of double at k = 171; the recurrence goes on.
+TEST(Pitfalls, WeightsByTheGammaFunctionEndAt170) {
+    const double v = 0.5;
+    const auto by_gamma = [&](unsigned k) { return std::tgamma(k - v) / (std::tgamma(-v) * std::tgamma(k + 1.0)); };
+    glsum::Weights weights(v);
+    while (weights.index() < 170) {
+        weights.next();
+    }
+    EXPECT_NEAR(by_gamma(170) / weights.weight(), 1.0, 1e-12);
+    weights.next();
+    weights.next();
+    EXPECT_FALSE(by_gamma(172) / weights.weight() > 0.5);  // 0, or not a number
+    digits::expect_printed(closed_form::weight(Real(v), 600), "-1.9206126162304156e-5", 0.5);
+    while (weights.index() < 600) {
+        weights.next();
+    }
+    EXPECT_DOUBLE_EQ(weights.weight(), -1.9206126162304156e-5);
+}
+
+// The product of (x_i + c_(n-i)) has the look of the nested form and is another number.
+TEST(Pitfalls, TheProductOfFactorsIsNotTheNestedSum) {
+    const std::vector<double> x{0.5, -0.25, 0.75, 0.125, -0.5};
+    const double v = 0.5;
+    double product = 1.0;
+    for (std::size_t j = 0; j < x.size(); ++j) {
+        const double factor = j == 0 ? 1.0 : (static_cast<double>(j) - 1.0 - v) / static_cast<double>(j);
+        product *= x[x.size() - 1 - j] + factor;
+    }
+    bench::HostLine<glsum::Sum<glsum::Ring, glsum::Horner, glsum::F64>> line({v, x.size()});
+    double nested = 0.0;
+    for (const double sample : x) {
+        nested = line.step_real(sample);
+    }
+    const auto right = static_cast<double>(sum_at(reference::weights(Real(v), x.size()), x, x.size() - 1));
+    EXPECT_NEAR(nested, right, 1e-15);
+    EXPECT_GT(std::fabs(product - right), 0.1);
 }
 
 }  // namespace
