@@ -9,8 +9,6 @@
 #include <cstddef>
 #include <span>
 #include <string_view>
-#include <tuple>
-#include <utility>
 
 namespace glsum {
 
@@ -55,7 +53,6 @@ concept Kernel = requires(typename K::State& state, const typename K::State& pre
 template <Kernel... Ks>
 struct KernelList {
     static constexpr std::size_t count = sizeof...(Ks);
-    using Tuple = std::tuple<Ks...>;
 
     /// Calls `visit.template operator()<K>()` for every kernel, in the registry's order.
     template <class Visitor>
