@@ -3,8 +3,10 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -78,6 +80,46 @@ void write_file(const std::filesystem::path& path, const std::string& content) {
         fail(partial, path, errno);
     }
     publish(partial, path);
+}
+
+std::string read_file(const std::filesystem::path& path, std::size_t limit) {
+    const auto refuse = [&](int reason) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{}: cannot read: {}", path.string(), std::strerror(reason)));
+    };
+    const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) {
+        refuse(errno);
+    }
+    struct stat info {};
+    std::string content;
+    // A pipe has no size beforehand: what is read decides.
+    if (fstat(file, &info) == 0 && S_ISREG(info.st_mode)) {
+        content.reserve(std::min(limit, static_cast<std::size_t>(info.st_size)) + 1);
+    }
+    char buffer[1 << 16];
+    for (;;) {
+        const ssize_t got = read(file, buffer, sizeof buffer);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        if (got < 0) {
+            const int reason = errno;
+            close(file);
+            refuse(reason);
+        }
+        if (got == 0) {
+            break;
+        }
+        content.append(buffer, static_cast<std::size_t>(got));
+        if (content.size() > limit) {
+            close(file);
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 fmt::format("{}: expected a file of at most {} bytes", path.string(), limit));
+        }
+    }
+    close(file);
+    return content;
 }
 
 void check_writable(const std::filesystem::path& path) {

@@ -1,6 +1,7 @@
-// Files that appear whole or not at all.
+// Files: read with a bound, written whole or not at all.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 
@@ -15,6 +16,10 @@ void publish(const std::filesystem::path& partial, const std::filesystem::path& 
 
 /// Writes a whole file. \throws glsum::Failure as `publish`.
 void write_file(const std::filesystem::path& path, const std::string& content);
+
+/// Reads a whole file of at most `limit` bytes.
+/// \throws glsum::Failure (bad input) naming the file and the reason.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path, std::size_t limit);
 
 /// Fails now rather than after a long run: whether a file can be written there.
 void check_writable(const std::filesystem::path& path);

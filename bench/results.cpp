@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <unordered_map>
 
 #include "bench/files.hpp"
 
@@ -29,26 +31,42 @@ void keep_larger(std::optional<double>& kept, std::optional<double> value) {
     kept = !kept || (value && *value > *kept) ? value : kept;
 }
 
-void add_row(Entry& entry, const RowKey& key, const Json& row) {
+// The rows of one length by kernel: one a repetition.
+using Repetitions = std::map<std::string, std::vector<const Json*>>;
+
+// Of the repetitions that count; empty without any.
+std::optional<double> median(const std::vector<const Json*>& repetitions, const char* counter) {
+    std::vector<double> values;
+    for (const Json* row : repetitions) {
+        if (const auto value = number(*row, counter); value && !row->value("error_occurred", false)) {
+            values.push_back(*value);
+        }
+    }
+    if (values.empty()) {
+        return std::nullopt;
+    }
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+void add_row(Entry& entry, const std::string& aspect, const Json& row) {
     if (row.value("error_occurred", false)) {
-        entry.fault = key.aspect + ": " + row.value("error_message", "wrong");
+        entry.fault = aspect + ": " + row.value("error_message", "wrong");
         return;
     }
-    if (key.aspect == "accuracy") {
+    if (aspect == "accuracy") {
         keep_larger(entry.error_max, number(row, "error_max"));
         keep_larger(entry.rounding_error_max, number(row, "rounding_error_max"));
         keep_larger(entry.truncation_error_max, number(row, "truncation_error_max"));
-    } else if (key.aspect == "host") {
-        entry.host_ns = number(row, "real_time");
-        entry.host_cycles = number(row, "cycles_per_sample");
-    } else {
+    } else if (aspect.starts_with("m7")) {
         entry.target_instructions = number(row, "instructions_per_sample");
         entry.target_worst = number(row, "worst_instructions");
         entry.software_double = row.value("label", "").find("software") != std::string::npos;
     }
     const auto state = number(row, "state_bytes");
     const auto coefficients = number(row, "coefficient_bytes");
-    if (state && coefficients && (key.aspect.starts_with("m7") || !entry.target_instructions)) {
+    if (state && coefficients && (aspect.starts_with("m7") || !entry.target_instructions)) {
         entry.bytes = *state + *coefficients;
     }
 }
@@ -83,13 +101,6 @@ std::optional<RowKey> parse_key(const std::string& name) {
     return whole ? std::optional(key) : std::nullopt;
 }
 
-void write_results(const std::filesystem::path& path, const Json& context, const std::vector<Json>& rows) {
-    Json file;
-    file["context"] = context;
-    file["benchmarks"] = rows;
-    write_file(path, file.dump(2) + "\n");
-}
-
 void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
     static const std::vector<std::string> bookkeeping = {
         "name",     "family_index", "per_family_instance_index", "run_name",
@@ -122,25 +133,24 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
 
 std::vector<Group> group(const std::vector<Json>& rows) {
     std::vector<Group> groups;
-    std::vector<std::pair<RowKey, const Json*>> host;  // one order for all
-    const auto entry_of = [](Group& group, const std::string& kernel) -> Entry& {
-        for (Entry& entry : group.entries) {
-            if (entry.kernel == kernel) {
-                return entry;
-            }
-        }
-        group.entries.emplace_back().kernel = kernel;
-        return group.entries.back();
-    };
+    std::unordered_map<std::string, std::size_t> group_at;  // by order and length
+    std::unordered_map<std::string, std::size_t> entry_at;  // by those and kernel
     const auto group_of = [&](const RowKey& key) -> Group& {
-        for (Group& group : groups) {
-            if (group.order == key.order && group.taps == key.taps) {
-                return group;
-            }
+        const auto [found, is_new] = group_at.try_emplace(key.order + '/' + key.taps, groups.size());
+        if (is_new) {
+            groups.push_back({key.order, key.taps, {}});
         }
-        groups.push_back({key.order, key.taps, {}});
-        return groups.back();
+        return groups[found->second];
     };
+    const auto entry_of = [&](Group& group, const std::string& kernel) -> Entry& {
+        const auto [found, is_new] =
+            entry_at.try_emplace(group.order + '/' + group.taps + '/' + kernel, group.entries.size());
+        if (is_new) {
+            group.entries.emplace_back().kernel = kernel;
+        }
+        return group.entries[found->second];
+    };
+    std::unordered_map<std::string, Repetitions> host;  // by length: one order serves all
     for (const Json& row : rows) {
         const auto key = parse_key(row.value("name", ""));
         // The amplitude sweep is another question: tables and fronts are of full scale.
@@ -148,17 +158,20 @@ std::vector<Group> group(const std::vector<Json>& rows) {
             continue;
         }
         if (key->aspect == "host") {
-            host.emplace_back(*key, &row);
-            group_of(*key);
+            host[key->taps][key->kernel].push_back(&row);
+            (void)group_of(*key);
         } else {
-            add_row(entry_of(group_of(*key), key->kernel), *key, row);
+            add_row(entry_of(group_of(*key), key->kernel), key->aspect, row);
         }
     }
     for (Group& group : groups) {
-        for (const auto& [key, row] : host) {
-            if (key.taps == group.taps) {
-                add_row(entry_of(group, key.kernel), key, *row);
+        for (const auto& [kernel, repetitions] : host[group.taps]) {
+            Entry& entry = entry_of(group, kernel);
+            for (const Json* row : repetitions) {
+                add_row(entry, "host", *row);
             }
+            entry.host_ns = median(repetitions, "real_time");
+            entry.host_cycles = median(repetitions, "cycles_per_sample");
         }
         mark_front(group, &Entry::host_ns, &Entry::host_front);
         mark_front(group, &Entry::target_instructions, &Entry::target_front);

@@ -1,4 +1,4 @@
-// A result file, and what can be read off it.
+// What can be read off the rows of a run.
 #pragma once
 
 #include <filesystem>
@@ -22,9 +22,6 @@ struct RowKey {
 /// Empty for another kind of row.
 [[nodiscard]] std::optional<RowKey> parse_key(const std::string& name);
 
-/// Writes {"context", "benchmarks"}.
-void write_results(const std::filesystem::path& path, const Json& context, const std::vector<Json>& rows);
-
 /// One line a row; the columns are the parts of the name and every counter that occurs.
 void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
 
@@ -34,8 +31,8 @@ struct Entry {
     std::optional<double> error_max;           ///< worst of the signals
     std::optional<double> rounding_error_max;  ///< worst of the signals
     std::optional<double> truncation_error_max;
-    std::optional<double> host_ns;
-    std::optional<double> host_cycles;
+    std::optional<double> host_ns;      ///< median of the repetitions
+    std::optional<double> host_cycles;  ///< likewise
     std::optional<double> target_instructions;
     std::optional<double> target_worst;
     std::optional<double> bytes;  ///< state and coefficients; on the target where it runs there
@@ -52,7 +49,8 @@ struct Group {
     std::vector<Entry> entries;
 };
 
-/// Groups by order and length, in the order of their appearance. Host timings, taken at one order, serve all.
+/// Groups by order and length, in the order of their appearance. Host timings, taken at one order, serve all;
+/// of repetitions the median counts.
 /// `host_front`, `target_front`: no other kernel of the group costs less (nanoseconds; instructions) at an error that
 /// is at most 1 % larger, which counts as the same.
 [[nodiscard]] std::vector<Group> group(const std::vector<Json>& rows);

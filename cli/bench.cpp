@@ -16,6 +16,7 @@
 #include "bench/host_timing.hpp"
 #include "bench/peers/peer.hpp"
 #include "bench/plot.hpp"
+#include "bench/result_file.hpp"
 #include "bench/results.hpp"
 #include "bench/signals.hpp"
 #include "bench/table.hpp"

@@ -51,6 +51,17 @@ TEST(Results, TheWorstSignalCounts) {
     EXPECT_EQ(entry(groups, "a").error_max, 5e-3);
 }
 
+TEST(Results, OfRepetitionsTheMedianCounts) {
+    std::vector<bench::Json> rows = {accuracy("a", 1e-3)};
+    for (const double ns : {50.0, 10.0, 20.0}) {
+        rows.push_back(timing("a", "host", ns));
+        rows.back()["repetition_index"] = rows.size();
+    }
+    EXPECT_EQ(entry(bench::group(rows), "a").host_ns, 20.0);
+    rows.push_back(timing("a", "host", 30));
+    EXPECT_EQ(entry(bench::group(rows), "a").host_ns, 25.0);
+}
+
 TEST(Results, TheFrontHoldsWhatNothingBeatsAtItsError) {
     const auto groups = bench::group({
         accuracy("exact", 1e-6),
