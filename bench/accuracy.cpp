@@ -123,12 +123,12 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
 
 }  // namespace
 
-std::vector<Json> measure_accuracy(const Sweep& sweep) {
-    const std::size_t cases = sweep.orders.size() * sweep.signals.size();
-    std::vector<std::vector<Json>> rows(cases);
-    Progress progress("accuracy", cases);
-    parallel_for(cases, sweep.jobs, [&](std::size_t i) {
-        const Case test(sweep, sweep.orders[i / sweep.signals.size()], sweep.signals[i % sweep.signals.size()]);
+std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::vector<std::size_t>& cases) {
+    const std::size_t signals = sweep.signals.size();
+    std::vector<std::vector<Json>> rows(cases.size());
+    Progress progress("accuracy", cases.size());
+    parallel_for(cases.size(), sweep.jobs, [&](std::size_t i) {
+        const Case test(sweep, sweep.orders.at(cases[i] / signals), sweep.signals[cases[i] % signals]);
         glsum::Registry::for_each([&]<class K>() {
             if constexpr (!std::is_same_v<K, glsum::Null>) {
                 if (std::find(sweep.kernels.begin(), sweep.kernels.end(), K::name()) == sweep.kernels.end()) {
@@ -148,11 +148,7 @@ std::vector<Json> measure_accuracy(const Sweep& sweep) {
         });
         progress.advance();
     });
-    std::vector<Json> all;
-    for (auto& of_case : rows) {
-        std::move(of_case.begin(), of_case.end(), std::back_inserter(all));
-    }
-    return all;
+    return rows;
 }
 
 }  // namespace bench

@@ -1,6 +1,7 @@
 // Accuracy of every kernel against the reference.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "bench/row.hpp"
@@ -18,6 +19,9 @@ namespace bench {
 ///                                                   kernel and the length; none for signals without a formula
 /// At 600 taps the signals sine5 and drive are repeated at 2^-4 and 2^-8 of their size, named
 /// ".../signal:<s>/amplitude:<a>"; their errors are relative to their own, smaller, sums.
-[[nodiscard]] std::vector<Json> measure_accuracy(const Sweep& sweep);
+/// \param cases  which pairs of order and signal: order * signals + signal
+/// \return  the rows of each case
+[[nodiscard]] std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep,
+                                                              const std::vector<std::size_t>& cases);
 
 }  // namespace bench

@@ -79,6 +79,12 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
         context["target_count_order"] = fmt::format("{}", count_order(sweep));
         context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
     }
+    std::vector<std::string> taps;
+    for (const Length& length : sweep.lengths) {
+        taps.push_back(length.text());
+    }
+    context["sweep"] = {{"kernels", sweep.kernels}, {"peers", sweep.peers},    {"orders", sweep.orders}, {"taps", taps},
+                        {"signals", sweep.signals}, {"targets", sweep.targets}};
     context["n_samples"] = sweep.samples;
     context["seed"] = sweep.seed;
     return context;

@@ -1,6 +1,7 @@
 // What a run measures.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,9 +22,13 @@ struct Sweep {
     std::vector<double> orders;
     std::vector<Length> lengths;  ///< rising
     std::vector<std::string> signals;
+    std::vector<std::string> targets{"host", "m7"};  ///< where the cost is measured
     std::size_t samples = 5000;
     std::uint64_t seed = 2020;
     unsigned jobs = 1;
+    [[nodiscard]] bool wants(const char* target) const {
+        return std::find(targets.begin(), targets.end(), target) != targets.end();
+    }
 };
 
 /// "gl/<kernel>/order:<v>/taps:<L>/<aspect>"; the order in its shortest round-trip form.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "bench/count_path.hpp"
 #include "glsum/registry.hpp"
@@ -47,10 +49,58 @@ TargetPlan make_target_plan(const Sweep& sweep) {
             for (std::size_t turn = place; turn == place || turn < signals; turn += places) {
                 plan.replays.push_back({plan.rows.size(), {kernel, order, taps, (turn + k) % signals, calls}});
             }
-            plan.rows.push_back({kernel, order, length, double_in_software(kernel), count->second});
+            const std::size_t piece = place % sweep.lengths.size() * kernels.size() + k;
+            plan.rows.push_back({kernel, order, length, double_in_software(kernel), count->second, piece});
         }
     }
     return plan;
+}
+
+TargetPlan part_of(const TargetPlan& whole, const std::vector<std::size_t>& pieces) {
+    std::vector<std::size_t> kept;
+    for (std::size_t row = 0; row < whole.rows.size(); ++row) {
+        if (std::binary_search(pieces.begin(), pieces.end(), whole.rows[row].piece)) {
+            kept.push_back(row);
+        }
+    }
+    std::stable_sort(kept.begin(), kept.end(),
+                     [&](std::size_t a, std::size_t b) { return whole.rows[a].piece < whole.rows[b].piece; });
+    TargetPlan part;
+    std::map<std::size_t, std::size_t> row_at;
+    std::map<std::size_t, std::size_t> count_at;
+    for (const std::size_t row : kept) {
+        row_at[row] = part.rows.size();
+        part.rows.push_back(whole.rows[row]);
+        const auto [count, is_new] = count_at.try_emplace(whole.rows[row].count, part.counts.size());
+        if (is_new) {
+            part.counts.push_back(whole.counts[whole.rows[row].count]);
+        }
+        part.rows.back().count = count->second;
+    }
+    for (const TargetPlan::Replay& replay : whole.replays) {
+        if (const auto row = row_at.find(replay.row); row != row_at.end()) {
+            part.replays.push_back({row->second, replay.planned});
+        }
+    }
+    return part;
+}
+
+std::vector<double> piece_costs(const TargetPlan& whole) {
+    std::size_t pieces = 0;
+    for (const TargetPlan::Row& row : whole.rows) {
+        pieces = std::max(pieces, row.piece + 1);
+    }
+    std::vector<double> costs(pieces, 0.0);
+    std::set<std::pair<std::size_t, std::size_t>> counted;
+    for (const TargetPlan::Row& row : whole.rows) {
+        if (counted.insert({row.piece, row.count}).second) {
+            costs[row.piece] += estimated_cost(whole.counts[row.count]);
+        }
+    }
+    for (const TargetPlan::Replay& replay : whole.replays) {
+        costs[whole.rows[replay.row].piece] += estimated_cost(replay.planned);
+    }
+    return costs;
 }
 
 double estimated_cost(const qemu::PlannedRow& row) {

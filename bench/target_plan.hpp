@@ -17,6 +17,7 @@ struct TargetPlan {
         Length length;
         bool software_double;
         std::size_t count;  ///< index into `counts`
+        std::size_t piece;  ///< the same for all orders of a kernel and length, which share counts: numbered from 0
     };
     struct Replay {
         std::size_t row;  ///< index into `rows`
@@ -32,6 +33,14 @@ struct TargetPlan {
 };
 
 [[nodiscard]] TargetPlan make_target_plan(const Sweep& sweep);
+
+/// The part of a plan that some pieces need: each row with the count and the replays that it has in the whole.
+/// \param pieces  rising
+/// \return  its rows sorted by piece
+[[nodiscard]] TargetPlan part_of(const TargetPlan& whole, const std::vector<std::size_t>& pieces);
+
+/// For each piece of a whole plan the sum of `estimated_cost`.
+[[nodiscard]] std::vector<double> piece_costs(const TargetPlan& whole);
 
 /// The first order of the sweep: counts are taken there wherever those of all orders are equal, and in software double.
 [[nodiscard]] inline double count_order(const Sweep& sweep) { return sweep.orders.front(); }

@@ -65,8 +65,9 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
 
 }  // namespace
 
-std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board) {
-    const TargetPlan plan = make_target_plan(sweep);
+std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu::Board& board,
+                                                 const std::vector<std::size_t>& pieces) {
+    const TargetPlan plan = part_of(make_target_plan(sweep), pieces);
     qemu::Signals signals;
     for (const std::string& name : sweep.signals) {
         signals.push_back(make_signal(name, sweep.samples, sweep.seed));
@@ -97,12 +98,14 @@ std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board
         const std::size_t row = plan.replays[i].row;
         same_bits[row] = same_bits[row] && replays[i].same;
     }
-    std::vector<Json> result;
+    std::vector<std::vector<Json>> result(pieces.size());
     for (std::size_t i = 0; i < plan.rows.size(); ++i) {
-        const std::size_t count = plan.rows[i].count;
-        result.push_back(to_json(plan.rows[i], plan.counts[count].order, counts[count].target));
+        const TargetPlan::Row& row = plan.rows[i];
+        auto& rows = result[static_cast<std::size_t>(std::lower_bound(pieces.begin(), pieces.end(), row.piece) -
+                                                     pieces.begin())];
+        rows.push_back(to_json(row, plan.counts[row.count].order, counts[row.count].target));
         if (!same_bits[i]) {
-            mark_error(result.back(), "the target's outputs differ from the host's");
+            mark_error(rows.back(), "the target's outputs differ from the host's");
         }
     }
     return result;

@@ -1,6 +1,7 @@
 // Rows of the emulated Cortex-M7, with the proof that it computes the host's bits.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "bench/row.hpp"
@@ -20,6 +21,9 @@ namespace bench {
 /// The outputs of the counted calls must have the host's hash, and so must those of a replay of each row, over up to
 /// 1100 samples of a signal of the sweep: from row to row another one, so that every kernel meets every signal. A row
 /// whose outputs differ is marked wrong.
-[[nodiscard]] std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board);
+/// \param pieces  which pieces of the sweep's `TargetPlan`, rising; their rows are those of a run of all
+/// \return  the rows of each piece, in their order
+[[nodiscard]] std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu::Board& board,
+                                                               const std::vector<std::size_t>& pieces);
 
 }  // namespace bench

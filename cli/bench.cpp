@@ -1,7 +1,6 @@
 // glsum bench: accuracy of every kernel, its cost on the host and on the emulated Cortex-M7.
 #include <fmt/format.h>
 #include <fnmatch.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,19 +8,13 @@
 #include <optional>
 #include <thread>
 
-#include "bench/accuracy.hpp"
 #include "bench/build_info.hpp"
-#include "bench/context.hpp"
 #include "bench/files.hpp"
-#include "bench/host_timing.hpp"
 #include "bench/peers/peer.hpp"
-#include "bench/plot.hpp"
-#include "bench/result_file.hpp"
-#include "bench/results.hpp"
+#include "bench/run.hpp"
 #include "bench/signals.hpp"
-#include "bench/table.hpp"
-#include "bench/target_rows.hpp"
 #include "cli/commands.hpp"
+#include "cli/finish_run.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/failure.hpp"
 
@@ -37,9 +30,10 @@ struct Options {
     std::vector<double> orders;
     std::vector<std::string> taps;
     std::vector<std::string> signals;
-    std::vector<std::string> targets{"host", "m7"};
+    std::vector<std::string> targets = bench::Sweep().targets;
+    std::optional<std::string> shard;
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
-    std::filesystem::path out = std::filesystem::path(build_info::source_folder) / "results" / "latest.json";
+    std::filesystem::path out;
 };
 
 bool matches_any(const std::vector<std::string>& globs, std::string_view name) {
@@ -101,6 +95,12 @@ bench::Sweep to_sweep(const Options& options) {
                                                        fmt::join(bench::signal_names, ", "), signal));
         }
     }
+    for (const std::string& target : options.targets) {
+        if (target != "host" && target != "m7") {
+            throw Failure(Exit::bad_input, fmt::format("--targets: expected host, m7 or both, found {}", target));
+        }
+    }
+    sweep.targets = options.targets;
     glsum::Registry::for_each([&]<class K>() {
         if (matches_any(options.kernels, K::name())) {
             sweep.kernels.emplace_back(K::name());
@@ -118,58 +118,35 @@ bench::Sweep to_sweep(const Options& options) {
     return sweep;
 }
 
-bool wants(const Options& options, const char* target) {
-    return std::find(options.targets.begin(), options.targets.end(), target) != options.targets.end();
+std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
+    const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
+    // Not latest.json: what reads that expects a whole run.
+    return results / (shard ? fmt::format("shard-{}-of-{}.json", shard->index, shard->count) : "latest.json");
 }
 
 void run(const Options& options, const PassedOn& flags) {
     const bench::Sweep sweep = to_sweep(options);
-    for (const std::string& target : options.targets) {
-        if (target != "host" && target != "m7") {
-            throw Failure(Exit::bad_input, fmt::format("--targets: expected host, m7 or both, found {}", target));
-        }
-    }
-    bench::check_writable(options.out);
+    const std::optional<bench::Shard> shard =
+        options.shard ? std::optional(bench::parse_shard(*options.shard)) : std::nullopt;
+    const std::filesystem::path out = options.out.empty() ? default_out(shard) : options.out;
+    bench::check_writable(out);
     std::optional<qemu::Board> board;
-    if (wants(options, "m7")) {
+    if (sweep.wants("m7")) {
         const std::filesystem::path source = build_info::source_folder;
         const std::filesystem::path built = build_info::build_folder;
         board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
                                  source / "targets" / "mps2-an500" / "emulate");
         (void)qemu::emulator_version();
     }
-    std::vector<bench::Json> rows = bench::measure_accuracy(sweep);
-    const auto append = [&](std::vector<bench::Json> more) {
-        std::move(more.begin(), more.end(), std::back_inserter(rows));
-    };
-    if (board) {
-        append(bench::measure_on_target(sweep, *board));
+    const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
+    if (!shard) {
+        finish_run(out, results);
+        return;
     }
-    bench::Json google;
-    if (wants(options, "host")) {
-        // Last and alone: nothing else of this run is at work.
-        bench::HostTiming timing = bench::time_on_host(sweep, flags);
-        google = std::move(timing.context);
-        append(std::move(timing.rows));
-    }
-    const bench::Json context = bench::make_context(std::move(google), sweep, board ? &*board : nullptr);
-    const std::vector<bench::Group> groups = bench::group(rows);
-    bench::write_results(options.out, context, rows);
-    std::filesystem::path stem = options.out;
-    stem.replace_extension();
-    std::filesystem::path csv = stem;
-    csv += ".csv";
-    bench::write_csv(csv, rows);
-    fmt::print("{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1));
-    bench::plot_error(groups, stem);
-    fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", rows.size(), options.out.string());
-    const auto wrong = std::count_if(rows.begin(), rows.end(),
-                                     [](const bench::Json& row) { return row.value("error_occurred", false); });
-    if (wrong > 0) {
-        throw Failure(
-            Exit::check_failed,
-            fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong, rows.size()));
-    }
+    bench::write_results(out, results.context, results.rows);
+    fmt::print("{} rows of shard {}/{} in {}; glsum merge puts all shards together\n", results.rows.size(),
+               shard->index, shard->count, out.string());
+    check_rows(results);
 }
 
 }  // namespace
@@ -189,8 +166,12 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
     command->add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
         ->delimiter(',');
     command->add_option("--targets", options->targets, "host, m7 or both")->delimiter(',')->capture_default_str();
+    command->add_option("--shard", options->shard,
+                        "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "
+                        "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");
     command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::PositiveNumber);
-    command->add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
+    command->add_option("--out", options->out,
+                        "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
     command->callback([options, &passed_on] { run(*options, passed_on); });
 }
 

@@ -13,4 +13,7 @@ using PassedOn = std::vector<std::string>;
 /// `bench`. \param passed_on  filled before the command runs
 void add_bench(CLI::App& app, const PassedOn& passed_on);
 
+/// `merge`.
+void add_merge(CLI::App& app);
+
 }  // namespace cli

@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     cli::PassedOn passed_on;
     cli::add_bench(app, passed_on);
+    cli::add_merge(app);
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {

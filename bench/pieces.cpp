@@ -1,0 +1,81 @@
+#include "bench/pieces.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "bench/deal.hpp"
+#include "bench/target_plan.hpp"
+#include "qemu/failure.hpp"
+
+namespace bench {
+namespace {
+
+// Of one core at 2.5 GHz: the exact sums go with the square of the record, the kernels with their taps.
+constexpr double seconds_per_exact_product = 4.6e-8;
+constexpr double seconds_per_tap = 1.1e-9;
+constexpr double seconds_per_emulated_tap = 4e-8;
+constexpr double seconds_per_timing = 0.09;
+
+double accuracy_cost(const Sweep& sweep) {
+    const auto samples = static_cast<double>(sweep.samples);
+    double taps = 0.0;
+    for (const Length& length : sweep.lengths) {
+        taps += static_cast<double>(length.taps);
+    }
+    return seconds_per_exact_product * samples * samples +
+           seconds_per_tap * samples * taps * static_cast<double>(sweep.kernels.size());
+}
+
+}  // namespace
+
+std::vector<Piece> make_pieces(const Sweep& sweep) {
+    std::vector<Piece> pieces;
+    for (std::size_t i = 0; i < sweep.orders.size() * sweep.signals.size(); ++i) {
+        pieces.push_back({Piece::Kind::accuracy, i, accuracy_cost(sweep)});
+    }
+    if (sweep.wants("m7")) {
+        const std::vector<double> costs = piece_costs(make_target_plan(sweep));
+        for (std::size_t i = 0; i < costs.size(); ++i) {
+            pieces.push_back({Piece::Kind::target, i, seconds_per_emulated_tap * costs[i]});
+        }
+    }
+    if (sweep.wants("host")) {
+        const std::size_t timings = (sweep.kernels.size() + sweep.peers.size()) * sweep.lengths.size();
+        pieces.push_back({Piece::Kind::host, 0, seconds_per_timing * static_cast<double>(timings)});
+    }
+    return pieces;
+}
+
+Shard parse_shard(const std::string& text) {
+    Shard shard;
+    const char* end = text.data() + text.size();
+    const auto index = std::from_chars(text.data(), end, shard.index);
+    const bool slash = index.ec == std::errc{} && index.ptr != end && *index.ptr == '/';
+    const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
+    if (!slash || count.ec != std::errc{} || count.ptr != end || shard.index < 1 || shard.index > shard.count ||
+        shard.count > Shard::most) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("--shard: expected I/N with 1 <= I <= N <= {}, found {}", Shard::most, text));
+    }
+    return shard;
+}
+
+std::vector<std::size_t> pieces_of(const std::vector<Piece>& pieces, const Shard& shard) {
+    std::vector<double> costs;
+    for (const Piece& piece : pieces) {
+        costs.push_back(piece.cost);
+    }
+    std::vector<std::vector<std::size_t>> shares = deal(costs, shard.count);
+    shares.resize(shard.count);
+    const auto times_host = std::find_if(shares.begin(), shares.end(), [&](const auto& share) {
+        return !share.empty() && pieces[share.back()].kind == Piece::Kind::host;
+    });
+    if (times_host != shares.end()) {
+        std::swap(*times_host, shares.back());
+    }
+    return shares[shard.index - 1];
+}
+
+}  // namespace bench

@@ -1,0 +1,41 @@
+// A sweep in pieces, and which of them a shard measures.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bench/sweep.hpp"
+
+namespace bench {
+
+/// What is measured in one go because it shares its dear part:
+///   accuracy  one order and signal, all kernels and lengths: they are held against one exact sum
+///   target    one kernel and length, all orders: they share their counts of instructions
+///   host      all timings: rows of one run are compared by ratio, so none is taken elsewhere or at another time
+/// The rows of a run are those of its pieces, one piece after the other.
+struct Piece {
+    enum class Kind { accuracy, target, host };
+    Kind kind;
+    std::size_t number;  ///< among those of its kind: order * signals + signal; as in `TargetPlan::Row::piece`; 0
+    double cost;         ///< seconds on one core, roughly: only shards of about equal cost depend on it
+};
+
+/// All pieces of the sweep's targets: accuracy first, then target, then host.
+[[nodiscard]] std::vector<Piece> make_pieces(const Sweep& sweep);
+
+/// One of `count` runs that together measure a sweep.
+struct Shard {
+    std::size_t index = 1;  ///< from 1
+    std::size_t count = 1;
+    static constexpr std::size_t most = 10'000;
+};
+
+/// "2/3". \throws glsum::Failure (bad input) unless 1 <= I <= N <= Shard::most.
+[[nodiscard]] Shard parse_shard(const std::string& text);
+
+/// Indices of the pieces that a shard measures, rising; may be none. Shards cost about the same, every piece is one
+/// shard's, and the host's timings are the last shard's, so that it can be run alone on its machine.
+[[nodiscard]] std::vector<std::size_t> pieces_of(const std::vector<Piece>& pieces, const Shard& shard);
+
+}  // namespace bench

@@ -1,0 +1,40 @@
+#include "cli/finish_run.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "bench/plot.hpp"
+#include "bench/results.hpp"
+#include "bench/table.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+
+void finish_run(const std::filesystem::path& out, const bench::Results& results) {
+    const std::vector<bench::Group> groups = bench::group(results.rows);
+    bench::write_results(out, results.context, results.rows);
+    std::filesystem::path stem = out;
+    stem.replace_extension();
+    std::filesystem::path csv = stem;
+    csv += ".csv";
+    bench::write_csv(csv, results.rows);
+    fmt::print("{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1));
+    bench::plot_error(groups, stem);
+    fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", results.rows.size(), out.string());
+    check_rows(results);
+}
+
+void check_rows(const bench::Results& results) {
+    const auto wrong = std::count_if(results.rows.begin(), results.rows.end(),
+                                     [](const bench::Json& row) { return row.value("error_occurred", false); });
+    if (wrong > 0) {
+        throw glsum::Failure(glsum::Exit::check_failed,
+                             fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong,
+                                         results.rows.size()));
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,47 @@
+// glsum merge: the shards of a sweep into one result file.
+#include "bench/merge.hpp"
+
+#include <memory>
+
+#include "bench/build_info.hpp"
+#include "bench/files.hpp"
+#include "cli/commands.hpp"
+#include "cli/finish_run.hpp"
+
+namespace cli {
+namespace {
+
+struct Options {
+    std::vector<std::filesystem::path> shards;
+    bool allow_mixed_hosts = false;
+    unsigned jobs = 1;
+    std::filesystem::path out = std::filesystem::path(build_info::source_folder) / "results" / "latest.json";
+};
+
+void run(const Options& options) {
+    bench::check_writable(options.out);
+    std::vector<bench::NamedResults> shards;
+    for (const auto& path : options.shards) {
+        shards.push_back({path.string(), bench::read_results(path)});
+    }
+    finish_run(options.out, bench::merge(std::move(shards), options.allow_mixed_hosts));
+}
+
+}  // namespace
+
+void add_merge(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("merge", "Put the shards of a sweep together, as if it had run in one");
+    command->footer(
+        "All shards of bench --shard I/N, each once, in any order.\n"
+        "Example: glsum merge shard-1.json shard-2.json shard-3.json --out whole.json");
+    command->add_option("shards", options->shards, "Result files of bench --shard")->required();
+    command->add_flag("--allow-mixed-hosts", options->allow_mixed_hosts,
+                      "Shards may come from different CPUs; the context then says mixed_hosts");
+    command->add_option("--jobs", options->jobs, "Without effect: merging takes one thread")
+        ->check(CLI::PositiveNumber);
+    command->add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

@@ -1,0 +1,237 @@
+// Dealing a sweep in shards, and putting shards together.
+#include "bench/merge.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <numeric>
+#include <set>
+
+#include "bench/pieces.hpp"
+#include "bench/signals.hpp"
+#include "bench/target_plan.hpp"
+#include "qemu/failure.hpp"
+
+namespace {
+
+using testing::HasSubstr;
+
+bench::Sweep sweep() {
+    bench::Sweep sweep;
+    sweep.kernels = {"null",          "shift_plain_f64",  "shift_plain_f32", "ring_plain_f32", "mirror_simd_f32",
+                     "shift_fir_q31", "mirror_smlald_q15"};
+    sweep.orders = {0.5, 0.7, 1.9909, -0.5};
+    sweep.lengths = {{50}, {600}, {1000}, {1000, true}};
+    sweep.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
+    sweep.samples = 1000;
+    return sweep;
+}
+
+TEST(Pieces, EveryPieceIsOneShardsAndTheLastTimesTheHost) {
+    const std::vector<bench::Piece> pieces = bench::make_pieces(sweep());
+    ASSERT_EQ(pieces.size(), 4U * 7 + 6U * 4 + 1);
+    for (const std::size_t count : {1U, 2U, 3U, 7U, 100U}) {
+        std::vector<std::size_t> all;
+        for (std::size_t index = 1; index <= count; ++index) {
+            const auto share = bench::pieces_of(pieces, {index, count});
+            EXPECT_TRUE(std::is_sorted(share.begin(), share.end()));
+            const bool host = std::any_of(share.begin(), share.end(), [&](std::size_t piece) {
+                return pieces[piece].kind == bench::Piece::Kind::host;
+            });
+            EXPECT_EQ(host, index == count);
+            all.insert(all.end(), share.begin(), share.end());
+        }
+        std::sort(all.begin(), all.end());
+        std::vector<std::size_t> expected(pieces.size());
+        std::iota(expected.begin(), expected.end(), std::size_t{0});
+        EXPECT_EQ(all, expected) << count;
+    }
+}
+
+TEST(Pieces, ShardsCostAboutTheSame) {
+    const std::vector<bench::Piece> pieces = bench::make_pieces(sweep());
+    double dearest = 0.0;  // never divided
+    for (const bench::Piece& piece : pieces) {
+        dearest = std::max(dearest, piece.cost);
+    }
+    for (const std::size_t count : {2U, 3U, 5U}) {
+        std::vector<double> costs;
+        for (std::size_t index = 1; index <= count; ++index) {
+            double cost = 0.0;
+            for (const std::size_t piece : bench::pieces_of(pieces, {index, count})) {
+                cost += pieces[piece].cost;
+            }
+            costs.push_back(cost);
+        }
+        const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
+        EXPECT_LE(*most - *least, dearest) << count;
+        EXPECT_LT(*most, count < 5 ? 1.1 * *least : 1.5 * *least) << count;
+    }
+}
+
+TEST(Pieces, OnlyOfTheTargetsThatAreWanted) {
+    bench::Sweep only = sweep();
+    only.targets = {"m7"};
+    EXPECT_EQ(bench::make_pieces(only).size(), 4U * 7 + 6U * 4);
+    only.targets = {"host"};
+    EXPECT_EQ(bench::make_pieces(only).size(), 4U * 7 + 1);
+}
+
+TEST(Pieces, PartsOfAPlanAreThePlan) {
+    const bench::TargetPlan whole = bench::make_target_plan(sweep());
+    const std::size_t pieces = bench::piece_costs(whole).size();
+    std::multiset<std::string> expected;
+    std::multiset<std::string> found;
+    const auto describe = [](const bench::TargetPlan& plan, std::multiset<std::string>& into) {
+        const auto text = [](const qemu::PlannedRow& row) {
+            return row.kernel + ' ' + std::to_string(row.order) + ' ' + std::to_string(row.taps) + ' ' +
+                   std::to_string(row.signal) + ' ' + std::to_string(row.calls);
+        };
+        for (const auto& row : plan.rows) {
+            into.insert("row " + row.kernel + ' ' + std::to_string(row.order) + ' ' + row.length.text() +
+                        " counted as " + text(plan.counts.at(row.count)));
+        }
+        for (const auto& replay : plan.replays) {
+            into.insert("replay of " + plan.rows.at(replay.row).length.text() + ' ' + text(replay.planned));
+        }
+    };
+    describe(whole, expected);
+    for (std::size_t piece = 0; piece < pieces; ++piece) {
+        const bench::TargetPlan part = bench::part_of(whole, {piece});
+        EXPECT_EQ(part.rows.size(), 4U);
+        for (std::size_t row = 0; row < part.rows.size(); ++row) {
+            EXPECT_EQ(part.rows[row].kernel, part.rows[0].kernel);
+            EXPECT_EQ(part.rows[row].length.text(), part.rows[0].length.text());
+            EXPECT_EQ(part.rows[row].order, sweep().orders[row]);
+        }
+        for (const auto& count : part.counts) {
+            EXPECT_EQ(count.kernel, part.rows[0].kernel);
+        }
+        describe(part, found);
+    }
+    EXPECT_EQ(found, expected);
+}
+
+TEST(Shard, IsReadOrRefused) {
+    EXPECT_EQ(bench::parse_shard("2/3").index, 2U);
+    EXPECT_EQ(bench::parse_shard("2/3").count, 3U);
+    EXPECT_EQ(bench::parse_shard("10000/10000").index, 10'000U);
+    for (const char* bad : {"", "/", "1", "1/", "/1", "0/1", "2/1", "1/10001", "1/2/3", "1/2 ", " 1/2", "-1/2", "1/-2",
+                            "99999999999999999999/1", "1.5/2"}) {
+        EXPECT_THROW((void)bench::parse_shard(bad), glsum::Failure) << bad;
+    }
+}
+
+// Three pieces of two, one and no rows in two shards.
+std::vector<bench::NamedResults> two_shards() {
+    const auto context = [](std::size_t index, const bench::Json& rows_of_pieces) {
+        return bench::Json{
+            {"date", "day " + std::to_string(index)},
+            {"cpu", "x"},
+            {"commit", "c"},
+            {"sweep", {{"orders", {0.5}}, {"taps", {"50"}}}},
+            {"shard", {{"index", index}, {"count", 2}, {"pieces", 3}, {"rows_of_pieces", rows_of_pieces}}}};
+    };
+    std::vector<bench::NamedResults> shards{
+        {"first.json", {context(1, {{1, 1}}), {bench::make_row("c", 1)}}},
+        {"second.json", {context(2, {{0, 2}, {2, 0}}), {bench::make_row("a", 1), bench::make_row("b", 1)}}}};
+    shards[1].results.context["host_timing_order"] = "0.5";
+    return shards;
+}
+
+TEST(Merge, PutsPiecesInTheirOrderWhateverThatOfTheShards) {
+    for (const bool turned : {false, true}) {
+        std::vector<bench::NamedResults> shards = two_shards();
+        if (turned) {
+            std::swap(shards[0], shards[1]);
+        }
+        const bench::Results merged = bench::merge(std::move(shards), false);
+        ASSERT_EQ(merged.rows.size(), 3U);
+        EXPECT_EQ(merged.rows[0]["name"], "a");
+        EXPECT_EQ(merged.rows[1]["name"], "b");
+        EXPECT_EQ(merged.rows[2]["name"], "c");
+        EXPECT_EQ(merged.context["date"], "day 2");  // of the shard that timed the host
+        EXPECT_FALSE(merged.context.contains("shard"));
+        EXPECT_FALSE(merged.context.contains("mixed_hosts"));
+        ASSERT_EQ(merged.context["shards"].size(), 2U);
+        EXPECT_EQ(merged.context["shards"][0]["date"], "day 1");
+    }
+}
+
+void expect_refused(const std::function<void(std::vector<bench::NamedResults>&)>& change, glsum::Exit status,
+                    const std::string& words) {
+    std::vector<bench::NamedResults> shards = two_shards();
+    change(shards);
+    try {
+        (void)bench::merge(std::move(shards), false);
+        ADD_FAILURE() << "not refused: " << words;
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), status) << failure.what();
+        EXPECT_THAT(failure.what(), HasSubstr(words));
+    }
+}
+
+TEST(Merge, RefusesWhatIsNotAllOfOneSweep) {
+    using Shards = std::vector<bench::NamedResults>;
+    using glsum::Exit;
+    expect_refused([](Shards& s) { s.clear(); }, Exit::bad_input, "at least one shard");
+    expect_refused([](Shards& s) { s.pop_back(); }, Exit::bad_input, "missing: shard 2/2");
+    expect_refused([](Shards& s) { s.push_back(s[0]); }, Exit::bad_input,
+                   "shard 1/2 is there twice: first.json and first.json");
+    expect_refused([](Shards& s) { s[1].results.context.erase("shard"); }, Exit::bad_input,
+                   "second.json: expected a shard");
+    expect_refused([](Shards& s) { s[1].results.rows.pop_back(); }, Exit::bad_input,
+                   "second.json: expected the 2 rows that context.shard lists, found 1");
+    expect_refused(
+        [](Shards& s) {
+            s[1].results.context["shard"]["rows_of_pieces"] = {{1, 2}, {2, 0}};
+        },
+        Exit::bad_input, "piece 1 of the sweep is there twice: in first.json and second.json");
+    expect_refused(
+        [](Shards& s) {
+            s[1].results.context["shard"]["rows_of_pieces"] = bench::Json::array({{0, 2}});
+        },
+        Exit::bad_input, "expected the 3 pieces of the sweep, found 2");
+    expect_refused(
+        [](Shards& s) {
+            s[1].results.context["shard"]["rows_of_pieces"] = {{0, 2}, {3, 0}};
+        },
+        Exit::bad_input, "the last numbered 3");
+    expect_refused([](Shards& s) { s[1].results.context["commit"] = "d"; }, Exit::not_comparable,
+                   "commit differs: \"c\" in first.json, \"d\" in second.json");
+    expect_refused([](Shards& s) { s[0].results.context["new_field"] = 1; }, Exit::not_comparable,
+                   "new_field differs: 1 in first.json, nothing in second.json");
+    expect_refused([](Shards& s) { s[1].results.context["sweep"]["orders"] = {0.7}; }, Exit::not_comparable,
+                   "sweep.orders differs: [0.5] in first.json, [0.7] in second.json");
+    expect_refused([](Shards& s) { s[1].results.context["shard"]["count"] = 3; }, Exit::not_comparable,
+                   "number of shards");
+    expect_refused([](Shards& s) { s[1].results.context["cpu"] = "y"; }, Exit::not_comparable, "cpu differs");
+}
+
+TEST(Merge, RefusesADamagedShard) {
+    using Shards = std::vector<bench::NamedResults>;
+    for (const bench::Json& damaged :
+         {bench::Json(3), bench::Json{{"index", 2}}, bench::Json{{"index", -2}, {"count", 2}, {"pieces", 3}},
+          bench::Json{{"index", 2}, {"count", 2.5}, {"pieces", 3}},
+          bench::Json{{"index", 3}, {"count", 2}, {"pieces", 3}, {"rows_of_pieces", {{0, 2}, {2, 0}}}},
+          bench::Json{{"index", 2}, {"count", 2}, {"pieces", 3}, {"rows_of_pieces", 7}},
+          bench::Json{{"index", 2}, {"count", 2}, {"pieces", 3}, {"rows_of_pieces", {{0, 2, 0}}}},
+          bench::Json{
+              {"index", 2}, {"count", 2}, {"pieces", 3}, {"rows_of_pieces", {{0, 18446744073709551615U}, {2, 3}}}}}) {
+        expect_refused([&](Shards& s) { s[1].results.context["shard"] = damaged; }, glsum::Exit::bad_input,
+                       "second.json: ");
+    }
+}
+
+TEST(Merge, MixedHostsAreMarked) {
+    std::vector<bench::NamedResults> shards = two_shards();
+    shards[1].results.context["cpu"] = "y";
+    const bench::Results merged = bench::merge(std::move(shards), true);
+    EXPECT_EQ(merged.context["mixed_hosts"], "true");
+    EXPECT_EQ(merged.context["shards"][0]["cpu"], "x");
+    EXPECT_EQ(merged.context["shards"][1]["cpu"], "y");
+}
+
+}  // namespace
