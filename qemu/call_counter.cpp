@@ -1,12 +1,14 @@
 #include "qemu/call_counter.hpp"
 
 #include <istream>
+#include <optional>
 #include <ostream>
-#include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "qemu/thumb.hpp"
+#include "qemu/words.hpp"
 
 namespace qemu {
 namespace {
@@ -123,33 +125,47 @@ void CallCounter::write(std::ostream& out) const {
 }
 
 CallLog read_call_log(std::istream& in) {
+    constexpr std::size_t longest_line = 16U << 20;  // a function's addresses, each of at most 11 characters
+    constexpr std::size_t most_runs = 50'000'000;
+    const auto refuse = [](const std::string& what) { return std::runtime_error("call log: " + what.substr(0, 200)); };
     CallLog log;
     std::string line;
     while (std::getline(in, line)) {
-        std::istringstream words(line);
-        std::string kind;
-        words >> kind;
+        if (line.size() > longest_line || log.runs.size() > most_runs) {
+            throw refuse("larger than any program's: " + line);
+        }
+        Words words(line);
+        const std::string_view kind = words.next();
         if (kind == "calls") {
-            CallRun run;
-            words >> run.entry >> run.calls >> run.counts.instructions >> run.counts.loads >> run.counts.stores >>
-                run.counts.branches;
-            if (!words) {
-                throw std::runtime_error("call log: damaged line: " + line);
+            const auto entry = words.number<std::uint32_t>();
+            std::optional<std::uint64_t> numbers[5];
+            bool whole = entry.has_value();
+            for (auto& number : numbers) {
+                number = words.number<std::uint64_t>();
+                whole = whole && number;
             }
-            log.runs.push_back(run);
+            if (!whole || *numbers[0] == 0 || !words.done()) {
+                throw refuse("damaged line: " + line);
+            }
+            log.runs.push_back({*entry, *numbers[0], {*numbers[1], *numbers[2], *numbers[3], *numbers[4]}});
         } else if (kind == "reached") {
-            std::uint32_t entry = 0;
-            words >> entry;
-            for (std::uint32_t address = 0; words >> address;) {
-                log.reached[entry].insert(address);
+            const auto entry = words.number<std::uint32_t>();
+            bool whole = entry.has_value();
+            while (whole && !words.done()) {
+                const auto address = words.number<std::uint32_t>();
+                whole = address.has_value();
+                log.reached[*entry].insert(address.value_or(0));
             }
-        } else if (kind == "end") {
+            if (!whole) {
+                throw refuse("damaged line: " + line);
+            }
+        } else if (kind == "end" && words.done()) {
             return log;
         } else {
-            throw std::runtime_error("call log: " + line);
+            throw refuse(line);
         }
     }
-    throw std::runtime_error("call log: cut short: the emulator ended before it was written");
+    throw refuse("cut short: the emulator ended before it was written");
 }
 
 }  // namespace qemu

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gelf.h>
 #include <libelf.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cstring>
@@ -16,6 +17,13 @@ namespace {
 
 using glsum::Exit;
 using glsum::Failure;
+
+// Beyond these a file is refused: no firmware for a microcontroller comes near, and a damaged one does not fill the
+// memory by sections that share bytes or names.
+constexpr off_t most_bytes = 256 << 20;
+constexpr std::size_t most_section_bytes = 64U << 20;  // all together
+constexpr std::size_t most_symbols = 1'000'000;
+constexpr std::size_t longest_name = 8192;
 
 struct Descriptor {
     int number;
@@ -38,6 +46,10 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
     if (file.number < 0) {
         throw refuse(std::strerror(errno));
     }
+    struct stat status {};
+    if (fstat(file.number, &status) != 0 || !S_ISREG(status.st_mode) || status.st_size > most_bytes) {
+        throw refuse(fmt::format("no regular file of at most {} bytes", most_bytes));
+    }
     const std::unique_ptr<::Elf, int (*)(::Elf*)> elf(elf_begin(file.number, ELF_C_READ, nullptr), elf_end);
     GElf_Ehdr header;
     if (!elf || elf_kind(elf.get()) != ELF_K_ELF || gelf_getehdr(elf.get(), &header) == nullptr) {
@@ -46,6 +58,8 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
     if (header.e_machine != EM_ARM || header.e_type != ET_EXEC || gelf_getclass(elf.get()) != ELFCLASS32) {
         throw refuse(fmt::format("an ELF of machine {} and type {}", header.e_machine, header.e_type));
     }
+    std::size_t bytes_left = most_section_bytes;
+    std::size_t symbols_left = most_symbols;
     for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section)) != nullptr;) {
         GElf_Shdr info;
         Elf_Data* data = elf_getdata(section, nullptr);
@@ -53,11 +67,20 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
             throw refuse("a damaged section");
         }
         if ((info.sh_flags & SHF_ALLOC) != 0 && info.sh_type == SHT_PROGBITS && data->d_buf != nullptr) {
+            if (data->d_size > bytes_left) {
+                throw refuse(fmt::format("more than {} bytes in its sections", most_section_bytes));
+            }
+            bytes_left -= data->d_size;
             const auto* bytes = static_cast<const unsigned char*>(data->d_buf);
             sections_.push_back({static_cast<std::uint32_t>(info.sh_addr), {bytes, bytes + data->d_size}});
         }
         if (info.sh_type == SHT_SYMTAB && info.sh_entsize != 0) {
-            for (std::size_t i = 0; i < info.sh_size / info.sh_entsize; ++i) {
+            const std::size_t symbols = info.sh_size / info.sh_entsize;
+            if (symbols > symbols_left) {
+                throw refuse(fmt::format("more than {} symbols", most_symbols));
+            }
+            symbols_left -= symbols;
+            for (std::size_t i = 0; i < symbols; ++i) {
                 GElf_Sym symbol;
                 if (gelf_getsym(data, static_cast<int>(i), &symbol) == nullptr) {
                     throw refuse("a damaged symbol table");
@@ -65,6 +88,9 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
                 const char* name = elf_strptr(elf.get(), info.sh_link, symbol.st_name);
                 if (name == nullptr || symbol.st_shndx == SHN_UNDEF) {
                     continue;
+                }
+                if (strnlen(name, longest_name + 1) > longest_name) {
+                    throw refuse(fmt::format("a symbol's name of more than {} bytes", longest_name));
                 }
                 const bool function = GELF_ST_TYPE(symbol.st_info) == STT_FUNC;
                 const auto address = static_cast<std::uint32_t>(symbol.st_value) & (function ? ~1U : ~0U);

@@ -22,6 +22,8 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
+constexpr std::size_t longest_line = 64U << 10;
+
 // A child with one pipe for its output and errors. It is killed when this object goes, and when this process dies.
 class Child {
 public:
@@ -122,6 +124,10 @@ void emulate(const Emulator& emulator, const std::filesystem::path& elf, const s
     std::string tail;  // the last lines, for the message when it fails
     for (bool more = true; more;) {
         more = child.read_some(text, emulator.silence_limit);
+        if (text.size() > longest_line && text.find('\n') == std::string::npos) {
+            throw Failure(Exit::check_failed, fmt::format("{} wrote a line of more than {} bytes: {}...",
+                                                          elf.filename().string(), longest_line, text.substr(0, 60)));
+        }
         for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
             const std::string one = text.substr(0, end);
             tail = (tail + "\n  " + one).substr(tail.size() > 1000 ? tail.find('\n', 1) : 0);

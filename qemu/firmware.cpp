@@ -7,10 +7,10 @@
 #include <fstream>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 #include "glsum/registry.hpp"
+#include "qemu/answers.hpp"
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
@@ -40,47 +40,6 @@ void write_plan(const std::filesystem::path& path, const std::filesystem::path& 
     if (!samples.flush() || !out.flush()) {
         throw Failure(Exit::check_failed, fmt::format("{}: cannot write", path.parent_path().string()));
     }
-}
-
-// The firmware's answer, line by line: checks that it is complete and in order.
-class Answers {
-public:
-    explicit Answers(std::size_t rows) : rows_(rows) {}
-
-    /// The words behind `row <n>` when the line is the next row's. Other lines (the emulator's own words) are not ours:
-    /// they are told when it fails.
-    std::optional<std::istringstream> take(const std::string& line) {
-        std::istringstream words(line);
-        std::string kind;
-        std::size_t number = 0;
-        words >> kind >> number;
-        if (kind == "end") {
-            ended_ = words && number == rows_;
-        } else if (kind == "row") {
-            if (!words || number != taken_ || taken_ == rows_) {
-                throw Failure(Exit::check_failed, "the firmware answered out of turn: " + line);
-            }
-            ++taken_;
-            return words;
-        }
-        return std::nullopt;
-    }
-    void check_complete() const {
-        if (!ended_ || taken_ != rows_) {
-            throw Failure(Exit::check_failed,
-                          fmt::format("the firmware answered {} rows of {} and stopped", taken_, rows_));
-        }
-    }
-
-private:
-    std::size_t rows_;
-    std::size_t taken_ = 0;
-    bool ended_ = false;
-};
-
-template <class Row>
-Row damaged(const std::string& line) {
-    throw Failure(Exit::check_failed, "the firmware answered a damaged row: " + line);
 }
 
 // The loops of targets/firmware/check_loops.S, whose counts its comment derives.
@@ -258,14 +217,8 @@ std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> 
     Answers answers(plan.size());
     std::vector<ReplayedRow> rows;
     emulate(board.emulator, board.replay_elf, {scratch.file("plan").string()}, "", [&](const std::string& line) {
-        if (auto words = answers.take(line)) {
-            unsigned status = 0;
-            *words >> status;
-            ReplayedRow row{static_cast<glsum::Status>(status), 0};
-            if (row.status == glsum::Status::ok) {
-                *words >> std::hex >> row.hash;
-            }
-            rows.push_back(*words ? row : damaged<ReplayedRow>(line));
+        if (const auto row = answers.take_replayed(line)) {
+            rows.push_back(*row);
             done();
         }
     });
@@ -294,16 +247,8 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
         fmt::format("{},watch={},out={},stream={}", board.plugin.string(), scratch.file("watch").string(),
                     scratch.file("calls").string(), counting == Counting::stream ? "on" : "off");
     emulate(board.emulator, board.measure_elf, {scratch.file("plan").string()}, plugin, [&](const std::string& line) {
-        if (auto words = answers.take(line)) {
-            unsigned status = 0;
-            *words >> status;
-            MeasuredRow row{};
-            row.status = static_cast<glsum::Status>(status);
-            if (row.status == glsum::Status::ok) {
-                *words >> std::hex >> row.hash >> std::dec >> row.stack_bytes >> row.state_bytes >>
-                    row.coefficient_bytes;
-            }
-            rows.push_back(*words ? row : damaged<MeasuredRow>(line));
+        if (const auto row = answers.take_measured(line)) {
+            rows.push_back(*row);
             done();
         }
     });
@@ -317,7 +262,11 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
         if (rows[i].status == glsum::Status::ok) {
             const std::uint32_t entry = watch.kernels.at(plan[i].kernel);
             summarise(rows[i], calls, entry, plan[i].taps);
-            rows[i].code_bytes = code_bytes(elf, log.reached.at(entry));
+            const auto reached = log.reached.find(entry);
+            if (reached == log.reached.end()) {
+                throw Failure(Exit::check_failed, "the instrument saw no instruction of " + plan[i].kernel);
+            }
+            rows[i].code_bytes = code_bytes(elf, reached->second);
         }
     }
     if (!calls.empty()) {

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <system_error>
 
 #include "port.hpp"
 
@@ -25,10 +26,11 @@ inline std::string_view take_word(std::string_view& text) {
     return word;
 }
 
-inline std::uint64_t to_number(std::string_view word, int base = 10) {
-    std::uint64_t number = 0;
-    std::from_chars(word.data(), word.data() + word.size(), number, base);
-    return number;
+/// Reads a whole word as a number into `value`. \return whether it is one that fits.
+template <class Number>
+bool to_number(std::string_view word, Number& value, int base = 10) {
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value, base);
+    return error == std::errc{} && end == word.data() + word.size();
 }
 
 struct PlanRow {
@@ -39,14 +41,14 @@ struct PlanRow {
     std::size_t calls;
 };
 
-inline PlanRow take_row(std::string_view& plan) {
-    PlanRow row{};
+/// Takes the next row off the plan. \return whether all its words are there and are numbers.
+inline bool take_row(std::string_view& plan, PlanRow& row) {
     row.kernel = take_word(plan);
-    row.order = std::bit_cast<double>(to_number(take_word(plan), 16));
-    row.taps = static_cast<std::size_t>(to_number(take_word(plan)));
-    row.signal = static_cast<std::size_t>(to_number(take_word(plan)));
-    row.calls = static_cast<std::size_t>(to_number(take_word(plan)));
-    return row;
+    std::uint64_t order = 0;
+    const bool whole = to_number(take_word(plan), order, 16) && to_number(take_word(plan), row.taps) &&
+                       to_number(take_word(plan), row.signal) && to_number(take_word(plan), row.calls);
+    row.order = std::bit_cast<double>(order);
+    return whole;
 }
 
 /// One line of the answer: words with a space before each, then the line's end.

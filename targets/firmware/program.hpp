@@ -67,19 +67,25 @@ int run_plan(RunRow run_row) {
         return 2;
     }
     const auto signals = port::read_file(take_word(plan), signal_bytes);
-    const auto samples = static_cast<std::size_t>(to_number(take_word(plan)));
-    if (samples == 0 || signals.size() % (samples * sizeof(double)) != 0 || signals.empty()) {
+    std::size_t samples = 0;  // of each signal
+    const std::size_t all_samples = signals.size() / sizeof(double);
+    if (!to_number(take_word(plan), samples) || samples == 0 || all_samples == 0 || all_samples % samples != 0 ||
+        signals.size() % sizeof(double) != 0) {
         port::write("error: the signals do not have the length that the plan names\n");
         return 2;
     }
     const auto* doubles = reinterpret_cast<const double*>(signals.data());
     std::size_t number = 0;
     for (; !plan.empty(); ++number) {
-        const PlanRow row = take_row(plan);
+        PlanRow row{};
+        if (!take_row(plan, row)) {
+            port::write("error: the plan has a damaged row\n");
+            return 2;
+        }
         Answer answer("row");
         answer.number(number);
         bool found = false;
-        if ((row.signal + 1) * samples * sizeof(double) <= signals.size()) {
+        if (row.signal < all_samples / samples) {
             glsum::Registry::for_each([&]<class K>() {
                 if (K::name() == row.kernel) {
                     found = true;
