@@ -15,5 +15,7 @@ void add_bench(CLI::App& app, const PassedOn& passed_on);
 
 /// `merge`.
 void add_merge(CLI::App& app);
+/// `report`: a page, pictures and tables of result files.
+void add_report(CLI::App& app);
 
 }  // namespace cli

@@ -1,0 +1,186 @@
+
+// ---- The rows, out of their columns.
+
+const decodeBytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
+
+// A column as {at(row) -> value}: a text, a number or NaN.
+function decodeColumn(column) {
+  if (column.float32) {
+    const cells = new Float32Array(decodeBytes(column.float32));
+    return row => Number(cells[row].toPrecision(7));
+  }
+  const values = column.values.map(value => value === null ? NaN : value);
+  if (!column.at) {
+    return () => values[0];
+  }
+  const Cells = {8: Uint8Array, 16: Uint16Array, 32: Uint32Array}[column.bits];
+  const cells = new Cells(decodeBytes(column.at));
+  return row => values[cells[row]];
+}
+
+function decodeTable(table) {
+  const decoded = {aspect: table.aspect, rows: table.rows, text: {}, number: {}};
+  for (const name in table.texts) {
+    decoded.text[name] = decodeColumn(table.texts[name]);
+  }
+  for (const name in table.numbers) {
+    decoded.number[name] = decodeColumn(table.numbers[name]);
+  }
+  return decoded;
+}
+
+const textOf = (table, name, row) => table.text[name] ? table.text[name](row) : "";
+const numberOf = (table, name, row) => table.number[name] ? table.number[name](row) : NaN;
+
+// "2+7" are two taps and seven modes: nine of something.
+const tapsNumber = (taps, samples, longest) =>
+  taps === "full" ? samples || longest * 1.7 : d3.sum(taps.split("+"), part => /^\d+$/.test(part) ? Number(part) : NaN) || NaN;
+
+// The three words of a kernel's name; peers and others are their own.
+function wordsOf(kernel) {
+  const words = kernel.split("_");
+  return words.length === 3 ? {history: words[0], technique: words[1], format: words[2]}
+                            : {history: kernel, technique: kernel, format: kernel};
+}
+
+const wholeSignal = signal => !signal.includes(",");  // the amplitude sweep is another question
+
+/// What each kernel does at each order and length of one file, whatever the signal: cases[order][kernel][taps] =
+/// {kernel, order, taps, at: number of taps, signals: {signal: {counters}}, host, m7: {core: counters}, fault}.
+function joinFile(file) {
+  const tables = file.tables.map(decodeTable);
+  const samples = file.context.n_samples;
+  const cases = new Map();
+  const allTaps = new Set();
+  const host = new Map();  // by kernel and taps: one order serves all
+  const kernels = new Set();
+  for (const table of tables) {
+    for (let row = 0; row < table.rows && table.text.taps; ++row) {
+      allTaps.add(table.text.taps(row));
+    }
+  }
+  const longest = d3.max([...allTaps].filter(taps => taps !== "full"), taps => tapsNumber(taps)) || 1;
+  const lengths = new Map([...allTaps].map(taps => [taps, tapsNumber(taps, samples, longest)]).sort((a, b) => a[1] - b[1]));
+  const caseOf = (table, row) => {
+    const order = table.text.order(row), kernel = table.text.kernel(row), taps = table.text.taps(row);
+    if (!cases.has(order)) cases.set(order, new Map());
+    const byKernel = cases.get(order);
+    if (!byKernel.has(kernel)) byKernel.set(kernel, new Map());
+    const byTaps = byKernel.get(kernel);
+    if (!byTaps.has(taps)) {
+      byTaps.set(taps, {kernel, order, taps, at: lengths.get(taps), signals: {}, m7: {}, fault: ""});
+    }
+    kernels.add(kernel);
+    return byTaps.get(taps);
+  };
+  for (const table of tables) {
+    if (!table.text.kernel) continue;
+    const names = Object.keys(table.number);
+    const counters = row => {
+      const found = {};
+      for (const name of names) {
+        const value = table.number[name](row);
+        if (!Number.isNaN(value)) found[name] = value;
+      }
+      return found;
+    };
+    for (let row = 0; row < table.rows; ++row) {
+      const fault = textOf(table, "fault", row);
+      if (table.aspect === "host") {
+        const key = table.text.kernel(row) + "/" + table.text.taps(row);
+        if (!host.has(key)) host.set(key, {repetitions: [], fault: ""});
+        if (fault) host.get(key).fault = fault; else host.get(key).repetitions.push(counters(row));
+        kernels.add(table.text.kernel(row));
+        continue;
+      }
+      const found = caseOf(table, row);
+      if (fault) {
+        found.fault = table.aspect + ": " + fault;
+      } else if (table.aspect === "accuracy") {
+        found.signals[textOf(table, "signal", row)] = counters(row);
+      } else {
+        found.m7[table.aspect] = counters(row);
+      }
+    }
+  }
+  for (const byKernel of cases.values()) {
+    for (const byTaps of byKernel.values()) {
+      for (const found of byTaps.values()) {
+        const timed = host.get(found.kernel + "/" + found.taps);
+        if (!timed) continue;
+        if (timed.fault) found.fault = found.fault || "host: " + timed.fault;
+        if (timed.repetitions.length > 0) {
+          found.host = {...timed.repetitions[0]};
+          for (const counter of ["real_time", "cycles_per_sample"]) {
+            const value = d3.median(timed.repetitions, repetition => repetition[counter]);
+            if (value !== undefined) found.host[counter] = value;
+          }
+        }
+      }
+    }
+  }
+  return {name: file.name, context: file.context, bounds: file.bounds, tables, cases, kernels: [...kernels], lengths,
+          samples};
+}
+
+/// The error of a case for one signal, or the worst of the signals: {value, signal}; undefined if there is none.
+function errorOf(found, counter, signal) {
+  if (signal !== "worst") {
+    const value = found.signals[signal] && found.signals[signal][counter];
+    return value === undefined ? undefined : {value, signal};
+  }
+  let worst;
+  for (const name in found.signals) {
+    const value = found.signals[name][counter];
+    if (wholeSignal(name) && value !== undefined && (!worst || value > worst.value)) {
+      worst = {value, signal: name};
+    }
+  }
+  return worst;
+}
+
+const firstSignal = found => Object.values(found.signals)[0] || {};
+
+// State and coefficients, on the target where the kernel runs there.
+function bytesOf(found) {
+  for (const counters of [...Object.values(found.m7), firstSignal(found), found.host || {}]) {
+    if (counters.state_bytes !== undefined && counters.coefficient_bytes !== undefined) {
+      return counters.state_bytes + counters.coefficient_bytes;
+    }
+  }
+  return undefined;
+}
+
+/// What an error is drawn against: {id, title, unit, aspect, cost(case), band(case)}.
+function axesOf(files) {
+  const aspects = [...new Set(files.flatMap(file => file.tables.map(table => table.aspect)))].filter(a => a.startsWith("m7"));
+  const has = (aspect, counter) =>
+    files.some(file => file.tables.some(table => table.aspect === aspect && table.number[counter]));
+  const axes = [{id: "taps", title: "memory length", unit: "taps", cost: found => found.at}];
+  if (files.some(file => file.tables.some(table => table.aspect === "host"))) {
+    axes.push({id: "host", aspect: "host", title: "host time", unit: "ns per sample", cost: found => found.host && found.host.real_time});
+    if (has("host", "cycles_per_sample")) {
+      axes.push({id: "host-cycles", aspect: "host", title: "host cycles", unit: "cycles per sample", extra: true,
+                 cost: found => found.host && found.host.cycles_per_sample});
+    }
+  }
+  for (const aspect of aspects) {
+    if (has(aspect, "model_cycles_per_sample")) {
+      axes.push({id: "cycles-" + aspect, aspect, title: "modelled cycles, " + aspect.slice(3), unit: "model cycles per sample",
+                 cost: found => found.m7[aspect] && found.m7[aspect].model_cycles_per_sample,
+                 band: found => found.m7[aspect] && found.m7[aspect].model_cycles_low !== undefined &&
+                   found.m7[aspect].model_cycles_high !== undefined &&
+                   [found.m7[aspect].model_cycles_low, found.m7[aspect].model_cycles_high]});
+    }
+  }
+  const counted = aspects.find(aspect => has(aspect, "instructions_per_sample"));
+  if (counted) {
+    axes.push({id: "instructions", aspect: counted, title: "instructions, emulated Cortex-M7", unit: "instructions per sample, not cycles",
+               cost: found => {
+                 const row = Object.values(found.m7).find(counters => counters.instructions_per_sample !== undefined);
+                 return row && row.instructions_per_sample;
+               }});
+  }
+  axes.push({id: "bytes", title: "bytes", unit: "bytes of state and coefficients", cost: bytesOf});
+  return axes;
+}

@@ -1,0 +1,26 @@
+#include "bench/report/front.hpp"
+
+#include <algorithm>
+
+namespace bench::report {
+namespace {
+
+constexpr double same_error = 1.01;
+
+bool dominates(const Point& one, const Point& other) {
+    return one.cost <= other.cost && one.error <= other.error * same_error &&
+           (one.cost < other.cost || one.error * same_error < other.error);
+}
+
+}  // namespace
+
+std::vector<bool> on_front(std::span<const Point> points) {
+    std::vector<bool> on;
+    for (const Point& point : points) {
+        on.push_back(
+            std::none_of(points.begin(), points.end(), [&](const Point& other) { return dominates(other, point); }));
+    }
+    return on;
+}
+
+}  // namespace bench::report

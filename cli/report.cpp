@@ -1,0 +1,76 @@
+// glsum report: result files as a page to look at.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "bench/build_info.hpp"
+#include "bench/files.hpp"
+#include "bench/report/report.hpp"
+#include "bench/result_file.hpp"
+#include "cli/commands.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+namespace {
+
+struct Options {
+    std::vector<std::filesystem::path> files;
+    std::filesystem::path out;
+    unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+};
+
+bench::report::Input read(const std::filesystem::path& path) {
+    return {path.filename().string(), bench::read_results(path)};
+}
+
+void run(Options options) {
+    if (options.files.empty()) {
+        options.files = {std::filesystem::path(build_info::source_folder) / "results" / "latest.json"};
+    }
+    if (options.out.empty()) {
+        options.out = options.files[0];
+        options.out.replace_extension(".html");
+    }
+    for (const auto& file : options.files) {
+        if (std::filesystem::weakly_canonical(file) == std::filesystem::weakly_canonical(options.out)) {
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 fmt::format("--out: {} is a result file; it would be overwritten", file.string()));
+        }
+    }
+    bench::check_writable(options.out);
+    const bench::report::Input input = read(options.files[0]);
+    const auto other = options.files.size() > 1 ? std::optional(read(options.files[1])) : std::nullopt;
+    const auto written = bench::report::write_report(input, other ? &*other : nullptr, options.out, options.jobs);
+    fmt::print("{} rows of {}", input.results.rows.size(), options.files[0].string());
+    if (other) {
+        fmt::print(" and {} of {}", other->results.rows.size(), options.files[1].string());
+    }
+    fmt::print("\n");
+    for (const auto& file : written) {
+        fmt::print("  {} ({:.0f} kB)\n", file.string(), static_cast<double>(std::filesystem::file_size(file)) / 1e3);
+    }
+}
+
+}  // namespace
+
+void add_report(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("report", "A page, pictures and tables of one result file, or of two compared");
+    command->footer(
+        "The page is one file, loads nothing and opens in any browser.\n"
+        "Example: glsum report results/latest.json other.json --out compared.html");
+    command
+        ->add_option("files", options->files,
+                     "Result files: A (default results/latest.json), then B to hold against it")
+        ->expected(0, 2);
+    command->add_option("--out", options->out,
+                        "The page; .csv, .svg and .png are written beside it (default: beside A)");
+    command->add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace cli
