@@ -10,12 +10,23 @@
 
 namespace bench {
 
+/// Where buffers begin: so many cache lines behind the start of their memory, below `lines`.
+struct Placement {
+    static constexpr std::size_t line_bytes = 64;
+    static constexpr std::size_t lines =
+        4096 / line_bytes;  ///< a page: what stores and loads are told apart by at first
+    std::size_t table = 0;
+    std::size_t past = 0;
+};
+
 template <class K>
 class HostLine {
 public:
     /// Buffers for `design.taps`, at the start of a cache line; `status` says how `prepare` went.
-    explicit HostLine(const glsum::Design& design)
-        : taps_(design.taps), table_(K::table_count(design.taps)), past_(K::past_count(design.taps)) {
+    explicit HostLine(const glsum::Design& design, const Placement& placement = {})
+        : taps_(design.taps),
+          table_(K::table_count(design.taps), placement.table),
+          past_(K::past_count(design.taps), placement.past) {
         status_ = K::prepare(state_, design, table_.span(), past_.span());
     }
     [[nodiscard]] glsum::Status status() const { return status_; }
@@ -38,17 +49,23 @@ private:
     template <class T>
     class Buffer {
     public:
-        explicit Buffer(std::size_t count)
-            : data_(static_cast<T*>(::operator new (count * sizeof(T) + 64, std::align_val_t{64}))), count_(count) {
-            std::uninitialized_value_construct_n(data_.get(), count);
+        Buffer(std::size_t count, std::size_t lines)
+            : memory_(static_cast<std::byte*>(::operator new (count * sizeof(T) + (lines + 1) * Placement::line_bytes,
+                                                              std::align_val_t{Placement::line_bytes}))),
+              data_(reinterpret_cast<T*>(memory_.get() + lines * Placement::line_bytes)),
+              count_(count) {
+            std::uninitialized_value_construct_n(data_, count);
         }
-        [[nodiscard]] std::span<T> span() const { return {data_.get(), count_}; }
+        [[nodiscard]] std::span<T> span() const { return {data_, count_}; }
 
     private:
         struct Release {
-            void operator()(T* data) const { ::operator delete (data, std::align_val_t{64}); }
+            void operator()(std::byte* memory) const {
+                ::operator delete (memory, std::align_val_t{Placement::line_bytes});
+            }
         };
-        std::unique_ptr<T, Release> data_;
+        std::unique_ptr<std::byte, Release> memory_;
+        T* data_;
         std::size_t count_;
     };
 

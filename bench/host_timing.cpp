@@ -5,7 +5,10 @@
 
 #include <cmath>
 #include <memory>
+#include <new>
+#include <random>
 #include <sstream>
+#include <utility>
 
 #include "bench/cycle_counter.hpp"
 #include "bench/host_line.hpp"
@@ -32,6 +35,47 @@ const CycleCounter& cycle_counter() {
     static const CycleCounter counter;
     return counter;
 }
+
+// Where the data of a timing lie decides up to a tenth of its time (which stores and loads share the low bits of their
+// addresses, for one), and a process would keep one draw for all of its repetitions. So each repetition draws anew, and
+// what placement does shows as the repetitions' spread instead of as a difference between runs.
+class Places {
+public:
+    std::size_t next() { return generator_() % Placement::lines; }
+    Placement placement() {
+        const std::size_t table = next();
+        return {table, next()};
+    }
+
+private:
+    std::mt19937_64 generator_{1};
+};
+
+Places& places() {
+    static Places places;
+    return places;
+}
+
+// An object that begins at a drawn place.
+template <class T>
+class Placed {
+public:
+    template <class... Arguments>
+    explicit Placed(Arguments&&... arguments) : memory_(sizeof(T) + (Placement::lines + 1) * Placement::line_bytes) {
+        void* place = memory_.data() + places().next() * Placement::line_bytes;
+        std::size_t space = sizeof(T) + Placement::line_bytes;
+        object_ =
+            new (std::align(Placement::line_bytes, sizeof(T), place, space)) T(std::forward<Arguments>(arguments)...);
+    }
+    Placed(const Placed&) = delete;
+    Placed& operator=(const Placed&) = delete;
+    ~Placed() { object_->~T(); }
+    T& operator*() { return *object_; }
+
+private:
+    std::vector<std::byte> memory_;
+    T* object_;
+};
 
 // Runs `step` on the stream for as long as Google Benchmark wants, then checks the output that follows.
 // step: sample index -> output, as a real; expected_error: its bound.
@@ -65,7 +109,8 @@ void time_line(benchmark::State& state, const std::vector<Sample>& samples, cons
 
 template <class K>
 void time_kernel(benchmark::State& state, double order, std::size_t taps, const std::vector<reference::Real>& weights) {
-    HostLine<K> line({order, taps});
+    Placed<HostLine<K>> placed(glsum::Design{order, taps}, places().placement());
+    HostLine<K>& line = *placed;
     if (line.status() != glsum::Status::ok) {
         state.SkipWithError(to_text(line.status()).c_str());
         return;
@@ -93,7 +138,8 @@ void time_peer(benchmark::State& state, const Peer& peer, double order, std::siz
     for (const auto& weight : weights) {
         coefficients.push_back(static_cast<float>(weight));
     }
-    PeerLine line(peer, coefficients);
+    Placed<PeerLine> placed(peer, coefficients, places().next() * Placement::line_bytes / sizeof(float));
+    PeerLine& line = *placed;
     const std::vector<float> samples(stream().begin(), stream().end());
     // Any order of summation: every term may pass every addition.
     const double bound = 1.01 * static_cast<double>(taps + 2) * glsum::F32::sum_roundoff * signal_peak *

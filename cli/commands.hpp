@@ -17,5 +17,7 @@ void add_bench(CLI::App& app, const PassedOn& passed_on);
 void add_merge(CLI::App& app);
 /// `report`: a page, pictures and tables of result files.
 void add_report(CLI::App& app);
+/// `gate`.
+void add_gate(CLI::App& app);
 
 }  // namespace cli

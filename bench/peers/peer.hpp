@@ -30,19 +30,26 @@ struct Peer {
 /// A peer's dot product over its sliding window.
 class PeerLine {
 public:
-    PeerLine(const Peer& peer, const std::vector<float>& coefficients)
-        : taps_(coefficients.size()), window_(2 * taps_, 0.0F), dot_(peer.make(coefficients)) {}
+    /// \param skipped  samples before the window, which place it in memory
+    PeerLine(const Peer& peer, const std::vector<float>& coefficients, std::size_t skipped = 0)
+        : taps_(coefficients.size()),
+          memory_(skipped + 2 * taps_, 0.0F),
+          window_(memory_.data() + skipped),
+          dot_(peer.make(coefficients)) {}
+    PeerLine(const PeerLine&) = delete;
+    PeerLine& operator=(const PeerLine&) = delete;
 
     float step(float newest) {
         head_ = (head_ == 0 ? taps_ : head_) - 1;
         window_[head_] = window_[head_ + taps_] = newest;
-        return dot_->dot(window_.data() + head_);
+        return dot_->dot(window_ + head_);
     }
 
 private:
     std::size_t taps_;
     std::size_t head_ = 0;
-    std::vector<float> window_;
+    std::vector<float> memory_;
+    float* window_;
     std::unique_ptr<PeerDot> dot_;
 };
 

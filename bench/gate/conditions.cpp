@@ -1,0 +1,115 @@
+#include "bench/gate/conditions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+namespace bench::gate {
+namespace {
+
+// To which rows a field matters.
+enum class Matters { always, to_target, to_model, to_host };
+
+struct Field {
+    std::string_view name;
+    Matters matters;
+    Effect effect;
+};
+
+// Versions, commits, dates and hashes of programs are no conditions: that they changed is why someone compares.
+constexpr Field fields[] = {
+    {"schema", Matters::always, Effect::incomparable},
+    {"compiler", Matters::always, Effect::incomparable},
+    {"flags", Matters::always, Effect::incomparable},
+    {"contraction", Matters::always, Effect::incomparable},
+    {"n_samples", Matters::always, Effect::incomparable},
+    {"seed", Matters::always, Effect::incomparable},
+    {"target_compiler", Matters::to_target, Effect::incomparable},
+    {"target_flags", Matters::to_target, Effect::incomparable},
+    {"target_count_order", Matters::to_target, Effect::incomparable},
+    {"placement", Matters::to_target, Effect::incomparable},
+    // With its hash, under whatever key that begins so.
+    {"core_file", Matters::to_model, Effect::incomparable},
+    {"cpu", Matters::to_host, Effect::advisory},
+    {"cycle_counter", Matters::to_host, Effect::advisory},
+    {"simd", Matters::to_host, Effect::advisory},
+    {"peer_flags", Matters::to_host, Effect::advisory},
+    // Which instructions an architecture executes is not the emulator's choice; a fault of one version would be.
+    {"qemu_version", Matters::to_target, Effect::note},
+};
+
+bool matters(Matters to, const std::vector<Kind>& kinds) {
+    const auto has = [&](Kind kind) { return std::find(kinds.begin(), kinds.end(), kind) != kinds.end(); };
+    switch (to) {
+        case Matters::always:
+            return true;
+        case Matters::to_target:
+            return has(Kind::target_count) || has(Kind::target_model);
+        case Matters::to_model:
+            return has(Kind::target_model);
+        case Matters::to_host:
+            return has(Kind::host);
+    }
+    return true;
+}
+
+std::string text_of(const Json& context, const std::string& key) {
+    const auto found = context.find(key);
+    if (found == context.end()) {
+        return "(absent)";
+    }
+    return found->is_string() ? found->get<std::string>() : found->dump();
+}
+
+// The keys of a field in either context: itself, or for the core file all that begin with its name.
+std::vector<std::string> keys_of(const Field& field, const Json& baseline, const Json& current) {
+    std::vector<std::string> keys{std::string(field.name)};
+    if (field.matters == Matters::to_model) {
+        for (const Json* context : {&baseline, &current}) {
+            for (const auto& [key, value] : context->items()) {
+                if (key.starts_with(field.name) && std::find(keys.begin(), keys.end(), key) == keys.end()) {
+                    keys.push_back(key);
+                }
+            }
+        }
+    }
+    return keys;
+}
+
+}  // namespace
+
+std::vector<Difference> differences(const Json& baseline, const Json& current, const std::vector<Kind>& kinds) {
+    std::vector<Difference> found;
+    for (const Field& field : fields) {
+        if (!matters(field.matters, kinds)) {
+            continue;
+        }
+        for (const std::string& key : keys_of(field, baseline, current)) {
+            const std::string was = text_of(baseline, key);
+            const std::string is = text_of(current, key);
+            if (was != is) {
+                found.push_back({key, was, is, field.effect});
+            }
+        }
+    }
+    return found;
+}
+
+std::string incomparable(const std::vector<Difference>& differences) {
+    std::string text;
+    for (const Difference& difference : differences) {
+        if (difference.effect == Effect::incomparable) {
+            text += fmt::format("{}{}: {} in the baseline, {} now", text.empty() ? "" : "; ", difference.field,
+                                difference.baseline, difference.current);
+        }
+    }
+    return text;
+}
+
+bool has_effect(const std::vector<Difference>& differences, Effect effect) {
+    return std::any_of(differences.begin(), differences.end(),
+                       [&](const Difference& difference) { return difference.effect == effect; });
+}
+
+}  // namespace bench::gate

@@ -1,0 +1,64 @@
+#include "bench/gate/host_time.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <span>
+
+namespace bench::gate {
+namespace {
+
+constexpr std::size_t resamples = 4000;
+
+double median(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    if (values.size() % 2 == 1) {
+        return *middle;
+    }
+    return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+double log_ratio(std::vector<double>& kernel, std::vector<double>& anchor) {
+    return std::log(median(kernel) / median(anchor));
+}
+
+double log_ratio_of(const Timing& timing) {
+    std::vector<double> kernel = timing.kernel;
+    std::vector<double> anchor = timing.anchor;
+    return log_ratio(kernel, anchor);
+}
+
+// The ratio of one redrawn run. Kernel and anchor are drawn at the same places: what disturbed both stays with both.
+double resample(const Timing& timing, std::mt19937_64& generator, std::vector<double>& kernel,
+                std::vector<double>& anchor) {
+    const std::size_t count = std::min(timing.kernel.size(), timing.anchor.size());
+    kernel.resize(count);
+    anchor.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::size_t at = generator() % count;
+        kernel[i] = timing.kernel[at];
+        anchor[i] = timing.anchor[at];
+    }
+    return log_ratio(kernel, anchor);
+}
+
+}  // namespace
+
+TimeChange time_change(const Timing& baseline, const Timing& current, double confidence) {
+    std::mt19937_64 generator(2020);
+    std::vector<double> kernel;
+    std::vector<double> anchor;
+    std::vector<double> changes(resamples);
+    for (double& change : changes) {
+        change = -resample(baseline, generator, kernel, anchor);
+        change += resample(current, generator, kernel, anchor);
+    }
+    std::sort(changes.begin(), changes.end());
+    const auto at = [&](double share) {
+        return std::expm1(changes[static_cast<std::size_t>(share * static_cast<double>(resamples - 1))]);
+    };
+    return {std::expm1(log_ratio_of(current) - log_ratio_of(baseline)), at(1.0 - confidence), at(confidence)};
+}
+
+}  // namespace bench::gate

@@ -1,0 +1,148 @@
+// glsum gate: holds a run against a baseline, for continuous integration.
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+#include <utility>
+
+#include "bench/build_info.hpp"
+#include "bench/files.hpp"
+#include "bench/gate/baseline.hpp"
+#include "bench/gate/gate.hpp"
+#include "bench/gate/outputs.hpp"
+#include "cli/commands.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+namespace {
+
+using bench::gate::Verdict;
+using glsum::Exit;
+using glsum::Failure;
+
+const std::filesystem::path results_folder = std::filesystem::path(build_info::source_folder) / "results";
+
+struct Options {
+    std::filesystem::path baseline;
+    std::filesystem::path current = results_folder / "latest.json";
+    std::filesystem::path thresholds = results_folder / "thresholds.toml";
+    bool annotations = false;
+    bool update = false;
+    std::string reason;
+    std::vector<std::string> rows;
+};
+
+// An output that goes to a file where one is named and to standard output where none is.
+struct Output {
+    CLI::Option* option = nullptr;
+    std::string file;
+    std::string (*text)(const Verdict&) = nullptr;
+};
+
+Verdict judge(const Options& options) {
+    const bench::gate::Rules rules = bench::gate::read_rules(options.thresholds);
+    const bench::Results baseline = bench::read_results(options.baseline);
+    const bench::Results current = bench::read_results(options.current);
+    return bench::gate::judge(baseline, current, rules);
+}
+
+void update_baseline(const Options& options) {
+    if (options.reason.find_first_not_of(" \t\n") == std::string::npos) {
+        throw Failure(Exit::bad_input, "--update-baseline: expected --reason TEXT, which the baseline's history keeps");
+    }
+    const bench::Results current = bench::read_results(options.current);
+    bench::Json previous = bench::Json::object();
+    std::vector<std::string> rows = options.rows.empty() ? std::vector<std::string>{"*"} : options.rows;
+    std::string changed = "first recording";
+    if (std::filesystem::exists(options.baseline)) {
+        previous = bench::read_results(options.baseline).context;
+        if (options.rows.empty()) {
+            rows = bench::gate::selection_of(previous);
+        }
+        Verdict verdict = judge(options);
+        verdict.baseline_name = options.baseline.string();
+        verdict.current_name = options.current.string();
+        fmt::print("{}", bench::gate::to_table(verdict, isatty(STDOUT_FILENO) == 1));
+        changed = bench::gate::summary_of_changes(verdict);
+    }
+    const bench::Results baseline = bench::gate::make_baseline(current, rows, previous, options.reason, changed);
+    bench::gate::write_baseline(options.baseline, baseline);
+    fmt::print("\n{}: {} rows recorded; changed: {}\n", options.baseline.string(), baseline.rows.size(), changed);
+}
+
+void run(const Options& options, const std::vector<Output>& outputs) {
+    if (options.update) {
+        update_baseline(options);
+        return;
+    }
+    Verdict verdict;
+    std::string failure;
+    try {
+        verdict = judge(options);
+    } catch (const Failure& refused) {
+        // A gate that cannot judge must not look like one that did not run: the outputs say why.
+        verdict.status = refused.status();
+        verdict.refusal = refused.what();
+    }
+    verdict.baseline_name = options.baseline.string();
+    verdict.current_name = options.current.string();
+    bool to_stdout = false;
+    for (const Output& output : outputs) {
+        if (output.option->count() == 0) {
+            continue;
+        }
+        if (output.file.empty()) {
+            to_stdout = true;
+            fmt::print("{}", output.text(verdict));
+        } else {
+            bench::write_file(output.file, output.text(verdict));
+        }
+    }
+    if (!to_stdout && verdict.refusal.empty()) {
+        fmt::print("{}", bench::gate::to_table(verdict, isatty(STDOUT_FILENO) == 1));
+    }
+    if (options.annotations) {
+        fmt::print("{}", bench::gate::to_annotations(verdict));
+    }
+    if (verdict.status != Exit::good) {
+        const std::string word = verdict.refusal.empty() ? "gate: " + verdict.word() + ": " : "";
+        throw Failure(verdict.status, word + verdict.headline());
+    }
+}
+
+}  // namespace
+
+void add_gate(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    auto outputs = std::make_shared<std::vector<Output>>(3);
+    CLI::App* command = app.add_subcommand("gate", "Hold a run against a baseline: exit 1 where it got worse");
+    command->footer(
+        "Layers: rows, right answer, accuracy, instructions and bytes, modelled cycles, host time.\n"
+        "Exit status: 0 pass, 1 worse, 2 a file is broken, 4 the two runs cannot be compared.\n"
+        "Example: glsum gate --baseline results/baselines/m7.json --current my.json --junit gate.xml");
+    command->add_option("--baseline", options->baseline, "What to hold the run against")->required();
+    command->add_option("--current", options->current, "The run's result file")->capture_default_str();
+    command->add_option("--thresholds", options->thresholds, "Rules: what may change by how much, and why")
+        ->capture_default_str();
+    const auto add_output = [&](std::size_t i, const char* name, const char* help,
+                                std::string (*text)(const Verdict&)) {
+        Output& output = (*outputs)[i];
+        output.text = text;
+        output.option = command->add_option(name, output.file, help)->expected(0, 1)->type_name("[FILE]");
+    };
+    add_output(0, "--json", "Everything, for programs; to standard output without FILE", bench::gate::to_json);
+    add_output(1, "--junit", "Test report, likewise", bench::gate::to_junit);
+    add_output(2, "--markdown", "Step summary, likewise", bench::gate::to_markdown);
+    command->add_flag("--annotations", options->annotations, "GitHub annotations on standard output");
+    CLI::Option* update = command->add_flag("--update-baseline", options->update,
+                                            "Record the run as the new baseline instead (needs --reason)");
+    command->add_option("--reason", options->reason, "Why the baseline changes: kept in its history")->needs(update);
+    command
+        ->add_option("--rows", options->rows,
+                     "Globs of the rows that a new baseline keeps (default: as before, or all)")
+        ->delimiter(',')
+        ->needs(update);
+    command->callback([options, outputs] { run(*options, *outputs); });
+}
+
+}  // namespace cli
