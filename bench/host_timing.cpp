@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <memory>
 #include <new>
 #include <random>
@@ -192,35 +193,37 @@ void initialise(const std::vector<std::string>& flags, bool quick_default) {
 
 }  // namespace
 
-HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flags) {
+HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs, double order,
+                        const std::vector<std::string>& flags) {
     initialise(flags, true);
-    const double order = sweep.orders.front();
-    std::size_t registered = 0;
     const auto add = [&](const std::string& name, const Length& length, auto work) {
         benchmark::RegisterBenchmark(row_name(name, order, length, "host").c_str(), work);
-        ++registered;
     };
-    for (const Length& length : sweep.lengths) {
-        const auto weights = std::make_shared<const std::vector<reference::Real>>(
-            reference::weights(reference::Real(order), length.taps));
-        const std::size_t taps = length.taps;
-        for (const std::string& name : sweep.kernels) {
-            glsum::Registry::for_each([&]<class K>() {
-                if (K::name() == name) {
-                    add(name, length, [=](benchmark::State& state) { time_kernel<K>(state, order, taps, *weights); });
-                }
-            });
+    std::map<std::size_t, std::shared_ptr<const std::vector<reference::Real>>> weights_of;
+    for (const auto& [name, length] : pairs) {
+        auto& weights = weights_of[length.taps];
+        if (!weights) {
+            weights = std::make_shared<const std::vector<reference::Real>>(
+                reference::weights(reference::Real(order), length.taps));
         }
+        const std::size_t taps = length.taps;
+        glsum::Registry::for_each([&, &name = name, &length = length]<class K>() {
+            if (K::name() == name) {
+                add(name, length,
+                    [order, taps, weights](benchmark::State& state) { time_kernel<K>(state, order, taps, *weights); });
+            }
+        });
         for (const Peer& peer : peers()) {
-            if (std::find(sweep.peers.begin(), sweep.peers.end(), peer.name) != sweep.peers.end()) {
-                add(std::string(peer.name), length,
-                    [=](benchmark::State& state) { time_peer(state, peer, order, taps, *weights); });
+            if (peer.name == name) {
+                add(name, length, [&peer, order, taps, weights](benchmark::State& state) {
+                    time_peer(state, peer, order, taps, *weights);
+                });
             }
         }
     }
     Json json;
     {
-        Reporter reporter(registered);
+        Reporter reporter(pairs.size());
         benchmark::RunSpecifiedBenchmarks(&reporter);
         json = reporter.json();
     }
@@ -233,6 +236,18 @@ HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flag
         timing.rows.push_back(std::move(row));
     }
     return timing;
+}
+
+HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flags) {
+    std::vector<std::pair<std::string, Length>> pairs;
+    for (const Length& length : sweep.lengths) {
+        for (const auto& names : {sweep.kernels, sweep.peers}) {
+            for (const std::string& name : names) {
+                pairs.emplace_back(name, length);
+            }
+        }
+    }
+    return time_on_host(pairs, sweep.orders.front(), flags);
 }
 
 }  // namespace bench

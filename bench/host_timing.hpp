@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/row.hpp"
@@ -20,5 +21,9 @@ struct HostTiming {
 /// \param flags  Google Benchmark's own, as given by the user
 /// \throws glsum::Failure (bad input) for a flag that it does not know.
 [[nodiscard]] HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flags);
+
+/// The same for chosen pairs of a kernel and a length.
+[[nodiscard]] HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs, double order,
+                                      const std::vector<std::string>& flags);
 
 }  // namespace bench

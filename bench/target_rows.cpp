@@ -68,6 +68,23 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
 std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu::Board& board,
                                                  const std::vector<std::size_t>& pieces) {
     const TargetPlan plan = part_of(make_target_plan(sweep), pieces);
+std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan, const qemu::Signals& signals,
+                                     const qemu::Board& board, unsigned jobs, const qemu::RowDone& done) {
+    const auto compared = run_in_shares<qemu::MeasuredRow>(
+        plan, jobs, [&](const auto& share) { return qemu::measure(board, share, signals, done); },
+        [&](qemu::PlannedRow planned) {
+            ++planned.calls;  // the firmware makes one more, on a painted stack
+            return qemu::replay_here(planned, signals);
+        });
+    std::vector<Counted> counted;
+    for (const auto& [row, same] : compared) {
+        counted.push_back({row, same});
+    }
+    return counted;
+}
+
+std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board) {
+    const TargetPlan plan = make_target_plan(sweep);
     qemu::Signals signals;
     for (const std::string& name : sweep.signals) {
         signals.push_back(make_signal(name, sweep.samples, sweep.seed));
@@ -80,19 +97,14 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
 
     Progress progress("emulated Cortex-M7", plan.counts.size() + replay_plan.size());
     const auto done = [&] { progress.advance(); };
-    const auto counts = run_in_shares<qemu::MeasuredRow>(
-        plan.counts, sweep.jobs, [&](const auto& share) { return qemu::measure(board, share, signals, done); },
-        [&](qemu::PlannedRow planned) {
-            ++planned.calls;  // the firmware makes one more, on a painted stack
-            return qemu::replay_here(planned, signals);
-        });
+    const auto counts = count_on_target(plan.counts, signals, board, sweep.jobs, done);
     const auto replays = run_in_shares<qemu::ReplayedRow>(
         replay_plan, sweep.jobs, [&](const auto& share) { return qemu::replay(board, share, signals, done); },
         [&](const qemu::PlannedRow& planned) { return qemu::replay_here(planned, signals); });
 
     std::vector<bool> same_bits;
     for (const TargetPlan::Row& row : plan.rows) {
-        same_bits.push_back(counts[row.count].same);
+        same_bits.push_back(counts[row.count].same_bits);
     }
     for (std::size_t i = 0; i < replays.size(); ++i) {
         const std::size_t row = plan.replays[i].row;
@@ -104,6 +116,8 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
         auto& rows = result[static_cast<std::size_t>(std::lower_bound(pieces.begin(), pieces.end(), row.piece) -
                                                      pieces.begin())];
         rows.push_back(to_json(row, plan.counts[row.count].order, counts[row.count].target));
+        const std::size_t count = plan.rows[i].count;
+        result.push_back(to_json(plan.rows[i], plan.counts[count].order, counts[count].row));
         if (!same_bits[i]) {
             mark_error(rows.back(), "the target's outputs differ from the host's");
         }

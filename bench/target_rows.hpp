@@ -10,6 +10,17 @@
 
 namespace bench {
 
+/// One counted row, and whether the target computed the host's bits.
+struct Counted {
+    qemu::MeasuredRow row;
+    bool same_bits;
+};
+
+/// Counts the plan's rows on the emulated board, in shares of about equal cost. \param done  called after each row
+[[nodiscard]] std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan,
+                                                   const qemu::Signals& signals, const qemu::Board& board,
+                                                   unsigned jobs, const qemu::RowDone& done);
+
 /// For each kernel that runs on the target, order and length: instructions, loads, stores and branches of the first
 /// call and of a steady one, the worst of a whole turn, bytes of code, stack, state and coefficients. Named
 /// ".../m7:count": counts of instructions, never called cycles.

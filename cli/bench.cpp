@@ -13,6 +13,9 @@
 #include "bench/peers/peer.hpp"
 #include "bench/run.hpp"
 #include "bench/signals.hpp"
+#include "bench/table.hpp"
+#include "bench/target_rows.hpp"
+#include "cli/board.hpp"
 #include "cli/commands.hpp"
 #include "cli/finish_run.hpp"
 #include "glsum/registry.hpp"
@@ -137,6 +140,8 @@ void run(const Options& options, const PassedOn& flags) {
         board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
                                  source / "targets" / "mps2-an500" / "emulate");
         (void)qemu::emulator_version();
+    if (wants(options, "m7")) {
+        board = built_board();
     }
     const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
     if (!shard) {

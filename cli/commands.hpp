@@ -19,5 +19,7 @@ void add_merge(CLI::App& app);
 void add_report(CLI::App& app);
 /// `gate`.
 void add_gate(CLI::App& app);
+/// `choose`.
+void add_choose(CLI::App& app);
 
 }  // namespace cli

@@ -1,0 +1,165 @@
+#include "bench/choose/costs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+
+#include "bench/count_path.hpp"
+#include "bench/host_timing.hpp"
+#include "bench/progress.hpp"
+#include "bench/results.hpp"
+#include "bench/signals.hpp"
+#include "bench/target_rows.hpp"
+
+namespace choose {
+namespace {
+
+double number(const bench::Json& row, const char* counter) {
+    const auto found = row.find(counter);
+    return found != row.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
+// Of values in any order, at least one.
+double quantile(std::vector<double> values, double share) {
+    std::sort(values.begin(), values.end());
+    const double at = share * static_cast<double>(values.size() - 1);
+    const auto below = static_cast<std::size_t>(at);
+    const std::size_t above = std::min(below + 1, values.size() - 1);
+    return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+}  // namespace
+
+// The signal that bench counts on.
+Instructions::Instructions(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs)
+    : board_(std::move(board)), order_(order), signals_{bench::make_signal("noise", samples, seed + 1)}, jobs_(jobs) {}
+
+void Instructions::remember(const Case& of, const Cost& cost) { given_[of] = cost; }
+
+bool Instructions::dear(const std::string& kernel) const { return bench::double_in_software(kernel); }
+
+std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
+    std::vector<qemu::PlannedRow> plan;
+    std::vector<Case> planned;
+    for (const Case& wanted : cases) {
+        if (const auto given = given_.find(wanted); given != given_.end() && !known_.contains(wanted)) {
+            known_[wanted] = given->second;
+            ++remembered_;
+        }
+        if (!known_.contains(wanted) && std::find(planned.begin(), planned.end(), wanted) == planned.end()) {
+            plan.push_back({wanted.first, order_, wanted.second, 0, qemu::calls_to_measure(wanted.second)});
+            planned.push_back(wanted);
+        }
+    }
+    if (!plan.empty()) {
+        bench::Progress progress("emulated Cortex-M7", plan.size());
+        const auto counted = bench::count_on_target(plan, signals_, board_, jobs_, [&] { progress.advance(); });
+        for (std::size_t i = 0; i < plan.size(); ++i) {
+            const qemu::MeasuredRow& row = counted[i].row;
+            Cost cost{.value = row.instructions, .limited = row.instructions, .noise = 0.0, .bytes = 0.0, .fault = {}};
+            cost.bytes = static_cast<double>(row.state_bytes + row.coefficient_bytes);
+            if (row.status != glsum::Status::ok) {
+                cost.fault = bench::to_text(row.status);
+            } else if (!counted[i].same_bits) {
+                cost.fault = "the target's outputs differ from the host's";
+            }
+            known_[planned[i]] = cost;
+        }
+        measured_ += plan.size();
+    }
+    std::vector<Cost> costs;
+    for (const Case& wanted : cases) {
+        costs.push_back(known_.at(wanted));
+    }
+    return costs;
+}
+
+ModelCycles::ModelCycles(const std::vector<bench::Json>& rows, double order, const std::string& core,
+                         std::size_t samples) {
+    for (const bench::Json& row : rows) {
+        const auto key = bench::parse_key(row.value("name", ""));
+        if (!key || key->aspect != "m7:" + core || key->order != fmt::format("{}", order) ||
+            !row.contains("model_cycles_per_sample")) {
+            continue;
+        }
+        std::size_t taps = samples;
+        if (key->taps != "full") {
+            const auto [end, error] = std::from_chars(key->taps.data(), key->taps.data() + key->taps.size(), taps);
+            if (error != std::errc{} || end != key->taps.data() + key->taps.size() || taps > samples) {
+                continue;  // a size of its own kind, or longer than the record
+            }
+        }
+        Cost cost{
+            .value = number(row, "model_cycles_per_sample"), .limited = 0.0, .noise = 0.0, .bytes = 0.0, .fault = {}};
+        cost.limited = std::max(cost.value, number(row, "model_cycles_high"));
+        cost.bytes = number(row, "state_bytes") + number(row, "coefficient_bytes");
+        if (row.value("error_occurred", false)) {
+            cost.fault = row.value("error_message", "marked as wrong");
+        }
+        known_[{key->kernel, taps}] = cost;
+    }
+}
+
+std::optional<std::vector<std::size_t>> ModelCycles::lengths(const std::string& kernel) const {
+    std::vector<std::size_t> lengths;
+    for (const auto& [of, cost] : known_) {
+        if (of.first == kernel) {
+            lengths.push_back(of.second);
+        }
+    }
+    return lengths;
+}
+
+std::vector<Cost> ModelCycles::costs(const std::vector<Case>& cases) {
+    std::vector<Cost> costs;
+    for (const Case& wanted : cases) {
+        const auto found = known_.find(wanted);
+        costs.push_back(found != known_.end() ? found->second : Cost{.fault = "no modelled cycles in the file"});
+    }
+    return costs;
+}
+
+std::vector<Cost> HostTimes::costs(const std::vector<Case>& cases) {
+    if (cases.empty()) {
+        return {};
+    }
+    std::vector<std::pair<std::string, bench::Length>> pairs;
+    for (const auto& [kernel, taps] : cases) {
+        pairs.emplace_back(kernel, bench::Length{taps});
+    }
+    const bench::HostTiming timing = bench::time_on_host(
+        pairs, order_,
+        {"--benchmark_min_time=0.005", "--benchmark_repetitions=9", "--benchmark_enable_random_interleaving=true"});
+    cycle_counter_ = timing.context.value("cycle_counter", "unknown");
+    std::vector<Cost> costs(cases.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const std::string name = bench::row_name(cases[i].first, order_, pairs[i].second, "host");
+        std::vector<double> ns;
+        std::vector<double> cycles;
+        Cost& cost = costs[i];
+        for (const bench::Json& row : timing.rows) {
+            if (row.value("run_name", "") != name || row.value("run_type", "iteration") != "iteration") {
+                continue;
+            }
+            if (row.value("error_occurred", false)) {
+                cost.fault = row.value("error_message", "wrong");
+                continue;
+            }
+            ns.push_back(number(row, "real_time"));
+            cycles.push_back(number(row, "cycles_per_sample"));
+            cost.bytes = number(row, "state_bytes") + number(row, "coefficient_bytes");
+        }
+        if (ns.empty()) {
+            cost.fault = cost.fault.empty() ? "not timed" : cost.fault;
+            continue;
+        }
+        // The median, and half of what the middle half of the repetitions spans.
+        cost.value = quantile(ns, 0.5);
+        cost.noise = (quantile(ns, 0.75) - quantile(ns, 0.25)) / 2.0;
+        cost.limited = quantile(cycles, 0.5);
+    }
+    return costs;
+}
+
+}  // namespace choose

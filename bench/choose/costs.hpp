@@ -1,0 +1,104 @@
+// What kernels cost on a target, measured where it is asked for and remembered.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/result_file.hpp"
+#include "qemu/firmware.hpp"
+
+namespace choose {
+
+/// A kernel at a length.
+using Case = std::pair<std::string, std::size_t>;
+
+struct Cost {
+    double value = 0.0;    ///< what is ranked, in `CostSource::unit()` a sample
+    double limited = 0.0;  ///< what a limit holds against: cycles on the host, the band's upper end of a model
+    double noise = 0.0;    ///< half the spread of `value`; 0 for counts
+    double bytes = 0.0;    ///< state and coefficients
+    std::string fault;     ///< why the answer is wrong or missing; empty if it is right
+};
+
+class CostSource {
+public:
+    virtual ~CostSource() = default;
+    [[nodiscard]] virtual std::string unit() const = 0;          ///< of what is ranked: "instructions"
+    [[nodiscard]] virtual std::string limited_unit() const = 0;  ///< of what is limited
+    /// Whether equal code and length give equal costs, every time.
+    [[nodiscard]] virtual bool exact() const = 0;
+    /// Rising, the lengths that have a cost at all; nothing: every length has.
+    [[nodiscard]] virtual std::optional<std::vector<std::size_t>> lengths(const std::string&) const { return {}; }
+    /// Whether a kernel is known to be so dear that a short length should be measured before a long one.
+    [[nodiscard]] virtual bool dear(const std::string&) const { return false; }
+    [[nodiscard]] virtual std::vector<Cost> costs(const std::vector<Case>& cases) = 0;
+};
+
+/// Instructions a sample on the emulated Cortex-M7, the same for every run of the same firmware.
+class Instructions : public CostSource {
+public:
+    /// \param samples  of the noise on which double precision in software, whose count depends on the data, is counted
+    Instructions(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs);
+    void remember(const Case& of, const Cost& cost);
+
+    [[nodiscard]] std::string unit() const override { return "instructions"; }
+    [[nodiscard]] std::string limited_unit() const override { return unit(); }
+    [[nodiscard]] bool exact() const override { return true; }
+    [[nodiscard]] bool dear(const std::string& kernel) const override;
+    /// Each counted call's outputs are held against the host's, bit by bit.
+    [[nodiscard]] std::vector<Cost> costs(const std::vector<Case>& cases) override;
+
+    [[nodiscard]] std::size_t measured() const { return measured_; }
+    [[nodiscard]] std::size_t remembered() const { return remembered_; }
+
+private:
+    qemu::Board board_;
+    double order_;
+    qemu::Signals signals_;
+    unsigned jobs_;
+    std::map<Case, Cost> known_;
+    std::map<Case, Cost> given_;
+    std::size_t measured_ = 0;
+    std::size_t remembered_ = 0;
+};
+
+/// Cycles of the timing model, of the lengths that a result file has.
+class ModelCycles : public CostSource {
+public:
+    /// The rows `gl/<kernel>/order:<v>/taps:<L>/m7:<core>` of the order.
+    ModelCycles(const std::vector<bench::Json>& rows, double order, const std::string& core, std::size_t samples);
+    [[nodiscard]] bool empty() const { return known_.empty(); }
+
+    [[nodiscard]] std::string unit() const override { return "model cycles"; }
+    [[nodiscard]] std::string limited_unit() const override { return "model cycles, upper end of the band"; }
+    [[nodiscard]] bool exact() const override { return true; }
+    [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
+    [[nodiscard]] std::vector<Cost> costs(const std::vector<Case>& cases) override;
+
+private:
+    std::map<Case, Cost> known_;
+};
+
+/// Nanoseconds a sample here: all cases of one call in one run, in interleaved repetitions, since times of different
+/// runs do not compare. Never taken from a file, and never remembered.
+class HostTimes : public CostSource {
+public:
+    explicit HostTimes(double order) : order_(order) {}
+
+    [[nodiscard]] std::string unit() const override { return "ns"; }
+    [[nodiscard]] std::string limited_unit() const override { return "cycles"; }
+    [[nodiscard]] bool exact() const override { return false; }
+    [[nodiscard]] std::vector<Cost> costs(const std::vector<Case>& cases) override;
+    [[nodiscard]] const std::string& cycle_counter() const { return cycle_counter_; }
+
+private:
+    double order_;
+    std::string cycle_counter_;
+};
+
+}  // namespace choose

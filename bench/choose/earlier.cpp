@@ -1,0 +1,126 @@
+#include "bench/choose/earlier.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+
+#include "bench/results.hpp"
+#include "bench/signals.hpp"
+
+namespace choose {
+namespace {
+
+std::string text(const bench::Json& context, const char* field) {
+    const auto found = context.find(field);
+    return found == context.end() ? "" : found->is_string() ? found->get<std::string>() : found->dump();
+}
+
+// The first field in which two contexts differ, as "field (there, here)"; empty when they agree.
+std::string difference(const bench::Json& there, const bench::Json& here, std::initializer_list<const char*> fields) {
+    for (const char* field : fields) {
+        if (text(there, field) != text(here, field) || text(here, field).empty()) {
+            return fmt::format("{} is \"{}\" there and \"{}\" here", field, text(there, field), text(here, field));
+        }
+    }
+    return "";
+}
+
+std::optional<std::size_t> taps_of(const bench::RowKey& key, std::size_t samples) {
+    if (key.taps == "full") {
+        return samples;
+    }
+    std::size_t taps = 0;
+    const char* end = key.taps.data() + key.taps.size();
+    const auto [read_to, error] = std::from_chars(key.taps.data(), end, taps);
+    return error == std::errc{} && read_to == end && taps >= 1 && taps <= samples ? std::optional(taps) : std::nullopt;
+}
+
+// visit(key, taps, row) for the rows of the question's order without a fault.
+template <class Visit>
+void for_each_row(const Earlier& earlier, const Question& question, Visit visit) {
+    const std::string order = fmt::format("{}", question.conditions.order);
+    for (const bench::Json& row : earlier.rows) {
+        const auto key = bench::parse_key(row.value("name", ""));
+        if (!key || key->order != order || !key->amplitude.empty() || row.value("error_occurred", false) ||
+            row.value("run_type", "iteration") != "iteration") {
+            continue;
+        }
+        if (const auto taps = taps_of(*key, question.conditions.samples)) {
+            visit(*key, *taps, row);
+        }
+    }
+}
+
+}  // namespace
+
+Earlier read_earlier(const Question& question, const bench::Json& context) {
+    Earlier earlier;
+    if (question.results.empty()) {
+        earlier.note = "no earlier measurements were asked for";
+        return earlier;
+    }
+    const std::string name = question.results.filename().string();
+    if (!question.results_asked_for && !std::filesystem::exists(question.results)) {
+        earlier.note = fmt::format("{} is not there; everything is measured afresh", name);
+        return earlier;
+    }
+    bench::Results results = bench::read_results(question.results);
+    const std::string firmware = difference(results.context, context, {"elf_sha256"});
+    earlier.instructions = firmware.empty();
+    std::string build = difference(results.context, context, {"glsum_version", "compiler", "flags", "contraction"});
+    const bool clean = text(results.context, "dirty") == "false" && text(context, "dirty") == "false";
+    if (build.empty() && !firmware.empty()) {
+        // Another firmware, but the same host build if it is the same commit.
+        build = !clean ? "one of the two builds is of uncommitted sources"
+                       : difference(results.context, context, {"commit"});
+    }
+    if (build.empty()) {
+        build = difference(results.context, context, {"n_samples", "seed"});
+    }
+    if (build.empty() && question.conditions.step_s != bench::step_s) {
+        build = "its records are sampled at 1 ms";
+    }
+    earlier.errors = build.empty();
+    earlier.rows = std::move(results.rows);
+    earlier.note = fmt::format("errors: {}", earlier.errors ? "of " + name + " where it has them"
+                                                            : "measured afresh, not of " + name + ": " + build);
+    if (question.target == Target::m7) {
+        earlier.note += fmt::format("; instructions: {}", earlier.instructions ? "of " + name + " where it has them"
+                                                                               : "measured afresh: " + firmware);
+    }
+    return earlier;
+}
+
+void remember(const Earlier& earlier, const Question& question, MeasuredErrors& errors) {
+    if (!earlier.errors) {
+        return;
+    }
+    for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
+        if (key.aspect == "accuracy" && row.contains("error_max") && row["error_max"].is_number()) {
+            errors.remember(key.kernel, taps, key.signal, row["error_max"].get<double>());
+        }
+    });
+}
+
+void remember(const Earlier& earlier, const Question& question, Instructions& instructions) {
+    if (!earlier.instructions) {
+        return;
+    }
+    const std::string here = fmt::format("counted at order {}", question.conditions.order);
+    for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
+        if (key.aspect != "m7:count" || !row.contains("instructions_per_sample")) {
+            return;
+        }
+        // In software double the data decides, and with it the order at which the count was taken.
+        const std::string label = row.value("label", "");
+        if (instructions.dear(key.kernel) && label.find(here + ";") == std::string::npos) {
+            return;
+        }
+        Cost cost;
+        cost.value = cost.limited = row.value("instructions_per_sample", 0.0);
+        cost.bytes = row.value("state_bytes", 0.0) + row.value("coefficient_bytes", 0.0);
+        instructions.remember({key.kernel, taps}, cost);
+    });
+}
+
+}  // namespace choose

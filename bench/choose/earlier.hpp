@@ -1,0 +1,27 @@
+// Measurements of an earlier run, where they hold for this build.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/choose/question.hpp"
+#include "bench/result_file.hpp"
+
+namespace choose {
+
+/// What of a result file may be used, and why the rest may not.
+struct Earlier {
+    std::vector<bench::Json> rows;
+    bool errors = false;        ///< accuracy rows: same build, record and seed, at h = 1 ms
+    bool instructions = false;  ///< m7:count rows: the same firmware, by its hash
+    std::string note;           ///< one sentence
+};
+
+/// \param context  of this run, as `bench::make_context` gives it
+[[nodiscard]] Earlier read_earlier(const Question& question, const bench::Json& context);
+
+/// Hands the usable rows to the sources.
+void remember(const Earlier& earlier, const Question& question, MeasuredErrors& errors);
+void remember(const Earlier& earlier, const Question& question, Instructions& instructions);
+
+}  // namespace choose

@@ -1,0 +1,141 @@
+#include "bench/choose/errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "bench/host_line.hpp"
+#include "bench/row.hpp"
+#include "glsum/registry.hpp"
+
+namespace choose {
+namespace {
+
+struct Run {
+    double error;  // of the samples up to the first beyond the limit
+    bool whole;
+    glsum::Status status;
+};
+
+template <class K>
+Run run(const glsum::Design& design, const Record& record, double limit) {
+    bench::HostLine<K> line(design);
+    if (line.status() != glsum::Status::ok) {
+        return {0.0, false, line.status()};
+    }
+    // Divided by the peak last, as bench does it: the same bits as its rows.
+    double largest = 0.0;
+    for (std::size_t k = 0; k < record.samples.size(); ++k) {
+        const double error = std::fabs(record.exact[k].error_of(line.step_real(record.samples[k])));
+        if (!std::isfinite(error)) {
+            return {std::numeric_limits<double>::infinity(), true, glsum::Status::ok};
+        }
+        if (error > largest) {
+            largest = error;
+            if (largest / record.peak > limit) {
+                return {largest / record.peak, false, glsum::Status::ok};
+            }
+        }
+    }
+    return {largest / record.peak, true, glsum::Status::ok};
+}
+
+Run run(const std::string& kernel, const glsum::Design& design, const Record& record, double limit) {
+    Run result{};
+    bool found = false;
+    glsum::Registry::for_each([&]<class K>() {
+        if (K::name() == kernel) {
+            result = run<K>(design, record, limit);
+            found = true;
+        }
+    });
+    if (!found) {
+        throw std::out_of_range("no kernel " + kernel);
+    }
+    return result;
+}
+
+}  // namespace
+
+MeasuredErrors::MeasuredErrors(double order, std::vector<Record> records)
+    : order_(order), records_(std::move(records)), truncation_(records_.at(0).samples.size(), 0.0) {
+    for (const Record& record : records_) {
+        for (std::size_t i = 0; i < truncation_.size(); ++i) {
+            truncation_[i] = std::max(truncation_[i], record.truncation[i]);
+        }
+    }
+}
+
+void MeasuredErrors::remember(const std::string& kernel, std::size_t taps, const std::string& signal, double error) {
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        if (records_[i].signal == signal) {
+            auto& errors = given_[{kernel, taps}];
+            errors.resize(records_.size(), -1.0);
+            errors[i] = error;
+        }
+    }
+}
+
+MeasuredErrors::Known MeasuredErrors::of_signal(const std::string& kernel, std::size_t taps, std::size_t signal,
+                                                double limit, std::string& fault) {
+    const std::pair key(kernel, taps);
+    {
+        const std::lock_guard lock(mutex_);
+        auto& known = known_[key];
+        if (known.empty()) {
+            known.assign(records_.size(), {-1.0, false});
+            if (const auto given = given_.find(key); given != given_.end()) {
+                for (std::size_t i = 0; i < known.size(); ++i) {
+                    known[i] = {given->second[i], given->second[i] >= 0.0};
+                    remembered_ += known[i].whole ? 1 : 0;
+                }
+            }
+        }
+        if (known[signal].whole || known[signal].error > limit) {
+            return known[signal];
+        }
+        ++measured_;
+    }
+    const Run found = run(kernel, {order_, taps}, records_[signal], limit);
+    if (found.status != glsum::Status::ok) {
+        fault = bench::to_text(found.status);
+        return {std::numeric_limits<double>::infinity(), true};
+    }
+    const std::lock_guard lock(mutex_);
+    return known_[key][signal] = {found.error, found.whole};
+}
+
+ErrorAt MeasuredErrors::error(const std::string& kernel, std::size_t taps) {
+    ErrorAt worst{.error = -1.0, .signal = {}, .fault = {}};
+    for (std::size_t i = 0; i < records_.size(); ++i) {
+        const Known known = of_signal(kernel, taps, i, std::numeric_limits<double>::infinity(), worst.fault);
+        if (known.error > worst.error) {
+            worst.error = known.error;
+            worst.signal = records_[i].signal;
+        }
+        if (!worst.fault.empty()) {
+            break;
+        }
+    }
+    if (worst.fault.empty() && !std::isfinite(worst.error)) {
+        worst.fault = "the sum is not a finite number";
+    }
+    return worst;
+}
+
+bool MeasuredErrors::meets(const std::string& kernel, std::size_t taps, double limit) {
+    // The signal that truncation hits hardest is likeliest to fail, and a failure ends the question.
+    std::vector<std::size_t> order(records_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return records_[a].truncation[taps - 1] > records_[b].truncation[taps - 1];
+    });
+    std::string fault;
+    return std::all_of(order.begin(), order.end(), [&](std::size_t signal) {
+        const Known known = of_signal(kernel, taps, signal, limit, fault);
+        return known.whole && known.error <= limit;
+    });
+}
+
+}  // namespace choose

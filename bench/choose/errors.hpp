@@ -1,0 +1,71 @@
+// The error of any kernel at any length, measured where it is asked for and remembered.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "bench/choose/records.hpp"
+
+namespace choose {
+
+/// `error_max` of one kernel at one length: the worst of the signals.
+struct ErrorAt {
+    double error = std::numeric_limits<double>::infinity();
+    std::string signal;  ///< the worst
+    std::string fault;   ///< why there is no answer or a wrong one; empty if there is a right one
+};
+
+/// Where a search gets its errors from.
+class ErrorSource {
+public:
+    virtual ~ErrorSource() = default;
+    /// Taps of full memory: no length is longer.
+    [[nodiscard]] virtual std::size_t longest() const = 0;
+    /// What truncation alone costs at this length, worst of the signals: a guide, not a measurement.
+    [[nodiscard]] virtual double truncation(std::size_t taps) const = 0;
+    /// Thread-safe.
+    [[nodiscard]] virtual ErrorAt error(const std::string& kernel, std::size_t taps) = 0;
+    /// Whether error(kernel, taps) <= limit, measured only as far as the answer needs. Thread-safe.
+    [[nodiscard]] virtual bool meets(const std::string& kernel, std::size_t taps, double limit) = 0;
+};
+
+/// Measures by running the kernel over every record against the exact sums: the contract's error_max, at any step.
+class MeasuredErrors : public ErrorSource {
+public:
+    MeasuredErrors(double order, std::vector<Record> records);
+
+    /// What another run measured, at the same conditions.
+    void remember(const std::string& kernel, std::size_t taps, const std::string& signal, double error);
+
+    [[nodiscard]] std::size_t longest() const override { return truncation_.size(); }
+    [[nodiscard]] double truncation(std::size_t taps) const override { return truncation_[taps - 1]; }
+    [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override;
+    [[nodiscard]] bool meets(const std::string& kernel, std::size_t taps, double limit) override;
+
+    [[nodiscard]] std::size_t measured() const { return measured_; }      ///< runs over a record so far
+    [[nodiscard]] std::size_t remembered() const { return remembered_; }  ///< answers that another run gave
+
+private:
+    // Of one signal; a lower bound when it was only seen to be beyond a limit.
+    struct Known {
+        double error;
+        bool whole;
+    };
+    Known of_signal(const std::string& kernel, std::size_t taps, std::size_t signal, double limit, std::string& fault);
+
+    double order_;
+    std::vector<Record> records_;
+    std::vector<double> truncation_;
+    std::mutex mutex_;
+    std::map<std::pair<std::string, std::size_t>, std::vector<Known>> known_;
+    std::map<std::pair<std::string, std::size_t>, std::vector<double>> given_;
+    std::size_t measured_ = 0;
+    std::size_t remembered_ = 0;
+};
+
+}  // namespace choose

@@ -1,0 +1,112 @@
+#include "bench/choose/question.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "bench/choose/earlier.hpp"
+#include "bench/context.hpp"
+#include "glsum/registry.hpp"
+#include "qemu/failure.hpp"
+
+namespace choose {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+bench::Json context_of(const Question& question, const std::optional<qemu::Board>& board) {
+    bench::Sweep sweep;
+    sweep.kernels = question.kernels;
+    sweep.orders = {question.conditions.order};
+    sweep.signals = question.conditions.signals;
+    sweep.samples = question.conditions.samples;
+    sweep.seed = question.conditions.seed;
+    bench::Json context = bench::make_context({}, sweep, board ? &*board : nullptr);
+    context["executable"] = "glsum choose";
+    context["step_s"] = question.conditions.step_s;
+    return context;
+}
+
+// Costs of the question's target; `note` says where they come from.
+std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& earlier,
+                                       const std::optional<qemu::Board>& board, std::string& note) {
+    if (question.target == Target::host) {
+        if (question.max_instructions) {
+            throw Failure(Exit::bad_input, "--max-instructions: only with --target m7; on the host use --max-cycles");
+        }
+        note = "host times: taken in this run alone, 9 interleaved repetitions of each candidate, never of a file";
+        return std::make_unique<HostTimes>(question.conditions.order);
+    }
+    if (!question.core.empty()) {
+        auto cycles =
+            std::make_unique<ModelCycles>(earlier.instructions ? earlier.rows : std::vector<bench::Json>{},
+                                          question.conditions.order, question.core, question.conditions.samples);
+        if (!cycles->empty()) {
+            if (question.max_instructions) {
+                throw Failure(Exit::bad_input, "--max-instructions: with modelled cycles use --max-cycles");
+            }
+            note = fmt::format("cycles: modelled for {}, at the lengths that the file has", question.core);
+            return cycles;
+        }
+    }
+    if (question.max_cycles) {
+        throw Failure(Exit::missing,
+                      fmt::format("--max-cycles: no modelled cycles{} are known for this build and order; "
+                                  "--max-instructions limits what the emulator counts",
+                                  question.core.empty() ? "" : " of core " + question.core));
+    }
+    if (!board) {
+        throw Failure(Exit::missing, "the emulated board is needed for --target m7 and was not found");
+    }
+    note = fmt::format(
+        "{}counted on the emulated Cortex-M7; instructions are not cycles",
+        question.core.empty() ? "" : fmt::format("no modelled cycles of core {} are known: ", question.core));
+    auto instructions = std::make_unique<Instructions>(*board, question.conditions.order, question.conditions.samples,
+                                                       question.conditions.seed, question.jobs);
+    remember(earlier, question, *instructions);
+    return instructions;
+}
+
+}  // namespace
+
+std::vector<std::string> kernels_of(Target target) {
+    std::vector<std::string> kernels;
+    glsum::Registry::for_each([&]<class K>() {
+        if (!std::is_same_v<K, glsum::Null> && (target == Target::host || !K::host_only)) {
+            kernels.emplace_back(K::name());
+        }
+    });
+    return kernels;
+}
+
+Answer answer(const Question& question, const std::optional<qemu::Board>& board) {
+    Answer answer;
+    answer.question = question;
+    answer.context = context_of(question, board);
+    const Earlier earlier = read_earlier(question, answer.context);
+    std::string cost_note;
+    const std::unique_ptr<CostSource> costs = make_costs(question, earlier, board, cost_note);
+    MeasuredErrors errors(question.conditions.order, make_records(question.conditions, question.jobs));
+    remember(earlier, question, errors);
+    const Limits limits{
+        question.max_error,
+        question.target == Target::m7 && question.max_instructions ? question.max_instructions : question.max_cycles,
+        question.max_bytes};
+    answer.choice = choose(errors, *costs, question.kernels, limits, question.jobs);
+    answer.unit = costs->unit();
+    answer.limited_unit = costs->limited_unit();
+    answer.notes = {earlier.note, cost_note};
+    answer.notes.push_back(fmt::format("{} records run through kernels for their errors, {} errors taken from the file",
+                                       errors.measured(), errors.remembered()));
+    if (const auto* counted = dynamic_cast<const Instructions*>(costs.get())) {
+        answer.notes.back() +=
+            fmt::format("; {} counts measured, {} taken from the file", counted->measured(), counted->remembered());
+    }
+    if (const auto* timed = dynamic_cast<const HostTimes*>(costs.get())) {
+        answer.notes.push_back("host cycles: " + timed->cycle_counter());
+    }
+    return answer;
+}
+
+}  // namespace choose

@@ -1,0 +1,52 @@
+// A budget as a user states it, and the answer with where its numbers come from.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/choose/records.hpp"
+#include "bench/choose/search.hpp"
+#include "bench/row.hpp"
+#include "qemu/firmware.hpp"
+
+namespace choose {
+
+enum class Target { host, m7 };
+
+struct Question {
+    Conditions conditions;
+    Target target = Target::m7;
+    std::string core;                  ///< of the timing model; empty: none
+    std::vector<std::string> kernels;  ///< to choose among
+    double max_error = 0.0;
+    std::optional<double> max_cycles;
+    std::optional<double> max_instructions;
+    std::optional<double> max_bytes;
+    std::optional<double> clock_hz;
+    std::optional<double> rate_hz;
+    std::filesystem::path results;   ///< measurements of an earlier run; empty: none
+    bool results_asked_for = false;  ///< a missing file is then an error
+    unsigned jobs = 1;
+};
+
+struct Answer {
+    Question question;
+    Choice choice;
+    std::string unit;                ///< of what is ranked
+    std::string limited_unit;        ///< of what the cost limit holds against
+    std::vector<std::string> notes;  ///< where the numbers come from, one sentence each
+    bench::Json context;             ///< the conditions of this run
+};
+
+/// Kernels that run on a target: all but `null`, on the m7 without the host's own.
+[[nodiscard]] std::vector<std::string> kernels_of(Target target);
+
+/// \param board  needed for the target m7; on the host it only says whether a file's rows are of this build
+/// \throws glsum::Failure (bad input) for limits that do not suit the target; (missing) for a limit on cycles where no
+///         modelled cycles are known.
+[[nodiscard]] Answer answer(const Question& question, const std::optional<qemu::Board>& board);
+
+}  // namespace choose

@@ -1,0 +1,33 @@
+// What a choice is measured on: the records of one order and step, with their exact sums.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/reference/sums.hpp"
+
+namespace choose {
+
+/// The conditions under which errors are measured.
+struct Conditions {
+    double order;   ///< v, in (-2, 2]
+    double step_s;  ///< h of the records, above 0
+    std::vector<std::string> signals;
+    std::size_t samples = 5000;
+    std::uint64_t seed = 2020;
+};
+
+struct Record {
+    std::string signal;
+    std::vector<double> samples;
+    reference::Sums exact;           ///< full memory
+    double peak;                     ///< max_k |exact_k|, above 0
+    std::vector<double> truncation;  ///< [L - 1]: max_k |sum of L taps - full memory| / peak, to 1e-12, of every L
+};
+
+/// \throws glsum::Failure (bad input) for a signal whose exact sums are all zero.
+[[nodiscard]] std::vector<Record> make_records(const Conditions& conditions, unsigned jobs);
+
+}  // namespace choose

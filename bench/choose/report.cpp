@@ -1,0 +1,298 @@
+#include "bench/choose/report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace choose {
+namespace {
+
+std::string count(double value) {
+    return std::fabs(value - std::round(value)) < 0.05 ? fmt::format("{:.0f}", value) : fmt::format("{:.1f}", value);
+}
+
+std::string hertz(double hz) {
+    return hz >= 1e6   ? fmt::format("{:g} MHz", hz / 1e6)
+           : hz >= 1e3 ? fmt::format("{:g} kHz", hz / 1e3)
+                       : fmt::format("{:g} Hz", hz);
+}
+
+std::string cost_text(const Answer& answer, const Candidate& candidate) {
+    const Cost& cost = candidate.cost;
+    if (answer.question.target == Target::host) {
+        return fmt::format("{:.1f} +- {:.1f} ns, {} cycles", cost.value, cost.noise, count(cost.limited));
+    }
+    if (cost.limited > cost.value) {
+        return fmt::format("{} {}, at most {}", count(cost.value), answer.unit, count(cost.limited));
+    }
+    return fmt::format("{} {}", count(cost.value), answer.unit);
+}
+
+// "max_error" as the user typed it.
+std::string option(const Answer& answer, const std::string& limit) {
+    if (limit == "max_cost") {
+        return answer.unit == "instructions" ? "--max-instructions" : "--max-cycles";
+    }
+    return limit == "max_error" ? "--max-error" : "--max-bytes";
+}
+
+// Relaxed upwards to two or three digits, so that it may be typed.
+std::string relaxed_value(const Relaxed& relaxed) {
+    if (relaxed.limit != "max_error") {
+        return fmt::format("{:.0f}", std::ceil(relaxed.to));
+    }
+    const double unit = std::pow(10.0, std::floor(std::log10(relaxed.to)) - 2.0);
+    return fmt::format("{:.3g}", std::ceil(relaxed.to / unit * (1.0 - 1e-12)) * unit);
+}
+
+std::string at(const Candidate& candidate) { return fmt::format("{} with {} taps", candidate.kernel, candidate.taps); }
+
+std::string why(const Answer& answer, const Fared& fared) {
+    const auto& chosen = answer.choice.chosen;
+    const auto times = [&](const Candidate& candidate) {
+        return chosen ? fmt::format("{:.3g} times the chosen one's cost", candidate.cost.value / chosen->cost.value)
+                      : std::string();
+    };
+    switch (fared.fate) {
+        case Fate::chosen:
+            return "the cheapest that meets every limit";
+        case Fate::runner_up:
+            return answer.choice.tie ? "as cheap within the noise" : times(*fared.best);
+        case Fate::dominated:
+            return fared.why + ", no worse in error, cost and bytes";
+        case Fate::dearer:
+            return fared.already
+                       ? fmt::format("at {} taps already {}", fared.already->taps, cost_text(answer, *fared.already))
+                       : times(*fared.best);
+        case Fate::too_dear:
+            return fared.already
+                       ? fmt::format("at {} taps already {}", fared.already->taps, cost_text(answer, *fared.already))
+                       : fmt::format("{:.3g} times the limit",
+                                     fared.best->cost.limited / answer.question.max_cycles.value_or(
+                                                                    answer.question.max_instructions.value_or(1.0)));
+        case Fate::too_large:
+            return fmt::format("{:.3g} times the limit",
+                               fared.best->cost.bytes / answer.question.max_bytes.value_or(1.0));
+        case Fate::inaccurate:
+            return fmt::format("gets to {:.2e} at best, at {} taps", fared.short_of->error.error, fared.short_of->taps);
+        case Fate::wrong:
+            return fared.why;
+    }
+    return "";
+}
+
+std::string line_of(const Answer& answer, const Fared& fared) {
+    std::string taps = "-";
+    std::string error = "-";
+    std::string signal = "-";
+    std::string cost = "-";
+    std::string bytes = "-";
+    if (const auto& shown = fared.best ? fared.best : fared.short_of) {
+        taps = fmt::format("{}", shown->taps);
+        error = fmt::format("{:.2e}", shown->error.error);
+        signal = shown->error.signal;
+        if (fared.best && !fared.already && shown->cost.fault.empty()) {
+            cost = count(shown->cost.value);
+            bytes = count(shown->cost.bytes);
+        }
+    }
+    std::string line = fmt::format("  {:<24} {:>6} {:>9}  {:<7} {:>10} {:>8}  {}", fared.kernel, taps, error, signal,
+                                   cost, bytes, to_text(fared.fate));
+    if (const std::string reason = why(answer, fared); !reason.empty()) {
+        line += ": " + reason;
+    }
+    return line;
+}
+
+bench::Json to_json(const Answer& answer, const Candidate& candidate) {
+    bench::Json json;
+    json["kernel"] = candidate.kernel;
+    json["taps"] = candidate.taps;
+    json["error_max"] = candidate.error.error;
+    json["worst_signal"] = candidate.error.signal;
+    const bool known = candidate.cost.fault.empty() && candidate.cost.bytes > 0.0;
+    if (known && answer.question.target == Target::host) {
+        json["ns_per_sample"] = candidate.cost.value;
+        json["ns_per_sample_noise"] = candidate.cost.noise;
+        json["cycles_per_sample"] = candidate.cost.limited;
+    } else if (known && answer.unit == "instructions") {
+        json["instructions_per_sample"] = candidate.cost.value;
+    } else if (known) {
+        json["model_cycles_per_sample"] = candidate.cost.value;
+        json["model_cycles_high"] = candidate.cost.limited;
+    }
+    if (known) {
+        json["bytes"] = candidate.cost.bytes;
+    }
+    return json;
+}
+
+}  // namespace
+
+std::string budget_share(const Answer& answer, const Candidate& candidate) {
+    const Question& question = answer.question;
+    if (!question.clock_hz || !question.rate_hz) {
+        return "";
+    }
+    const double budget = *question.clock_hz / *question.rate_hz;
+    const std::string time =
+        fmt::format("{} at {} samples a second leave {} cycles a sample", hertz(*question.clock_hz),
+                    fmt::format("{:g}", *question.rate_hz), count(budget));
+    if (answer.unit == "instructions") {
+        const double least = candidate.cost.value / 2.0;
+        return fmt::format(
+            "{}; a core that issues two instructions a cycle needs at least {} of them for {} instructions: "
+            "at least {:.3g} %, and more by every stall",
+            time, count(std::ceil(least)), count(candidate.cost.value), 100.0 * least / budget);
+    }
+    return fmt::format("{}; {} takes {:.3g} %", time,
+                       answer.unit == "ns" ? "the host's cycle count" : "the model's upper end",
+                       100.0 * candidate.cost.limited / budget);
+}
+
+std::string nearest_miss(const Answer& answer) {
+    if (answer.choice.chosen) {
+        return "";
+    }
+    if (answer.choice.relaxed.empty()) {
+        return "nothing fits, and relaxing any one limit alone does not help";
+    }
+    const Relaxed& nearest = answer.choice.relaxed.front();
+    return fmt::format("nothing fits; nearest miss: {} misses {} by {:.3g} %, with {} {} it fits", at(nearest.fits),
+                       option(answer, nearest.limit), 100.0 * (nearest.factor() - 1.0), option(answer, nearest.limit),
+                       relaxed_value(nearest));
+}
+
+std::string to_table(const Answer& answer, bool colour) {
+    const Question& question = answer.question;
+    const Conditions& conditions = question.conditions;
+    std::string text =
+        fmt::format("order {}, h = {:g} s, error at most {:g}: the worst of {} over {} samples\n", conditions.order,
+                    conditions.step_s, question.max_error, fmt::join(conditions.signals, ", "), conditions.samples);
+    const auto limit = [&](const char* name, const std::optional<double>& value) {
+        if (value) {
+            text += fmt::format("at most {} {}\n", count(*value), name);
+        }
+    };
+    limit("cycles a sample", question.max_cycles);
+    limit("instructions a sample", question.max_instructions);
+    limit("bytes of state and coefficients", question.max_bytes);
+    const auto strong = [&](const std::string& words) { return colour ? "\033[1m" + words + "\033[0m" : words; };
+    const auto headline = [&](const char* what, const Candidate& candidate) {
+        text += fmt::format("\n{:<10} {}: error {:.3g} ({}), {}, {} bytes", what, strong(at(candidate)),
+                            candidate.error.error, candidate.error.signal, cost_text(answer, candidate),
+                            count(candidate.cost.bytes));
+    };
+    if (answer.choice.chosen) {
+        headline("choice", *answer.choice.chosen);
+        if (answer.choice.runner_up) {
+            headline("runner-up", *answer.choice.runner_up);
+            text += answer.choice.tie ? "; within the noise as cheap" : "";
+        }
+        text += '\n';
+        if (const std::string share = budget_share(answer, *answer.choice.chosen); !share.empty()) {
+            text += fmt::format("{:<10} {}\n", "real time", share);
+        }
+    } else {
+        text += "\n" + strong(nearest_miss(answer)) + "\n";
+        for (const Relaxed& relaxed : answer.choice.relaxed) {
+            text += fmt::format("  {} {} instead of {:g} (times {:.3g}): {}, error {:.3g}, {}, {} bytes\n",
+                                option(answer, relaxed.limit), relaxed_value(relaxed), relaxed.from, relaxed.factor(),
+                                at(relaxed.fits), relaxed.fits.error.error, cost_text(answer, relaxed.fits),
+                                count(relaxed.fits.cost.bytes));
+        }
+    }
+    text += fmt::format("\n  {:<24} {:>6} {:>9}  {:<7} {:>10} {:>8}  {}\n", "kernel", "taps", "error", "worst",
+                        answer.unit == "model cycles" ? "cycles"
+                        : answer.unit == "ns"         ? "ns"
+                                                      : "instr.",
+                        "bytes", "verdict");
+    std::vector<const Fared*> order;
+    for (const Fared& fared : answer.choice.kernels) {
+        order.push_back(&fared);
+    }
+    const auto key = [](const Fared* fared) {
+        const bool costed = fared->best && !fared->already;
+        return std::make_tuple(static_cast<int>(fared->fate == Fate::dominated ? Fate::dearer : fared->fate),
+                               costed            ? fared->best->cost.value
+                               : fared->short_of ? fared->short_of->error.error
+                                                 : 1e300);
+    };
+    std::stable_sort(order.begin(), order.end(), [&](const Fared* a, const Fared* b) { return key(a) < key(b); });
+    for (const Fared* fared : order) {
+        const bool dim = colour && fared->fate != Fate::chosen && fared->fate != Fate::runner_up;
+        const std::string line = line_of(answer, *fared);
+        text += dim ? "\033[2m" + line + "\033[0m\n" : line + "\n";
+    }
+    text += "\n";
+    for (const std::string& note : answer.notes) {
+        text += "  " + note + "\n";
+    }
+    return text;
+}
+
+bench::Json to_json(const Answer& answer) {
+    const Question& question = answer.question;
+    bench::Json json;
+    json["schema"] = "glsum-choice-1";
+    json["fits"] = answer.choice.chosen.has_value();
+    bench::Json& asked = json["question"];
+    asked["order"] = question.conditions.order;
+    asked["step_s"] = question.conditions.step_s;
+    asked["target"] = question.target == Target::host ? "host" : "m7";
+    asked["core"] = question.core;
+    asked["signals"] = question.conditions.signals;
+    asked["max_error"] = question.max_error;
+    const auto optional = [](bench::Json& to, const char* name, const std::optional<double>& value) {
+        if (value) {
+            to[name] = *value;
+        }
+    };
+    optional(asked, "max_cycles", question.max_cycles);
+    optional(asked, "max_instructions", question.max_instructions);
+    optional(asked, "max_bytes", question.max_bytes);
+    optional(asked, "clock_hz", question.clock_hz);
+    optional(asked, "rate_hz", question.rate_hz);
+    if (answer.choice.chosen) {
+        json["choice"] = to_json(answer, *answer.choice.chosen);
+        if (const std::string share = budget_share(answer, *answer.choice.chosen); !share.empty()) {
+            bench::Json& real_time = json["real_time"];
+            const double budget = *question.clock_hz / *question.rate_hz;
+            real_time["cycles_a_sample"] = budget;
+            const bool counted = answer.unit == "instructions";
+            real_time[counted ? "share_at_least" : "share"] =
+                (counted ? answer.choice.chosen->cost.value / 2.0 : answer.choice.chosen->cost.limited) / budget;
+            real_time["text"] = share;
+        }
+    }
+    if (answer.choice.runner_up) {
+        json["runner_up"] = to_json(answer, *answer.choice.runner_up);
+        json["tie_within_noise"] = answer.choice.tie;
+    }
+    if (!answer.choice.chosen) {
+        bench::Json& misses = json["nearest_misses"] = bench::Json::array();
+        for (const Relaxed& relaxed : answer.choice.relaxed) {
+            bench::Json miss;
+            miss["limit"] = option(answer, relaxed.limit).substr(2);
+            miss["from"] = relaxed.from;
+            miss["to"] = relaxed.to;
+            miss["factor"] = relaxed.factor();
+            miss["fits"] = to_json(answer, relaxed.fits);
+            misses.push_back(std::move(miss));
+        }
+    }
+    bench::Json& kernels = json["kernels"] = bench::Json::array();
+    for (const Fared& fared : answer.choice.kernels) {
+        const auto& shown = fared.best ? fared.best : fared.short_of;
+        bench::Json row = shown ? to_json(answer, *shown) : bench::Json{{"kernel", fared.kernel}};
+        row["verdict"] = to_text(fared.fate);
+        row["why"] = why(answer, fared);
+        kernels.push_back(std::move(row));
+    }
+    json["notes"] = answer.notes;
+    json["context"] = answer.context;
+    return json;
+}
+
+}  // namespace choose

@@ -1,0 +1,136 @@
+#include "cli/budget.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <thread>
+
+#include "bench/build_info.hpp"
+#include "bench/signals.hpp"
+#include "glsum/weights.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
+
+void check_positive(const char* option, const std::optional<double>& value) {
+    if (value && !(std::isfinite(*value) && *value > 0.0)) {
+        refuse(fmt::format("{}: expected a number above 0, found {}", option, *value));
+    }
+}
+
+std::vector<std::string> to_signals(const Budget& budget) {
+    std::vector<std::string> signals;
+    for (const std::string& signal : budget.signals) {
+        if (std::find(std::begin(bench::signal_names), std::end(bench::signal_names), signal) ==
+            std::end(bench::signal_names)) {
+            refuse(
+                fmt::format("--signal: expected some of {}, found {}", fmt::join(bench::signal_names, ", "), signal));
+        }
+        if (!bench::can_be_sampled(signal, budget.step_s)) {
+            refuse(fmt::format("--signal: {} needs more than two samples a period; --step-s {} gives fewer", signal,
+                               budget.step_s));
+        }
+        if (std::find(signals.begin(), signals.end(), signal) == signals.end()) {
+            signals.push_back(signal);
+        }
+    }
+    if (signals.empty()) {
+        for (const std::string_view name : bench::signal_names) {
+            if (bench::can_be_sampled(name, budget.step_s)) {
+                signals.emplace_back(name);
+            }
+        }
+    }
+    return signals;
+}
+
+}  // namespace
+
+std::shared_ptr<Budget> add_budget(CLI::App& command) {
+    auto budget = std::make_shared<Budget>();
+    budget->jobs = std::max(1U, std::thread::hardware_concurrency());
+    command.add_option("--order", budget->order, "Order v in (-2, 2]")->required();
+    command
+        .add_option("--step-s", budget->step_s,
+                    "Seconds from sample to sample: the sines and the drive's response are sampled there")
+        ->required();
+    command.add_option("--max-error", budget->max_error,
+                       "Largest error of the sum, relative to the largest exact full-memory sum, before h^-v");
+    command.add_option("--signal", budget->signals, "The error is the worst of these records (default: all of them)")
+        ->delimiter(',');
+    command.add_option("--max-cycles", budget->max_cycles,
+                       "Cycles a sample: the host's, or the timing model's upper end");
+    command.add_option("--max-instructions", budget->max_instructions, "Instructions a sample, --target m7");
+    command.add_option("--max-bytes", budget->max_bytes, "Bytes of state and coefficients");
+    command.add_option("--clock-hz", budget->clock_hz, "The core's clock: with --rate-hz, says the share of real time");
+    command.add_option("--rate-hz", budget->rate_hz, "Samples a second");
+    command.add_option("--target", budget->target, "host or m7")->required();
+    command.add_option("--core", budget->core,
+                       "Core of the timing model, whose cycles decide if the results hold them");
+    command.add_option("--results", budget->results,
+                       "Earlier measurements (default: results/latest.json if it is there); only rows of this very "
+                       "build count, at h = 1 ms");
+    command.add_flag("--fresh", budget->fresh, "Measure everything, whatever the results hold");
+    command.add_flag("--quick", budget->quick, "Records of 1000 samples instead of 5000, like bench --quick");
+    command.add_option("--samples", budget->samples, "Records of so many samples (2 to 8000)");
+    command.add_option("--jobs", budget->jobs, "Threads and emulators at once")->check(CLI::PositiveNumber);
+    return budget;
+}
+
+choose::Question to_question(const Budget& budget) {
+    if (!glsum::order_in_range(budget.order)) {
+        refuse(fmt::format("--order: expected a number in (-2, 2], found {}", budget.order));
+    }
+    if (!(budget.step_s > 0.0 && budget.step_s <= 1000.0)) {
+        refuse(fmt::format("--step-s: expected seconds above 0, up to 1000, found {}", budget.step_s));
+    }
+    if (!(std::isfinite(budget.max_error) && budget.max_error > 0.0)) {
+        refuse(fmt::format("--max-error: expected a number above 0, found {}", budget.max_error));
+    }
+    check_positive("--max-cycles", budget.max_cycles);
+    check_positive("--max-instructions", budget.max_instructions);
+    check_positive("--max-bytes", budget.max_bytes);
+    check_positive("--clock-hz", budget.clock_hz);
+    check_positive("--rate-hz", budget.rate_hz);
+    if (budget.clock_hz.has_value() != budget.rate_hz.has_value()) {
+        refuse("--clock-hz and --rate-hz: expected both or none");
+    }
+    if (budget.target != "host" && budget.target != "m7") {
+        refuse(fmt::format("--target: expected host or m7, found {}", budget.target));
+    }
+    if (budget.target == "host" && !budget.core.empty()) {
+        refuse("--core: only with --target m7");
+    }
+    choose::Question question;
+    question.conditions.order = budget.order;
+    question.conditions.step_s = budget.step_s;
+    question.conditions.signals = to_signals(budget);
+    question.conditions.samples = budget.samples != 0 ? budget.samples : budget.quick ? 1000 : 5000;
+    if (question.conditions.samples < 2 || question.conditions.samples > 8000) {
+        refuse(fmt::format("--samples: expected 2 to 8000, found {}", question.conditions.samples));
+    }
+    question.target = budget.target == "host" ? choose::Target::host : choose::Target::m7;
+    question.core = budget.core;
+    question.kernels = choose::kernels_of(question.target);
+    question.max_error = budget.max_error;
+    question.max_cycles = budget.max_cycles;
+    question.max_instructions = budget.max_instructions;
+    question.max_bytes = budget.max_bytes;
+    question.clock_hz = budget.clock_hz;
+    question.rate_hz = budget.rate_hz;
+    question.jobs = budget.jobs;
+    if (!budget.fresh) {
+        question.results_asked_for = !budget.results.empty();
+        question.results = question.results_asked_for
+                               ? std::filesystem::path(budget.results)
+                               : std::filesystem::path(build_info::source_folder) / "results" / "latest.json";
+    }
+    return question;
+}
+
+}  // namespace cli

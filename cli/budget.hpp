@@ -1,0 +1,38 @@
+// The options by which `choose` and `generate` take a budget.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/choose/question.hpp"
+
+namespace cli {
+
+struct Budget {
+    double order = 0.0;
+    double step_s = 0.0;
+    double max_error = 0.0;
+    std::vector<std::string> signals;
+    std::optional<double> max_cycles;
+    std::optional<double> max_instructions;
+    std::optional<double> max_bytes;
+    std::optional<double> clock_hz;
+    std::optional<double> rate_hz;
+    std::string target;
+    std::string core;
+    std::string results;
+    bool fresh = false;
+    bool quick = false;
+    std::size_t samples = 0;
+    unsigned jobs = 1;
+};
+
+/// Adds the options. \return the budget that they fill.
+std::shared_ptr<Budget> add_budget(CLI::App& command);
+
+/// Checks what was typed. \throws glsum::Failure (bad input) naming the option, what was expected and found.
+[[nodiscard]] choose::Question to_question(const Budget& budget);
+
+}  // namespace cli
