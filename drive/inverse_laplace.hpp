@@ -1,0 +1,50 @@
+// A function of time from its Laplace transform, in double: fast enough for fits, exact to about nine digits.
+//
+// The method is Abate and Whitt's Euler summation (ORSA J. Computing 7, 1995): the trapezoidal rule on a line right of
+// all singularities, whose alternating series is summed with binomial weights. No step of it amplifies rounding, and it
+// needs to know of the poles only how fast they swing. `exact_step_response.hpp` is the check, in multi-precision and
+// by another method.
+#pragma once
+
+#include <array>
+#include <complex>
+#include <functional>
+#include <map>
+#include <vector>
+
+#include "drive/swings.hpp"
+
+namespace drive {
+
+/// The inverse of one transform, smooth for t > 0. Values are kept: one octave of time [2^w, 2^(w+1)) costs some
+/// hundred evaluations of the transform when it is first asked for, and a polynomial of degree 15 afterwards.
+class InverseLaplace {
+public:
+    using Image = std::function<std::complex<double>(std::complex<double>)>;
+
+    /// \param image  analytic right of the imaginary axis but for `swings`, real on the real axis, without a dead time
+    ///               (which would have a kink)
+    /// \param swings  its lightly damped poles; growing ones too, as long as they do not grow beyond 10^3
+    explicit InverseLaplace(Image image, std::vector<Swing> swings = {});
+
+    /// f(t); 0 for t <= 0. Its error is about 1e-9 of the function's size around t.
+    /// \throws glsum::Failure (check failed) where it does not converge: some hundred swings lie before t, or it grows.
+    /// Not safe to call from several threads: it fills its tables.
+    double operator()(double t);
+
+private:
+    static constexpr std::size_t nodes = 16;
+    struct Octave {
+        std::vector<std::array<double, nodes>> pieces;  // Chebyshev coefficients
+    };
+    const Octave& octave(int exponent);
+    [[nodiscard]] Octave make_octave(int exponent) const;
+
+    Image image_;
+    std::vector<Swing> swings_;
+    std::map<int, Octave> octaves_;
+    int last_exponent_ = 0;
+    const Octave* last_ = nullptr;
+};
+
+}  // namespace drive

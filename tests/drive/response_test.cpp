@@ -1,0 +1,103 @@
+// The exact responses: the multi-precision oracle against published values, the fast one against the oracle.
+#include "drive/response.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "drive/exact_step_response.hpp"
+#include "qemu/failure.hpp"
+#include "tests/drive/plants.hpp"
+
+namespace {
+
+using drive::Model;
+
+// Step response of (12) without its dead time, by Talbot's method in 50 digits and, to 2 s, by the Mittag-Leffler
+// series in 90: both agree in all of these.
+struct Known {
+    double t_s;
+    const char* digits;
+};
+constexpr Known known[] = {
+    {0.001, "2.94128915778730626e-6"}, {0.01, "2.85057556271580179e-4"}, {0.1, "0.0250885673516995016"},
+    {0.25, "0.129455821227154699"},    {0.5, "0.375940553423532329"},    {0.75, "0.613178259304225926"},
+    {1.0, "0.79280738172774321"},      {1.5, "0.973167579701079693"},    {2.0, "1.0119932474053863"},
+    {3.0, "0.999400058443313765"},     {4.0, "0.996322242433827299"},    {5.0, "0.997714465898579909"},
+    {10.0, "0.999486138627598309"},
+};
+
+TEST(ExactStepResponse, MatchesTheKnownValuesToTwelveDigits) {
+    Model model = plants::niopdt();
+    model.delay_s = 0.0;
+    for (const Known& value : known) {
+        const double expected = std::stod(value.digits);
+        const drive::ExactValue found = drive::exact_step_response(model, value.t_s);
+        EXPECT_NEAR(found.value, expected, 2e-15 * expected) << value.t_s << " s: " << found.digits;
+        EXPECT_GE(found.agreed_digits, 18);
+    }
+}
+
+TEST(ExactStepResponse, WaitsForTheDeadTime) {
+    EXPECT_EQ(drive::exact_step_response(plants::niopdt(), 1.0).value, 0.0);
+    EXPECT_NEAR(drive::exact_step_response(plants::niopdt(), 1.5).value, 0.375940553423532329, 1e-15);
+}
+
+TEST(ExactStepResponse, RefusesWhatDoesNotConverge) {
+    Model swinging;
+    swinging.denominator = {{1.0, 2.0}, {0.001, 1.0}, {1.0, 0.0}};
+    EXPECT_THROW((void)drive::exact_step_response(swinging, 5000.0), glsum::Failure);
+}
+
+// The closed forms of (10) and (11), and of a lightly damped oscillation.
+TEST(ExactStepResponse, MatchesClosedForms) {
+    for (const double t : {0.01, 0.5, 3.0, 12.0}) {
+        const double first = 1.0 - std::exp(-t / 0.4934);
+        EXPECT_NEAR(drive::exact_step_response(drive::make_fopdt(1, 0.4934, 0), t).value, first, 1e-15);
+        const double second = 1.0 - (1.0 + t / 0.319) * std::exp(-t / 0.319);
+        EXPECT_NEAR(drive::exact_step_response(drive::make_sopdt(1, 0.319, 0), t).value, second, 1e-15);
+    }
+}
+
+TEST(StepResponse, IsTheOracleToNineDigits) {
+    Model half;  // 1 / (s^0.5 + 1), its slope infinite at 0
+    half.denominator = {{1.0, 0.5}, {1.0, 0.0}};
+    Model swinging;
+    swinging.denominator = {{1.0, 2.0}, {0.1, 1.0}, {1.0, 0.0}};
+    Model zeros;
+    zeros.numerator = {{30.0, 1.0}, {90.0, 0.3}, {3.0, 0.0}};
+    zeros.denominator = {{8.0, 3.1}, {26.0, 2.3}, {73.0, 1.2}, {90.0, 0.5}};
+    for (const Model& model : {plants::fopdt(), plants::sopdt(), plants::niopdt(), half, swinging, zeros}) {
+        drive::StepResponse step(model);
+        for (double t = 1e-3; t < 60.0; t *= 1.37) {
+            const double expected = drive::exact_step_response(model, t + model.delay_s, 14).value;
+            EXPECT_NEAR(step(t + model.delay_s), expected, 2e-9 * std::max(1e-3, std::fabs(expected)))
+                << drive::to_text(model) << " at " << t;
+        }
+    }
+}
+
+TEST(StepResponse, RefusesAThousandSwings) {
+    Model swinging;
+    swinging.denominator = {{1.0, 2.0}, {1e-4, 1.0}, {1.0, 0.0}};
+    drive::StepResponse step(swinging);
+    EXPECT_THROW((void)step(10000.0), glsum::Failure);
+}
+
+TEST(Respond, SuperposesHeldSteps) {
+    const Model model = drive::make_fopdt(2.0, 0.5, 0.3);
+    const std::vector<double> times{0.0, 1.0, 2.0, 3.0};
+    const std::vector<double> input{0.0, 1.0, 1.0, -0.5};
+    const auto changes = drive::changes_of(times, input);
+    ASSERT_EQ(changes.size(), 2U);
+    EXPECT_EQ(changes[1].size, -1.5);
+    const std::vector<double> at{0.5, 1.3, 1.8, 3.25, 3.8};
+    const auto output = drive::respond(model, changes, at);
+    const auto step = [](double t) { return t <= 0 ? 0.0 : 2.0 * (1.0 - std::exp(-t / 0.5)); };
+    for (std::size_t i = 0; i < at.size(); ++i) {
+        EXPECT_NEAR(output[i], step(at[i] - 1.3) - 1.5 * step(at[i] - 3.3), 1e-9);
+    }
+}
+
+}  // namespace
