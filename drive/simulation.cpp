@@ -1,0 +1,256 @@
+#include "drive/simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <deque>
+#include <type_traits>
+
+#include "drive/fast_memory.hpp"
+#include "drive/kernel_sum.hpp"
+#include "glsum/gain.hpp"
+#include "glsum/registry.hpp"
+#include "glsum/weights.hpp"
+#include "qemu/failure.hpp"
+
+namespace drive {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) { throw glsum::Failure(glsum::Exit::bad_input, message); }
+
+// u as it acts at the samples: held, delayed, with its derivatives.
+std::vector<double> forcing_of(const Model& model, const Scheme& scheme, std::span<const double> input) {
+    const double steps = model.delay_s / scheme.step_s;
+    const auto delay = static_cast<std::size_t>(std::ceil(steps - 1e-9));
+    const std::size_t shift = delay + (scheme.forcing == Forcing::held ? 1 : 0);
+    const std::size_t count = input.size();
+    std::vector<double> acting(count, 0.0);
+    for (std::size_t k = shift; k < count; ++k) {
+        acting[k] = model.gain * input[k - shift];
+    }
+    if (model.numerator == std::vector<Term>{{1.0, 0.0}}) {
+        return acting;
+    }
+    const std::vector<double> weights =
+        merged_weights(model.numerator, scheme.step_s, std::min(count, scheme.taps.value_or(count)));
+    std::vector<double> padded(count, 0.0);
+    std::copy(weights.begin(), weights.end(), padded.begin());
+    FastMemory memory(padded);
+    std::vector<double> forcing(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        forcing[k] = padded[0] * acting[k] + memory.past();
+        memory.push(acting[k]);
+    }
+    return forcing;
+}
+
+// One merged table in double.
+std::vector<double> step_merged(const Model& model, const Scheme& scheme, const std::vector<double>& forcing) {
+    const std::size_t count = forcing.size();
+    const std::size_t taps = std::min(count, scheme.taps.value_or(count));
+    std::vector<double> weights = merged_weights(model.denominator, scheme.step_s, taps, scheme.increments);
+    const double constant = constant_coefficient(model.denominator);
+    const double newest = weights[0] + (scheme.increments ? constant : 0.0);
+    weights.resize(count, 0.0);
+    std::vector<double> output(count, 0.0);
+    if (taps <= 1024) {
+        std::vector<double> stored(count, 0.0);
+        for (std::size_t k = 1; k < count; ++k) {
+            double past = 0.0;
+            for (std::size_t j = std::min(k, taps - 1); j > 0; --j) {
+                past += weights[j] * stored[k - j];
+            }
+            const double before = scheme.increments ? output[k - 1] : 0.0;
+            stored[k] = (forcing[k] - past - (scheme.increments ? constant * before : 0.0)) / newest;
+            output[k] = before + stored[k];
+        }
+        return output;
+    }
+    FastMemory memory(weights);
+    memory.push(0.0);
+    for (std::size_t k = 1; k < count; ++k) {
+        const double before = scheme.increments ? output[k - 1] : 0.0;
+        const double stored = (forcing[k] - memory.past() - (scheme.increments ? constant * before : 0.0)) / newest;
+        memory.push(stored);
+        output[k] = before + stored;
+    }
+    return output;
+}
+
+// The order whose weights need the most room.
+double widest_order(const std::vector<Term>& terms, std::size_t taps, bool increments) {
+    double widest = 0.0;
+    double largest = 0.0;
+    for (const Term& term : terms) {
+        const double order = term.order - (increments ? 1.0 : 0.0);
+        if (term.order != 0.0 && glsum::absolute_sum(order, taps) > largest) {
+            largest = glsum::absolute_sum(order, taps);
+            widest = order;
+        }
+    }
+    return widest;
+}
+
+// One sum of the kernel for each order, or one for all; what surrounds them in `Real`.
+template <class K>
+Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vector<double>& forcing) {
+    using Real = std::conditional_t<std::is_same_v<typename K::Output, float>, float, double>;
+    const std::size_t count = forcing.size();
+    const std::size_t taps = std::min(count, scheme.taps.value_or(count));
+    Simulated simulated;
+    double scale = 1.0;
+    if constexpr (!std::is_floating_point_v<typename K::Sample>) {
+        scale = scheme.full_scale;
+        if (scale == 0.0) {
+            double peak = 0.0;
+            for (const double value : forcing) {
+                peak = std::max(peak, std::fabs(value));
+            }
+            const double steady = std::fabs(constant_coefficient(model.denominator));
+            scale = std::exp2(std::ceil(std::log2(2.0 * peak / (steady == 0.0 ? 1.0 : steady))));
+        }
+        simulated.full_scale = scale;
+    }
+    std::deque<KernelSum<K>> sums;
+    std::vector<Real> factors;
+    const auto add_sum = [&](double order, double factor) -> KernelSum<K>& {
+        sums.emplace_back(glsum::Design{order, taps});
+        if (const glsum::Status status = sums.back().status(); status != glsum::Status::ok) {
+            refuse(fmt::format("{}: no sum of order {} over {} taps: {}", K::name(), order, taps,
+                               status == glsum::Status::order_out_of_range ? "kernels take orders in (-2, 2]"
+                                                                           : "its coefficients do not fit the format"));
+        }
+        factors.push_back(static_cast<Real>(factor));
+        return sums.back();
+    };
+    const auto constant = static_cast<Real>(constant_coefficient(model.denominator));
+    Real newest = 0;
+    if (scheme.merged) {
+        std::vector<double> weights = merged_weights(model.denominator, scheme.step_s, taps, scheme.increments);
+        const double whole = weights[0] + (scheme.increments ? constant_coefficient(model.denominator) : 0.0);
+        newest = static_cast<Real>(whole);
+        double factor = 1.0;
+        if constexpr (!std::is_floating_point_v<typename K::Sample>) {
+            // Fractions: a mean of the orders' weights, which the order with the largest sum has room for.
+            factor = whole;
+            for (double& weight : weights) {
+                weight /= whole;
+            }
+        }
+        if (!add_sum(widest_order(model.denominator, taps, scheme.increments), factor).set_weights(weights)) {
+            refuse(fmt::format("{}: keeps no plain table of weights, so that it cannot take a merged one", K::name()));
+        }
+    } else {
+        for (const Term& term : model.denominator) {
+            const double factor = term.coefficient * glsum::step_factor(term.order, scheme.step_s);
+            newest += static_cast<Real>(factor);
+            if (term.order != 0.0 && term.coefficient != 0.0) {
+                add_sum(term.order - (scheme.increments ? 1.0 : 0.0), factor);
+            }
+        }
+    }
+    Real before = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+        Real rest = static_cast<Real>(forcing[k]);
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            rest -= factors[i] * static_cast<Real>(sums[i].past() * scale);
+        }
+        Real stored = 0;
+        if (scheme.increments) {
+            stored = k == 0 ? Real(0) : (rest - constant * before) / newest;
+            before += stored;
+        } else {
+            stored = k == 0 ? Real(0) : rest / newest;
+            before = stored;
+        }
+        for (KernelSum<K>& sum : sums) {
+            sum.push(static_cast<double>(stored) / scale);
+        }
+        simulated.output.push_back(before);
+    }
+    for (const KernelSum<K>& sum : sums) {
+        simulated.saturations += sum.saturations();
+    }
+    return simulated;
+}
+
+}  // namespace
+
+std::vector<double> merged_weights(const std::vector<Term>& terms, double step_s, std::size_t count, bool increments) {
+    std::vector<double> merged(std::max<std::size_t>(count, 1), 0.0);
+    for (const Term& term : terms) {
+        if (increments && term.order == 0.0) {
+            continue;
+        }
+        const double factor = term.coefficient * glsum::step_factor(term.order, step_s);
+        glsum::Weights weights(term.order - (increments ? 1.0 : 0.0));
+        merged[0] += factor;
+        for (std::size_t j = 1; j < merged.size(); ++j) {
+            weights.next();
+            merged[j] += factor * weights.weight();
+        }
+    }
+    return merged;
+}
+
+bool delay_fits(const Model& model, double step_s) {
+    const double steps = model.delay_s / step_s;
+    return std::fabs(steps - std::round(steps)) < 1e-9 * std::max(1.0, steps);
+}
+
+Simulated simulate(const Model& model, const Scheme& scheme, std::span<const double> input) {
+    if (!(scheme.step_s > 0.0 && std::isfinite(scheme.step_s))) {
+        refuse(fmt::format("expected a step above 0 s, found {}", scheme.step_s));
+    }
+    if (scheme.taps && *scheme.taps == 0) {
+        refuse("expected at least 1 tap, found 0");
+    }
+    const std::vector<double> forcing = forcing_of(model, scheme, input);
+    if (scheme.kernel.empty()) {
+        return {step_merged(model, scheme, forcing), 0, 0.0};
+    }
+    std::optional<Simulated> simulated;
+    glsum::Registry::for_each([&]<class K>() {
+        if constexpr (!std::is_same_v<K, glsum::Null>) {
+            if (K::name() == scheme.kernel) {
+                simulated = step_kernel<K>(model, scheme, forcing);
+            }
+        }
+    });
+    if (!simulated) {
+        refuse(fmt::format("no kernel is called {}; kernels/README.md lists them", scheme.kernel));
+    }
+    return *simulated;
+}
+
+std::vector<double> make_input(const Excitation& excitation, double step_s, double until_s) {
+    if (!(step_s > 0.0 && until_s >= step_s && until_s / step_s <= 1e7)) {
+        refuse(
+            fmt::format("expected a record of 2 to 10^7 samples, found one of {} s in steps of {} s", until_s, step_s));
+    }
+    const auto count = static_cast<std::size_t>(std::floor(until_s / step_s + 1e-9)) + 1;
+    std::vector<double> input(count, excitation.amplitude);
+    if (excitation.name == "step") {
+        return input;
+    }
+    if (excitation.name == "pulse") {
+        for (std::size_t k = 0; k < count; ++k) {
+            input[k] = static_cast<double>(k) * step_s < excitation.off_s - 1e-9 * step_s ? excitation.amplitude : 0.0;
+        }
+        return input;
+    }
+    if (excitation.name == "staircase") {
+        const std::size_t levels = 2 * std::max<std::size_t>(excitation.stairs, 1);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t level = std::min(levels * k / count, levels - 1) + 1;
+            input[k] = excitation.amplitude * static_cast<double>(std::min(level, levels - level)) /
+                       static_cast<double>(levels / 2);
+        }
+        return input;
+    }
+    refuse(fmt::format("expected the input step, pulse or staircase, found {}", excitation.name));
+}
+
+}  // namespace drive
