@@ -69,6 +69,9 @@ public:
     }
 
     [[nodiscard]] std::vector<Mode> modes(std::size_t count) const {
+        if (count == 0) {
+            return {};
+        }
         const auto kept = vectors_.leftCols(static_cast<Eigen::Index>(count));
         Eigen::VectorXd decays(vectors_.rows());
         Eigen::VectorXd roots(vectors_.rows());
@@ -159,7 +162,7 @@ std::optional<Approximation> design(const Target& target) {
                 break;
             }
             // The exact error was never seen below a third of this estimate.
-            if (projection.dropped(count) > 3.0 * target.error) {
+            if (count > 0 && projection.dropped(count) > 3.0 * target.error) {
                 continue;
             }
             std::vector<Mode> modes = projection.modes(count);
