@@ -1,19 +1,10 @@
-// The tail of the Grünwald-Letnikov weights as a few decaying exponentials ("modes"), with the certificate of its
-// error.
-//
-// For every order v > -1 that is no integer and every integer j > v, by the Beta function,
-//
-//   a_j = -(sin(pi v)/pi) Int_{-inf}^{inf} e^(-s (j-v)) (1 - e^(-s))^v s du,      s = e^u:
-//
-// behind the first taps all weights have one sign and are a mixture of r^j, 0 < r < 1, with a positive density. The
-// trapezoid in u takes some forty of these exponentials; projected on the dominant eigenvectors of their Gramian (for
-// this symmetric system balanced truncation) a dozen are left, whose poles are real and inside (0, 1) whatever is
-// dropped: the projection of a symmetric matrix keeps its eigenvalues between the old ones. No optimizer is needed.
+// The Grünwald-Letnikov weights of one order: a few exact taps and a few decaying exponentials, for a given error.
 #pragma once
 
 #include <cstddef>
 #include <optional>
-#include <vector>
+
+#include "modes/mode.hpp"
 
 namespace glsum::modes {
 
@@ -24,27 +15,8 @@ struct Target {
     double error;         ///< bound of sum_{j=K..N} |a_j - approximation|: of the output, for |x| <= 1, before h^-v
 };
 
-/// One exponential: its part of a_j is weight (1 - decay)^(j-K).
-struct Mode {
-    double decay;   ///< d = 1 - r in (0, 1); r itself would lose the slow modes in single precision
-    double weight;  ///< w, of the sign of the tail
-};
-
-/// a_0 ... a_(K-1) are exact, a_j ~ sum_m w_m (1 - d_m)^(j-K) from j = K on.
-struct Approximation {
-    std::size_t near_taps;    ///< K
-    std::vector<Mode> modes;  ///< M of them, slowest first
-    double error;             ///< the exact sum_{j=K..N} |a_j - approximation|
-
-    /// K + 2M: multiplications a sample.
-    [[nodiscard]] std::size_t cost() const { return near_taps + 2 * modes.size(); }
-};
-
-/// The most exact taps that the integral needs: K > v, and not by little.
-[[nodiscard]] std::size_t least_near_taps(double order);
-
-/// With these numbers of taps and modes. Fewer modes come back when the tail needs no more.
-/// \pre near_taps >= least_near_taps(target.order); target.error decides how fine the trapezoid is.
+/// With these numbers of taps and modes; all weights have the sign of the tail. Fewer modes come back when the tail has
+/// no more in it. \pre near_taps >= least_near_taps(target.order); target.error says how fine the trapezoid is.
 [[nodiscard]] Approximation approximate(const Target& target, std::size_t near_taps, std::size_t modes);
 
 /// The cheapest that meets the target, over K from the least up to 64 and M up to 40; empty if none does.

@@ -1,0 +1,29 @@
+// What the tail is made of.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+namespace glsum::modes {
+
+/// One exponential: its part of the weight of index j is weight (1 - decay)^(j-K).
+struct Mode {
+    double decay;   ///< d = 1 - r in (0, 1); r itself would lose the slow modes in single precision
+    double weight;  ///< w
+};
+
+/// The first K weights are exact, from j = K on they are sum_m w_m (1 - d_m)^(j-K), nearly.
+struct Approximation {
+    std::size_t near_taps;    ///< K
+    std::vector<Mode> modes;  ///< M of them, slowest first
+    double error;             ///< the exact sum_{j=K..N} |weight - approximation|
+
+    /// K + 2M: multiplications a sample.
+    [[nodiscard]] std::size_t cost() const { return near_taps + 2 * modes.size(); }
+};
+
+/// sum_{j=K..N} |weights[j] - sum_m w_m (1 - d_m)^(j-K)|, N the last index of `weights`; it stops once beyond `enough`.
+[[nodiscard]] double error_of(const std::vector<double>& weights, std::size_t near_taps, const std::vector<Mode>& modes,
+                              double enough);
+
+}  // namespace glsum::modes
