@@ -65,9 +65,6 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
 
 }  // namespace
 
-std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu::Board& board,
-                                                 const std::vector<std::size_t>& pieces) {
-    const TargetPlan plan = part_of(make_target_plan(sweep), pieces);
 std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan, const qemu::Signals& signals,
                                      const qemu::Board& board, unsigned jobs, const qemu::RowDone& done) {
     const auto compared = run_in_shares<qemu::MeasuredRow>(
@@ -83,8 +80,9 @@ std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan, 
     return counted;
 }
 
-std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board) {
-    const TargetPlan plan = make_target_plan(sweep);
+std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu::Board& board,
+                                                 const std::vector<std::size_t>& pieces) {
+    const TargetPlan plan = part_of(make_target_plan(sweep), pieces);
     qemu::Signals signals;
     for (const std::string& name : sweep.signals) {
         signals.push_back(make_signal(name, sweep.samples, sweep.seed));
@@ -115,9 +113,7 @@ std::vector<Json> measure_on_target(const Sweep& sweep, const qemu::Board& board
         const TargetPlan::Row& row = plan.rows[i];
         auto& rows = result[static_cast<std::size_t>(std::lower_bound(pieces.begin(), pieces.end(), row.piece) -
                                                      pieces.begin())];
-        rows.push_back(to_json(row, plan.counts[row.count].order, counts[row.count].target));
-        const std::size_t count = plan.rows[i].count;
-        result.push_back(to_json(plan.rows[i], plan.counts[count].order, counts[count].row));
+        rows.push_back(to_json(row, plan.counts[row.count].order, counts[row.count].row));
         if (!same_bits[i]) {
             mark_error(rows.back(), "the target's outputs differ from the host's");
         }

@@ -135,12 +135,6 @@ void run(const Options& options, const PassedOn& flags) {
     bench::check_writable(out);
     std::optional<qemu::Board> board;
     if (sweep.wants("m7")) {
-        const std::filesystem::path source = build_info::source_folder;
-        const std::filesystem::path built = build_info::build_folder;
-        board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
-                                 source / "targets" / "mps2-an500" / "emulate");
-        (void)qemu::emulator_version();
-    if (wants(options, "m7")) {
         board = built_board();
     }
     const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
