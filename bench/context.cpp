@@ -8,6 +8,8 @@
 #include <memory>
 
 #include "bench/build_info.hpp"
+#include "bench/files.hpp"
+#include "bench/target_build.hpp"
 #include "bench/target_plan.hpp"
 #include "glsum/registry.hpp"
 
@@ -70,10 +72,10 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
 #endif
     context["core_file"] = "none";
     if (board != nullptr) {
-        std::ifstream info(board->measure_elf.parent_path() / "build_info.json");
-        const Json target = Json::parse(info, nullptr, false);
-        context["target_compiler"] = target.is_object() ? target.value("compiler", "unknown") : "unknown";
-        context["target_flags"] = target.is_object() ? target.value("flags", "unknown") : "unknown";
+        const std::filesystem::path info = board->measure_elf.parent_path() / "build_info.json";
+        const TargetBuild target = parse_target_build(read_file(info, std::size_t{1} << 20), info.string());
+        context["target_compiler"] = target.compiler;
+        context["target_flags"] = target.flags;
         context["qemu_version"] = qemu::emulator_version();
         context["elf_sha256"] = first_line(fmt::format("sha256sum '{}'", board->measure_elf.string())).substr(0, 64);
         context["target_count_order"] = fmt::format("{}", count_order(sweep));

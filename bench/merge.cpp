@@ -9,7 +9,7 @@
 #include <set>
 #include <utility>
 
-#include "bench/pieces.hpp"
+#include "bench/shard.hpp"
 #include "qemu/failure.hpp"
 
 namespace bench {

@@ -1,13 +1,9 @@
 #include "bench/pieces.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <charconv>
 
 #include "bench/deal.hpp"
 #include "bench/target_plan.hpp"
-#include "qemu/failure.hpp"
 
 namespace bench {
 namespace {
@@ -46,20 +42,6 @@ std::vector<Piece> make_pieces(const Sweep& sweep) {
         pieces.push_back({Piece::Kind::host, 0, seconds_per_timing * static_cast<double>(timings)});
     }
     return pieces;
-}
-
-Shard parse_shard(const std::string& text) {
-    Shard shard;
-    const char* end = text.data() + text.size();
-    const auto index = std::from_chars(text.data(), end, shard.index);
-    const bool slash = index.ec == std::errc{} && index.ptr != end && *index.ptr == '/';
-    const auto count = slash ? std::from_chars(index.ptr + 1, end, shard.count) : index;
-    if (!slash || count.ec != std::errc{} || count.ptr != end || shard.index < 1 || shard.index > shard.count ||
-        shard.count > Shard::most) {
-        throw glsum::Failure(glsum::Exit::bad_input,
-                             fmt::format("--shard: expected I/N with 1 <= I <= N <= {}, found {}", Shard::most, text));
-    }
-    return shard;
 }
 
 std::vector<std::size_t> pieces_of(const std::vector<Piece>& pieces, const Shard& shard) {

@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
 
+#include "bench/shard.hpp"
 #include "bench/sweep.hpp"
 
 namespace bench {
@@ -23,16 +23,6 @@ struct Piece {
 
 /// All pieces of the sweep's targets: accuracy first, then target, then host.
 [[nodiscard]] std::vector<Piece> make_pieces(const Sweep& sweep);
-
-/// One of `count` runs that together measure a sweep.
-struct Shard {
-    std::size_t index = 1;  ///< from 1
-    std::size_t count = 1;
-    static constexpr std::size_t most = 10'000;
-};
-
-/// "2/3". \throws glsum::Failure (bad input) unless 1 <= I <= N <= Shard::most.
-[[nodiscard]] Shard parse_shard(const std::string& text);
 
 /// Indices of the pieces that a shard measures, rising; may be none. Shards cost about the same, every piece is one
 /// shard's, and the host's timings are the last shard's, so that it can be run alone on its machine.

@@ -22,6 +22,7 @@ struct ResultLimits {
     static constexpr std::size_t rows = 1'000'000;
     static constexpr std::size_t text = 4096;   ///< of a name or value
     static constexpr std::size_t fields = 256;  ///< of a row
+    static constexpr std::size_t context_values = 100'000;
 };
 
 /// Reads a file that `write_results` or Google Benchmark wrote: an object `context` and an array `benchmarks` of rows,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 #include "bench/files.hpp"
@@ -22,9 +23,27 @@ std::string take(std::string& rest, const std::string& prefix) {
     return part;
 }
 
+std::string to_name(const RowKey& key) {
+    return fmt::format("gl/{}/order:{}/taps:{}/{}{}{}{}{}", key.kernel, key.order, key.taps, key.aspect,
+                       key.signal.empty() ? "" : "/signal:", key.signal,
+                       key.amplitude.empty() ? "" : "/amplitude:", key.amplitude);
+}
+
 std::optional<double> number(const Json& row, const char* counter) {
     const auto found = row.find(counter);
     return found != row.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+// A cell as RFC 4180 has it: in quotes where it holds a comma, a quote or a line's end.
+std::string quoted(const std::string& cell) {
+    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
+        return cell;
+    }
+    std::string text = "\"";
+    for (const char letter : cell) {
+        text.append(letter == '"' ? 2 : 1, letter);
+    }
+    return text + '"';
 }
 
 void keep_larger(std::optional<double>& kept, std::optional<double> value) {
@@ -96,40 +115,56 @@ std::optional<RowKey> parse_key(const std::string& name) {
         key.signal = take(rest, "signal:");
         key.amplitude = take(rest, "amplitude:");
     }
-    const bool whole = name.starts_with("gl/") && !key.kernel.empty() && !key.order.empty() && !key.taps.empty() &&
-                       !key.aspect.empty();
-    return whole ? std::optional(key) : std::nullopt;
+    const bool whole = !key.kernel.empty() && !key.order.empty() && !key.taps.empty() && !key.aspect.empty();
+    // Nothing may be left over that another row's name lacks.
+    return whole && to_name(key) == name ? std::optional(key) : std::nullopt;
 }
 
-void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
-    static const std::vector<std::string> bookkeeping = {
+std::string to_csv(const std::vector<Json>& rows) {
+    static const std::set<std::string> bookkeeping = {
         "name",     "family_index", "per_family_instance_index", "run_name",
         "run_type", "repetitions",  "repetition_index",          "threads",
         "time_unit"};
     std::vector<std::string> columns;
+    std::unordered_map<std::string, std::size_t> column_of;
     for (const Json& row : rows) {
         for (const auto& [key, value] : row.items()) {
-            if (std::find(bookkeeping.begin(), bookkeeping.end(), key) == bookkeeping.end() &&
-                std::find(columns.begin(), columns.end(), key) == columns.end()) {
+            if (!bookkeeping.contains(key) && column_of.try_emplace(key, columns.size()).second) {
                 columns.push_back(key);
             }
         }
     }
-    std::string text = fmt::format("name,kernel,order,taps,aspect,signal,amplitude,{}\n", fmt::join(columns, ","));
+    std::string text = "name,kernel,order,taps,aspect,signal,amplitude";
+    for (const std::string& column : columns) {
+        text += ',' + quoted(column);
+    }
+    text += '\n';
+    std::vector<const Json*> values;
     for (const Json& row : rows) {
         const std::string name = row.value("name", "");
         const RowKey key = parse_key(name).value_or(RowKey{});
-        text += fmt::format("{},{},{},{},{},{},{}", name, key.kernel, key.order, key.taps, key.aspect, key.signal,
-                            key.amplitude);
-        for (const std::string& column : columns) {
-            const auto found = row.find(column);
+        text += quoted(name);
+        for (const std::string* part : {&key.kernel, &key.order, &key.taps, &key.aspect, &key.signal, &key.amplitude}) {
+            text += ',' + quoted(*part);
+        }
+        values.assign(columns.size(), nullptr);
+        for (const auto& [field, value] : row.items()) {
+            if (const auto column = column_of.find(field); column != column_of.end()) {
+                values[column->second] = &value;
+            }
+        }
+        for (const Json* value : values) {
             text += ',';
-            text += found == row.end() ? "" : found->dump();
+            if (value != nullptr) {
+                text += value->is_string() ? quoted(value->get_ref<const std::string&>()) : value->dump();
+            }
         }
         text += '\n';
     }
-    write_file(path, text);
+    return text;
 }
+
+void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) { write_file(path, to_csv(rows)); }
 
 std::vector<Group> group(const std::vector<Json>& rows) {
     std::vector<Group> groups;

@@ -22,7 +22,8 @@ struct RowKey {
 /// Empty for another kind of row.
 [[nodiscard]] std::optional<RowKey> parse_key(const std::string& name);
 
-/// One line a row; the columns are the parts of the name and every counter that occurs.
+/// One line a row; the columns are the parts of the name and every counter that occurs (RFC 4180).
+[[nodiscard]] std::string to_csv(const std::vector<Json>& rows);
 void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
 
 /// What one kernel does at one order and length.

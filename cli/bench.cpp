@@ -27,6 +27,8 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
+constexpr std::size_t most_taps = 1'000'000;  // beyond any record; tables and windows still fit the memory
+
 struct Options {
     bool quick = false;
     std::vector<std::string> kernels{"*"};
@@ -52,9 +54,10 @@ std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std
         const auto end = word.data() + word.size();
         const auto [read_to, error] = std::from_chars(word.data(), end, taps);
         const bool full = word == "full";
-        if (!full && (error != std::errc{} || read_to != end || taps == 0)) {
+        if (!full && (error != std::errc{} || read_to != end || taps == 0 || taps > most_taps)) {
             throw Failure(Exit::bad_input,
-                          fmt::format("--taps: expected a number of at least 1 or full, found {}", word));
+                          fmt::format("--taps: expected a number of at least 1 and at most {}, or full, found {}",
+                                      most_taps, word));
         }
         if (std::none_of(lengths.begin(), lengths.end(),
                          [&](const bench::Length& other) { return other.full == full && other.taps == taps; })) {
@@ -168,7 +171,7 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
     command->add_option("--shard", options->shard,
                         "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "
                         "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");
-    command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::PositiveNumber);
+    command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
     command->add_option("--out", options->out,
                         "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
     command->callback([options, &passed_on] { run(*options, passed_on); });

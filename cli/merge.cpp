@@ -39,7 +39,7 @@ void add_merge(CLI::App& app) {
     command->add_flag("--allow-mixed-hosts", options->allow_mixed_hosts,
                       "Shards may come from different CPUs; the context then says mixed_hosts");
     command->add_option("--jobs", options->jobs, "Without effect: merging takes one thread")
-        ->check(CLI::PositiveNumber);
+        ->check(CLI::Range(1, 1024));
     command->add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
     command->callback([options] { run(*options); });
 }

@@ -13,7 +13,7 @@ option(GLSUM_WERROR "Treat warnings as errors" OFF)
 # restrict: GCC 12 warns of overlapping copies inside its own std::string (its bug 105329).
 add_library(glsum_warnings INTERFACE)
 target_compile_options(glsum_warnings INTERFACE
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wno-restrict $<$<BOOL:${GLSUM_WERROR}>:-Werror>)
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict> $<$<BOOL:${GLSUM_WERROR}>:-Werror>)
 
 # No product may be fused with its addition unless a kernel's name says so: host and target must agree bit for bit.
 set(GLSUM_CONTRACTION -ffp-contract=off)

@@ -86,12 +86,28 @@ TEST(ResultFile, OtherFilesAreRefusedWithAReason) {
     EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [}"), HasSubstr("a.json:1: expected JSON, found"));
     EXPECT_THAT(refusal("[1, 2]"), HasSubstr("found other JSON"));
     EXPECT_THAT(refusal("{\"context\": 3, \"benchmarks\": []}"), HasSubstr("context: expected an object"));
+    EXPECT_THAT(refusal("{\"context\": {}}"), HasSubstr("found other JSON"));
+    EXPECT_THAT(refusal("{\"benchmarks\": 3}"), HasSubstr("found other JSON"));
+    EXPECT_THAT(refusal("{\"benchmarks\": {}}"), HasSubstr("found other JSON"));
+    EXPECT_THAT(refusal("3"), HasSubstr("found other JSON"));
+    EXPECT_THAT(refusal("{\"benchmarks\": [], \"benchmarks\": []}"), HasSubstr("benchmarks is there twice"));
     EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [3]}"), HasSubstr("row 1"));
+    EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [[]]}"), HasSubstr("row 1"));
     EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [{\"name\": \"a\", \"x\": [1]}]}"),
                 HasSubstr("(a): x: expected"));
-    EXPECT_THAT(refusal("{\"context\": " + std::string(100000, '[')), HasSubstr("nested"));
+    EXPECT_THAT(refusal("{\"context\": {\"a\": " + std::string(100000, '[')), HasSubstr("nested"));
     EXPECT_THAT(refusal(file_of({row(std::string(bench::ResultLimits::text + 1, 'a'))})),
                 HasSubstr("texts of at most"));
+    EXPECT_THAT(refusal("{\"benchmarks\": [{\"name\": \"a\", \"error_occurred\": 1}]}"),
+                HasSubstr("(a): error_occurred: expected a boolean, found 1"));
+    EXPECT_THAT(refusal("{\"benchmarks\": [{\"label\": true, \"name\": \"a\"}]}"),
+                HasSubstr("label: expected a text, found true"));
+    EXPECT_THAT(refusal("{\"benchmarks\": [{\"name\": \"a\", \"x\": null}]}"), HasSubstr("(a): x: expected"));
+    std::string many = "{\"context\": {\"a\": [0";
+    for (std::size_t i = 0; i < bench::ResultLimits::context_values; ++i) {
+        many += ",0";
+    }
+    EXPECT_THAT(refusal(many + "]}, \"benchmarks\": []}"), HasSubstr("context: expected at most 100000 values"));
     bench::Json wide = row("a");
     for (std::size_t i = 0; i <= bench::ResultLimits::fields; ++i) {
         wide["counter" + std::to_string(i)] = 1;

@@ -44,6 +44,18 @@ TEST(Results, NamesAreShortestRoundTripAndReadBack) {
     EXPECT_EQ(key->signal, "sine5");
     EXPECT_FALSE(bench::parse_key("drive/niopdt/ring_plain_f32/taps:50/host"));
     EXPECT_FALSE(bench::parse_key("gl/ring_plain_f32/order:0.5"));
+    EXPECT_FALSE(bench::parse_key("gl/ring_plain_f32/order:0.5/taps:50/host/"));
+    EXPECT_FALSE(bench::parse_key("gl/ring_plain_f32/order:0.5/taps:50/accuracy/signal:step/other"));
+    EXPECT_FALSE(bench::parse_key("ring_plain_f32/order:0.5/taps:50/host"));
+}
+
+TEST(Results, CellsOfACsvAreQuotedWhereTheyMustBe) {
+    bench::Json row = timing("a", "host", 1.5);
+    row["label"] = "one, \"two\"";
+    row["plain"] = "three";
+    const std::string csv = bench::to_csv({row});
+    EXPECT_EQ(csv.substr(csv.find('\n') + 1),
+              "gl/a/order:0.5/taps:50/host,a,0.5,50,host,,,1,1.5,0.0,\"one, \"\"two\"\"\",three\n");
 }
 
 TEST(Results, TheWorstSignalCounts) {
