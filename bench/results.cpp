@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cstdint>
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "bench/files.hpp"
 
@@ -78,9 +81,14 @@ void add_row(Entry& entry, const std::string& aspect, const Json& row) {
         keep_larger(entry.error_max, number(row, "error_max"));
         keep_larger(entry.rounding_error_max, number(row, "rounding_error_max"));
         keep_larger(entry.truncation_error_max, number(row, "truncation_error_max"));
+        keep_larger(entry.effective_taps, number(row, "effective_taps"));
     } else if (aspect.starts_with("m7")) {
         entry.target_instructions = number(row, "instructions_per_sample");
         entry.target_worst = number(row, "worst_instructions");
+        if (const auto cycles = number(row, "model_cycles_per_sample")) {
+            entry.model_cycles[aspect.substr(aspect.find(':') + 1)] = {*cycles, number(row, "model_cycles_low"),
+                                                                       number(row, "model_cycles_high")};
+        }
         entry.software_double = row.value("label", "").find("software") != std::string::npos;
     }
     const auto state = number(row, "state_bytes");
@@ -122,6 +130,40 @@ std::optional<RowKey> parse_key(const std::string& name) {
 
 std::string to_csv(const std::vector<Json>& rows) {
     static const std::set<std::string> bookkeeping = {
+std::string csv_field(const std::string& text) {
+    if (text.find_first_of(",\"\r\n") == std::string::npos) {
+        return text;
+    }
+    std::string quoted = "\"";
+    for (const char c : text) {
+        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    }
+    return quoted + '"';
+}
+
+std::optional<double> taps_number(const std::string& taps) {
+    double sum = 0.0;
+    const char* at = taps.data();
+    const char* const end = at + taps.size();
+    for (;;) {
+        std::uint32_t part = 0;
+        const auto [behind, error] = std::from_chars(at, end, part);
+        if (error != std::errc{}) {
+            return std::nullopt;
+        }
+        sum += part;
+        if (behind == end) {
+            return sum > 0.0 ? std::optional(sum) : std::nullopt;
+        }
+        if (*behind != '+') {
+            return std::nullopt;
+        }
+        at = behind + 1;
+    }
+}
+
+void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
+    static const std::vector<std::string> bookkeeping = {
         "name",     "family_index", "per_family_instance_index", "run_name",
         "run_type", "repetitions",  "repetition_index",          "threads",
         "time_unit"};
@@ -130,6 +172,8 @@ std::string to_csv(const std::vector<Json>& rows) {
     for (const Json& row : rows) {
         for (const auto& [key, value] : row.items()) {
             if (!bookkeeping.contains(key) && column_of.try_emplace(key, columns.size()).second) {
+    std::unordered_set<std::string> known(bookkeeping.begin(), bookkeeping.end());
+            if (known.insert(key).second) {
                 columns.push_back(key);
             }
         }
@@ -157,6 +201,13 @@ std::string to_csv(const std::vector<Json>& rows) {
             text += ',';
             if (value != nullptr) {
                 text += value->is_string() ? quoted(value->get_ref<const std::string&>()) : value->dump();
+        text += ',' + csv_field(column);
+        text += csv_field(name);
+            text += ',' + csv_field(*part);
+        for (const std::string& column : columns) {
+            const auto found = row.find(column);
+            if (found != row.end()) {
+                text += csv_field(found->is_string() ? found->get<std::string>() : found->dump());
             }
         }
         text += '\n';

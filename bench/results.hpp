@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,7 +25,22 @@ struct RowKey {
 
 /// One line a row; the columns are the parts of the name and every counter that occurs (RFC 4180).
 [[nodiscard]] std::string to_csv(const std::vector<Json>& rows);
+/// A text as one field of a CSV line.
+[[nodiscard]] std::string csv_field(const std::string& text);
+
+/// One line a row; the columns are the parts of the name and every counter that occurs. Quoted as RFC 4180 says.
 void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
+
+/// The length of "<near>[+<modes>]": how many terms its sum has. Nothing for `full`, whose length the name does not
+/// tell, and for what is no length.
+[[nodiscard]] std::optional<double> taps_number(const std::string& taps);
+
+/// Modelled cycles per sample, with the band over the rule sets that fit silicon equally.
+struct ModelCycles {
+    double median;
+    std::optional<double> low;
+    std::optional<double> high;
+};
 
 /// What one kernel does at one order and length.
 struct Entry {
@@ -36,6 +52,8 @@ struct Entry {
     std::optional<double> host_cycles;  ///< likewise
     std::optional<double> target_instructions;
     std::optional<double> target_worst;
+    std::map<std::string, ModelCycles> model_cycles;  ///< by core
+    std::optional<double> effective_taps;
     std::optional<double> bytes;  ///< state and coefficients; on the target where it runs there
     bool software_double = false;
     std::string fault;  ///< why it may not be ranked; empty if it may

@@ -3,9 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
+
+#include "bench/row.hpp"
 
 namespace bench {
 
@@ -23,5 +27,18 @@ namespace bench {
 [[nodiscard]] std::vector<double> truncation_bounds(double order, std::string_view signal,
                                                     std::span<const std::size_t> lengths, std::size_t samples,
                                                     std::uint64_t seed);
+
+/// The bounds of the accuracy rows of a file: of[order][signal][taps]. `missing` says why there are none: they need the
+/// records made again, so `n_samples` and `seed` in the context, and samples^2 steps for each order and signal (at most
+/// 20 000 samples, 1000 pairs of order and signal).
+struct TruncationBounds {
+    std::map<std::string, std::map<std::string, std::map<std::string, double>>> of;
+    std::string missing;
+};
+[[nodiscard]] TruncationBounds truncation_bounds(const Json& context, const std::vector<Json>& rows, unsigned jobs);
+
+/// Of each order and length the largest bound of the signals: that of the worst error.
+using WorstBounds = std::map<std::string, std::map<std::string, double>>;
+[[nodiscard]] WorstBounds worst_of_signals(const TruncationBounds& bounds);
 
 }  // namespace bench

@@ -22,8 +22,10 @@ struct Options {
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
 };
 
-bench::report::Input read(const std::filesystem::path& path) {
-    return {path.filename().string(), bench::read_results(path)};
+bench::report::Input read(const std::filesystem::path& path, unsigned jobs) {
+    bench::Results results = bench::read_results(path);
+    auto bounds = bench::truncation_bounds(results.context, results.rows, jobs);
+    return {path.filename().string(), std::move(results), std::move(bounds)};
 }
 
 void run(Options options) {
@@ -41,9 +43,9 @@ void run(Options options) {
         }
     }
     bench::check_writable(options.out);
-    const bench::report::Input input = read(options.files[0]);
-    const auto other = options.files.size() > 1 ? std::optional(read(options.files[1])) : std::nullopt;
-    const auto written = bench::report::write_report(input, other ? &*other : nullptr, options.out, options.jobs);
+    const bench::report::Input input = read(options.files[0], options.jobs);
+    const auto other = options.files.size() > 1 ? std::optional(read(options.files[1], options.jobs)) : std::nullopt;
+    const auto written = bench::report::write_report(input, other ? &*other : nullptr, options.out);
     fmt::print("{} rows of {}", input.results.rows.size(), options.files[0].string());
     if (other) {
         fmt::print(" and {} of {}", other->results.rows.size(), options.files[1].string());

@@ -4,19 +4,21 @@
 #include <string>
 
 #include "bench/result_file.hpp"
+#include "bench/truncation_bound.hpp"
 
 namespace bench::report {
 
-/// A result file and what the page calls it.
+/// A result file, what the page calls it, and the bounds of its truncation.
 struct Input {
     std::string name;
     Results results;
+    TruncationBounds bounds;
 };
 
 /// The whole page: markup, style, D3, script and data; it loads nothing. What comes from the files stands in it as JSON
 /// in which no character can end the element, and reaches the screen as text alone; a content security policy admits
 /// no script but the page's own two.
 /// \param other  null: nothing is overlaid
-[[nodiscard]] std::string make_page(const Input& input, const Input* other, unsigned jobs);
+[[nodiscard]] std::string make_page(const Input& input, const Input* other);
 
 }  // namespace bench::report

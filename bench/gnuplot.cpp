@@ -1,0 +1,61 @@
+#include "bench/gnuplot.hpp"
+
+#include <fmt/format.h>
+
+#include <cctype>
+#include <cstdio>
+#include <string_view>
+
+#include "bench/files.hpp"
+#include "qemu/failure.hpp"
+
+namespace bench {
+namespace {
+
+// Between single quotes gnuplot takes all as it is, and two of them for one.
+std::string quoted_path(const std::filesystem::path& path) {
+    std::string text = "'";
+    for (const char c : path.string()) {
+        text += c == '\'' ? "''" : std::string(1, c);
+    }
+    return text + "'";
+}
+
+void run_gnuplot(const std::string& script, const std::filesystem::path& path) {
+    FILE* pipe = popen("gnuplot >/dev/null", "w");
+    const bool written = pipe != nullptr && std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
+    const int status = pipe != nullptr ? pclose(pipe) : -1;
+    if (!written || status != 0) {
+        throw glsum::Failure(glsum::Exit::missing,
+                             fmt::format("{}: gnuplot failed (Debian package gnuplot-nox)", path.string()));
+    }
+}
+
+}  // namespace
+
+std::string gnuplot_text(const std::string& text) {
+    std::string safe;
+    for (const char c : text.substr(0, 60)) {
+        const bool harmless = std::isalnum(static_cast<unsigned char>(c)) != 0 ||
+                              std::string_view(" _.:+-,/()").find(c) != std::string_view::npos;
+        safe += harmless ? c : '?';
+    }
+    return safe;
+}
+
+void draw(const std::filesystem::path& stem, std::size_t height, const std::string& script) {
+    for (const bool svg : {true, false}) {
+        std::filesystem::path path = stem;
+        path += svg ? ".svg" : ".png";
+        const std::filesystem::path partial = partial_name(path);
+        const std::string terminal =
+            svg ? fmt::format("svg size 1200,{} font \"Helvetica,12\" background rgb \"white\"", height)
+                : fmt::format("pngcairo size 1200,{} font \"Helvetica,10\" background rgb \"white\"", height);
+        run_gnuplot(
+            fmt::format("set terminal {}\nset output {}\n{}unset output\n", terminal, quoted_path(partial), script),
+            path);
+        publish(partial, path);
+    }
+}
+
+}  // namespace bench

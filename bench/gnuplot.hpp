@@ -1,0 +1,23 @@
+// What every picture shares: gnuplot, its words, and the colours.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace bench {
+
+/// Okabe and Ito's palette, which colour-blind readers can tell apart; the yellow is a brown, which shows on white.
+inline constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                          "#E69F00", "#56B4E9", "#8C6D1F", "#666666"};
+
+/// A text from a file as gnuplot may see it between double quotes: letters, digits and " _.:+-,/()"; others become '?',
+/// so that no name can end the string or run a command. At most 60 characters.
+[[nodiscard]] std::string gnuplot_text(const std::string& text);
+
+/// Writes `stem`.svg and `stem`.png, 1200 wide. \param script  the commands, for a picture of that height, that follow
+/// `set terminal` and `set output`
+/// \throws glsum::Failure (missing) without gnuplot, (bad input) when a file cannot be written.
+void draw(const std::filesystem::path& stem, std::size_t height, const std::string& script);
+
+}  // namespace bench

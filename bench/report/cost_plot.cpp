@@ -1,0 +1,96 @@
+// The curves over their costs, by gnuplot.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "bench/gnuplot.hpp"
+#include "bench/report/curves.hpp"
+
+namespace bench::report {
+namespace {
+
+constexpr std::size_t most_orders = 24;
+
+std::string format_of(const std::string& kernel) { return kernel.substr(kernel.rfind('_') + 1); }
+
+template <class Get>
+std::vector<std::string> distinct(const std::vector<CurvePoint>& points, Get get) {
+    std::vector<std::string> found;
+    for (const CurvePoint& point : points) {
+        const std::string name = get(point);
+        if (point.entry->error_max && std::find(found.begin(), found.end(), name) == found.end()) {
+            found.push_back(name);
+        }
+    }
+    return found;
+}
+
+// One order over one cost: a point for each kernel and length, by format, and the front as steps with its names.
+std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::string>& formats,
+                  const std::string& order, const Cost& cost, std::size_t c, bool key) {
+    std::vector<std::string> data(formats.size());
+    std::vector<std::pair<double, double>> front;
+    for (const CurvePoint& point : points) {
+        const Entry& entry = *point.entry;
+        const auto x = cost.of(entry);
+        if (point.group->order != order || !x || !entry.error_max || !entry.fault.empty() || *x <= 0.0 ||
+            *entry.error_max <= 0.0) {
+            continue;
+        }
+        const auto format = std::find(formats.begin(), formats.end(), format_of(entry.kernel)) - formats.begin();
+        data[static_cast<std::size_t>(format)] += fmt::format("{:.6e} {:.6e}\n", *x, *entry.error_max);
+        if (point.front[c]) {
+            front.emplace_back(*x, *entry.error_max);
+        }
+    }
+    std::string blocks;
+    std::vector<std::string> lines;
+    for (std::size_t f = 0; f < formats.size(); ++f) {
+        if (!data[f].empty()) {
+            blocks += fmt::format("$d{} << EOD\n{}EOD\n", f, data[f]);
+            lines.push_back(fmt::format("$d{} using 1:2 with points pt {} ps 0.5 lc rgb \"{}\" title \"{}\" noenhanced",
+                                        f, 4 + f, palette[f % std::size(palette)], gnuplot_text(formats[f])));
+        }
+    }
+    if (lines.empty()) {
+        return "set multiplot next\n";
+    }
+    std::sort(front.begin(), front.end());
+    blocks += "$front << EOD\n";
+    for (const auto& [x, y] : front) {
+        blocks += fmt::format("{:.6e} {:.6e}\n", x, y);
+    }
+    blocks += "EOD\n";
+    lines.emplace_back("$front using 1:2 with steps lw 1.5 lc rgb \"black\" title \"Pareto front\"");
+    lines.emplace_back("$front using 1:2 with points pt 6 ps 0.9 lc rgb \"black\" notitle");
+    return blocks + fmt::format("set title \"order {}\"\nset xlabel \"{}\"\n{}\nplot {}\n", gnuplot_text(order),
+                                gnuplot_text(cost.title), key ? "set key at screen 0.995, screen 0.93" : "unset key",
+                                fmt::join(lines, ", \\\n  "));
+}
+
+}  // namespace
+
+void plot_costs(const std::filesystem::path& stem, const std::vector<CurvePoint>& points,
+                const std::vector<Cost>& costs) {
+    auto orders = distinct(points, [](const CurvePoint& point) { return point.group->order; });
+    orders.resize(std::min(orders.size(), most_orders));
+    const auto formats = distinct(points, [](const CurvePoint& point) { return format_of(point.entry->kernel); });
+    const std::size_t height = 140 + 330 * orders.size();
+    const auto share = [&](double pixels) { return pixels / static_cast<double>(height); };
+    std::string text = fmt::format(
+        "set multiplot layout {},{} margins 0.06,0.88,{:.3f},{:.3f} spacing 0.05,{:.3f} title \"Grünwald-Letnikov sum: "
+        "error against cost, every length (worst over the signals, relative to the largest exact sum)\"\n"
+        "set logscale xy\nset format xy \"10^{{%L}}\"\nset xtics nomirror\nset ytics nomirror\nset mytics 1\n"
+        "set grid lc rgb \"#dddddd\"\n",
+        orders.size(), costs.size(), share(60), 1.0 - share(65), share(95));
+    bool key = true;
+    for (const std::string& order : orders) {
+        for (std::size_t c = 0; c < costs.size(); ++c) {
+            text += panel(points, formats, order, costs[c], c, key);
+            key = false;
+        }
+    }
+    draw(stem, height, text + "unset multiplot\n");
+}
+
+}  // namespace bench::report

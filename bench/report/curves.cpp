@@ -1,0 +1,121 @@
+#include "bench/report/curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "bench/files.hpp"
+#include "bench/report/front.hpp"
+
+namespace bench::report {
+
+std::vector<Cost> costs_of(const std::vector<Group>& groups) {
+    std::set<std::string> cores;
+    bool host = false;
+    bool target = false;
+    for (const Group& group : groups) {
+        for (const Entry& entry : group.entries) {
+            host = host || entry.host_ns;
+            target = target || entry.target_instructions;
+            for (const auto& [core, cycles] : entry.model_cycles) {
+                cores.insert(core);
+            }
+        }
+    }
+    std::vector<Cost> costs;
+    if (host) {
+        costs.push_back({"host_ns", "host, ns per sample", [](const Entry& entry) { return entry.host_ns; }});
+    }
+    if (target) {
+        costs.push_back({"instructions", "emulated Cortex-M7, instructions per sample (not cycles)",
+                         [](const Entry& entry) { return entry.target_instructions; }});
+    }
+    for (const std::string& core : cores) {
+        costs.push_back({"model_cycles:" + core, core + ", modelled cycles per sample", [core](const Entry& entry) {
+                             const auto found = entry.model_cycles.find(core);
+                             return found == entry.model_cycles.end() ? std::nullopt
+                                                                      : std::optional(found->second.median);
+                         }});
+    }
+    costs.push_back({"bytes", "bytes of state and coefficients", [](const Entry& entry) { return entry.bytes; }});
+    return costs;
+}
+
+std::vector<CurvePoint> curve_points(const std::vector<Group>& groups, const std::vector<Cost>& costs) {
+    std::vector<CurvePoint> points;
+    std::map<std::string, std::vector<std::size_t>> by_order;
+    for (const Group& group : groups) {
+        for (const Entry& entry : group.entries) {
+            by_order[group.order].push_back(points.size());
+            points.push_back({&group, &entry, std::vector<bool>(costs.size())});
+        }
+    }
+    for (const auto& [order, members] : by_order) {
+        for (std::size_t c = 0; c < costs.size(); ++c) {
+            std::vector<Point> ranked;
+            std::vector<std::size_t> at;
+            for (const std::size_t i : members) {
+                const Entry& entry = *points[i].entry;
+                if (const auto cost = costs[c].of(entry); cost && entry.error_max && entry.fault.empty()) {
+                    ranked.push_back({*cost, *entry.error_max});
+                    at.push_back(i);
+                }
+            }
+            const std::vector<bool> front = on_front(ranked);
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                points[at[i]].front[c] = front[i];
+            }
+        }
+    }
+    return points;
+}
+
+void write_curves(const std::filesystem::path& path, const std::vector<CurvePoint>& points,
+                  const std::vector<Cost>& costs, const WorstBounds& bounds) {
+    std::string text =
+        "order,kernel,taps,error_max,rounding_error_max,truncation_error_max,truncation_bound,effective_taps";
+    for (const Cost& cost : costs) {
+        text += ',' + csv_field(cost.name);
+        if (cost.name.starts_with("model_cycles:")) {
+            const std::string core = cost.name.substr(cost.name.find(':'));
+            text += ',' + csv_field("model_cycles_low" + core) + ',' + csv_field("model_cycles_high" + core);
+        }
+    }
+    for (const Cost& cost : costs) {
+        text += ',' + csv_field("front:" + cost.name);
+    }
+    text += ",fault\n";
+    const auto add = [&](std::optional<double> value) { text += value ? fmt::format(",{}", *value) : ","; };
+    for (const CurvePoint& point : points) {
+        const Entry& entry = *point.entry;
+        text += fmt::format("{},{},{}", csv_field(point.group->order), csv_field(entry.kernel),
+                            csv_field(point.group->taps));
+        const auto of_order = bounds.find(point.group->order);
+        const auto bound = of_order == bounds.end() ? std::nullopt : [&]() -> std::optional<double> {
+            const auto found = of_order->second.find(point.group->taps);
+            return found == of_order->second.end() ? std::nullopt : std::optional(found->second);
+        }();
+        for (const auto& value :
+             {entry.error_max, entry.rounding_error_max, entry.truncation_error_max, bound, entry.effective_taps}) {
+            add(value);
+        }
+        for (const Cost& cost : costs) {
+            add(cost.of(entry));
+            if (cost.name.starts_with("model_cycles:")) {
+                const auto found = entry.model_cycles.find(cost.name.substr(cost.name.find(':') + 1));
+                const bool known = found != entry.model_cycles.end();
+                add(known ? found->second.low : std::nullopt);
+                add(known ? found->second.high : std::nullopt);
+            }
+        }
+        for (std::size_t c = 0; c < costs.size(); ++c) {
+            text += point.front[c] ? ",1" : ",0";
+        }
+        text += ',' + csv_field(entry.fault) + '\n';
+    }
+    write_file(path, text);
+}
+
+}  // namespace bench::report
