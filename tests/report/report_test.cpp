@@ -1,0 +1,188 @@
+// What a report is made of: columns, fronts, curves, differences, texts that stay texts.
+#include "bench/report/report.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "bench/files.hpp"
+#include "bench/gnuplot.hpp"
+#include "bench/report/columns.hpp"
+#include "bench/report/curves.hpp"
+#include "bench/report/difference.hpp"
+#include "bench/report/front.hpp"
+#include "qemu/failure.hpp"
+#include "tests/report/pretend_results.hpp"
+
+namespace {
+
+using namespace bench::report;
+
+TEST(Front, KeepsWhatNothingBeats) {
+    const std::vector<Point> points = {{10, 1.0}, {20, 0.5}, {20, 0.6}, {30, 0.5}, {5, 2.0}, {40, 0.1}};
+    EXPECT_EQ(on_front(points), (std::vector<bool>{true, true, false, false, true, true}));
+}
+
+TEST(Front, AnErrorOfOnePercentMoreIsTheSame) {
+    EXPECT_EQ(on_front(std::vector<Point>{{10, 1.005}, {20, 1.0}}), (std::vector<bool>{true, false}));
+    EXPECT_EQ(on_front(std::vector<Point>{{10, 1.02}, {20, 1.0}}), (std::vector<bool>{true, true}));
+    EXPECT_EQ(on_front(std::vector<Point>{{10, 1.005}, {10, 1.0}}), (std::vector<bool>{true, true}));
+}
+
+TEST(Front, EqualPointsDoNotBeatEachOther) {
+    EXPECT_EQ(on_front(std::vector<Point>{{10, 1.0}, {10, 1.0}, {10, 2.0}}), (std::vector<bool>{true, true, false}));
+}
+
+TEST(Columns, TextsAreIndicesIntoTheirDistinctValues) {
+    const bench::Json column = encode_texts({"ring", "shift", "ring", "mirror"});
+    EXPECT_EQ(column["values"], (bench::Json{"ring", "shift", "mirror"}));
+    EXPECT_EQ(column["bits"], 8);
+    EXPECT_EQ(column["at"], "AAEAAg==");  // 00 01 00 02
+    EXPECT_FALSE(encode_texts({"ring", "ring"}).contains("at"));
+}
+
+TEST(Columns, MissingNumbersAreNull) {
+    const bench::Json column = encode_numbers({0.1, std::nan(""), 0.1});
+    EXPECT_EQ(column["values"], (bench::Json{0.1, nullptr}));
+    EXPECT_EQ(column["at"], "AAEA");  // 00 01 00
+}
+
+TEST(Columns, ManyDifferentNumbersAreFloats) {
+    std::vector<double> numbers;
+    for (int i = 0; i < 300; ++i) {
+        numbers.push_back(i);
+    }
+    const std::string text = encode_numbers(numbers)["float32"];
+    EXPECT_EQ(text.size(), 300U * 4U * 4U / 3U);
+    EXPECT_EQ(text.substr(0, 16), "AAAAAAAAgD8AAABA");  // 0, 1, 2: 00000000 0000803f 00000040
+}
+
+TEST(Columns, OneTableForEachAspectAndMeansLeftOut) {
+    std::vector<bench::Json> rows = {
+        bench::make_row("gl/a_b_c/order:0.5/taps:2+7/accuracy/signal:sine5/amplitude:0.0625", 1),
+        bench::make_row("gl/a_b_c/order:0.5/taps:50/host", 1), bench::make_row("drive/niopdt/a_b_c/taps:50/host", 1),
+        bench::make_row("gl/a_b_c/order:0.5/taps:50/host", 1)};
+    rows[3]["run_type"] = "aggregate";
+    bench::mark_error(rows[1], "wrong");
+    const bench::Json tables = to_tables(rows);
+    ASSERT_EQ(tables.size(), 3U);
+    EXPECT_EQ(tables[0]["aspect"], "accuracy");
+    EXPECT_EQ(tables[0]["texts"]["signal"]["values"][0], "sine5, amplitude 0.0625");
+    EXPECT_EQ(tables[0]["texts"]["taps"]["values"][0], "2+7");
+    EXPECT_EQ(tables[1]["aspect"], "host");
+    EXPECT_EQ(tables[1]["rows"], 1);
+    EXPECT_EQ(tables[1]["texts"]["fault"]["values"][0], "wrong");
+    EXPECT_EQ(tables[2]["aspect"], "other");
+    EXPECT_EQ(tables[2]["texts"]["name"]["values"][0], "drive/niopdt/a_b_c/taps:50/host");
+}
+
+TEST(Columns, AnEndlessListOfStallsIsRefused) {
+    bench::Json row = bench::make_row("gl/a_b_c/order:0.5/taps:50/m7:x", 1);
+    for (int i = 0; i < 65; ++i) {
+        row["stall_" + std::to_string(i)] = 1.0;
+    }
+    EXPECT_THROW((void)to_tables({row}), glsum::Failure);
+}
+
+TEST(Curves, FrontsGoOverAllLengthsOfAnOrderAndLeaveFaultsOut) {
+    std::vector<bench::Json> rows;
+    const auto add = [&](const std::string& kernel, const std::string& taps, double error, double instructions) {
+        auto& accuracy =
+            rows.emplace_back(bench::make_row("gl/" + kernel + "/order:0.5/taps:" + taps + "/accuracy/signal:step", 1));
+        accuracy["error_max"] = error;
+        auto& cost = rows.emplace_back(bench::make_row("gl/" + kernel + "/order:0.5/taps:" + taps + "/m7:f746", 1));
+        cost["instructions_per_sample"] = instructions;
+        cost["model_cycles_per_sample"] = instructions / 2;
+        cost["model_cycles_low"] = instructions / 3;
+    };
+    add("fast", "50", 0.5, 100);
+    add("slow", "50", 0.5, 200);   // beaten at its own length
+    add("fast", "100", 0.6, 150);  // beaten by the shorter one
+    add("wrong", "50", 0.1, 10);
+    bench::mark_error(rows.back(), "the target's outputs differ");
+    const auto groups = bench::group(rows);
+    const auto costs = costs_of(groups);
+    ASSERT_EQ(costs.size(), 3U);
+    EXPECT_EQ(costs[1].name, "model_cycles:f746");
+    const auto points = curve_points(groups, costs);
+    for (const auto& point : points) {
+        EXPECT_EQ(point.front[0], point.entry->kernel == "fast" && point.group->taps == "50") << point.entry->kernel;
+    }
+    EXPECT_EQ(points[0].entry->model_cycles.at("f746").median, 50.0);
+    EXPECT_FALSE(points[0].entry->model_cycles.at("f746").high);
+}
+
+TEST(Differences, TheLargestRatioComesFirst) {
+    std::vector<bench::Json> a = {bench::make_row("gl/a_b_c/order:0.5/taps:50/m7:count", 1),
+                                  bench::make_row("gl/a_b_c/order:0.5/taps:50/accuracy/signal:step", 1),
+                                  bench::make_row("gone", 1)};
+    a[0]["instructions_per_sample"] = 100;
+    a[0]["code_bytes"] = 40;
+    a[1]["error_max"] = 1e-3;
+    a[1]["real_time"] = 5.0;  // no timing: not compared
+    auto b = a;
+    b[0]["instructions_per_sample"] = 110;
+    b[1]["error_max"] = 0.25e-3;
+    b[1]["real_time"] = 7.0;
+    b[2]["name"] = "new";
+    const auto found = differences(a, b);
+    ASSERT_EQ(found.size(), 4U);
+    EXPECT_EQ(found[0].note, "only in A");
+    EXPECT_EQ(found[1].note, "only in B");
+    EXPECT_EQ(found[2].counter, "error_max");
+    EXPECT_EQ(found[3].counter, "instructions_per_sample");
+    EXPECT_NEAR(found[3].size(), std::log(1.1), 1e-12);
+    EXPECT_NE(to_csv(found).find("gl/a_b_c/order:0.5/taps:50/m7:count,instructions_per_sample,100,110,1.1,\n"),
+              std::string::npos);
+}
+
+TEST(Texts, OfAFileStayOneField) {
+    EXPECT_EQ(bench::csv_field("plain"), "plain");
+    EXPECT_EQ(bench::csv_field("a,b \"c\"\n"), "\"a,b \"\"c\"\"\n\"");
+    EXPECT_EQ(bench::gnuplot_text("ring\"; system('x'); `y` $z {a}"), "ring?? system(?x?)? ?y? ?z ?a?");
+    EXPECT_EQ(bench::taps_number("2+7"), 9.0);
+    for (const char* text : {"", "full", "5x", "+", "2+", "-3", "0"}) {
+        EXPECT_EQ(bench::taps_number(text), std::nullopt) << text;
+    }
+}
+
+TEST(Texts, NoneEndsTheDataOfThePage) {
+    Input input{"</title>.json", test::pretend_results(10, 1), {}};
+    const std::string hostile = "</script><!--<script>&lt;";
+    input.results.context["cpu"] = hostile;
+    input.results.rows[0]["name"] = hostile;
+    const std::string page = make_page(input, nullptr);
+    EXPECT_EQ(page.find(hostile), std::string::npos);
+    const auto begin = page.find("id=\"data\">");
+    const std::string data = page.substr(begin + 10, page.find("</script>", begin) - begin - 10);
+    EXPECT_EQ(data.find_first_of("<>&"), std::string::npos);
+    EXPECT_EQ(bench::Json::parse(data)["files"][0]["context"]["cpu"], hostile);
+    EXPECT_NE(page.find("<title>glsum: &lt;/title&gt;.json</title>"), std::string::npos);
+}
+
+TEST(Report, WritesEveryFileEvenOfHostileNamesAndOddLengths) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "report it's";
+    std::filesystem::remove_all(folder);
+    Input input{"a.json", test::pretend_results(3000, 1), {}};
+    input.results.rows[0]["name"] = "gl/a`touch stolen`_\"b_c/order:0.2\"/taps:2+7/accuracy/signal:step";
+    input.results.rows[1]["name"] = "gl/a_b_c/order:0.2/taps:many/accuracy/signal:step";
+    input.results.rows[2]["name"] = "BM_other/8";
+    const auto written = write_report(input, &input, folder / "page.html");
+    EXPECT_EQ(written.size(), 8U);
+    for (const auto& file : written) {
+        EXPECT_GT(std::filesystem::file_size(file), 0U) << file;
+    }
+    EXPECT_EQ(bench::read_file(folder / "page-difference.csv", 1000), "name,counter,a,b,ratio,note\n");
+    EXPECT_FALSE(std::filesystem::exists("stolen"));
+    std::filesystem::remove_all(folder);
+}
+
+TEST(Report, OfAFileWithoutAccuracyHasNoPictures) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "report_other";
+    Input input{"other.json", {}, {}};
+    input.results.rows = {bench::make_row("BM_other/8", 1)};
+    EXPECT_EQ(write_report(input, nullptr, folder / "page.html").size(), 3U);
+    std::filesystem::remove_all(folder);
+}
+
+}  // namespace
