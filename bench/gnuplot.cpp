@@ -43,6 +43,10 @@ std::string gnuplot_text(const std::string& text) {
     return safe;
 }
 
+std::string log_range(double smallest, double largest) {
+    return fmt::format("[{:.4e}:{:.4e}]", smallest / 1.5, largest * 1.5);
+}
+
 void draw(const std::filesystem::path& stem, std::size_t height, const std::string& script) {
     for (const bool svg : {true, false}) {
         std::filesystem::path path = stem;

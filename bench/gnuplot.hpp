@@ -15,6 +15,9 @@ inline constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC7
 /// so that no name can end the string or run a command. At most 60 characters.
 [[nodiscard]] std::string gnuplot_text(const std::string& text);
 
+/// "[low:high]" around values above 0 on a logarithmic axis, with room; also of a single value.
+[[nodiscard]] std::string log_range(double smallest, double largest);
+
 /// Writes `stem`.svg and `stem`.png, 1200 wide. \param script  the commands, for a picture of that height, that follow
 /// `set terminal` and `set output`
 /// \throws glsum::Failure (missing) without gnuplot, (bad input) when a file cannot be written.

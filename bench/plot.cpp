@@ -85,7 +85,13 @@ std::optional<double> bound_of(const WorstBounds& bounds, const Group& group) {
     return found == of_order->second.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::string data_block(const std::vector<Group>& groups, const std::string& order, const Series& series) {
+// Smallest and largest of what a panel shows.
+struct Range {
+    double smallest = 1e300;
+    double largest = 0.0;
+};
+
+std::string data_block(const std::vector<Group>& groups, const std::string& order, const Series& series, Range& range) {
     std::string block;
     for (const Group& group : groups) {
         const auto taps = taps_of(group, groups);
@@ -93,6 +99,8 @@ std::string data_block(const std::vector<Group>& groups, const std::string& orde
             if (taps && group.order == order && (series.kernel.empty() || entry.kernel == series.kernel)) {
                 if (const auto value = series.value(group, entry); value && *value > 0.0) {
                     block += fmt::format("{} {:.6e}\n", *taps, *value);
+                    range.smallest = std::min(range.smallest, *value);
+                    range.largest = std::max(range.largest, *value);
                     if (series.kernel.empty()) {
                         break;
                     }
@@ -120,8 +128,9 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
                   const std::string& title, bool key) {
     std::string blocks;
     std::vector<std::string> lines;
+    Range range;
     for (std::size_t i = 0; i < series.size(); ++i) {
-        const std::string data = data_block(groups, order, series[i]);
+        const std::string data = data_block(groups, order, series[i], range);
         if (data.empty()) {
             continue;
         }
@@ -134,7 +143,8 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
     if (lines.empty()) {
         return "set multiplot next\n";
     }
-    return blocks + fmt::format("set title \"{}\"\n{}\nplot {}\n", title,
+    return blocks + fmt::format("set title \"{}\"\nset yrange {}\n{}\nplot {}\n", title,
+                                log_range(range.smallest, range.largest),
                                 key ? "set key at screen 0.995, screen 0.93" : "unset key",
                                 fmt::join(lines, ", \\\n  "));
 }

@@ -8,7 +8,6 @@
 #include <map>
 #include <set>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "bench/files.hpp"
 
@@ -167,6 +166,7 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
         "name",     "family_index", "per_family_instance_index", "run_name",
         "run_type", "repetitions",  "repetition_index",          "threads",
         "time_unit"};
+    constexpr std::size_t none = ~std::size_t{0};
     std::vector<std::string> columns;
     std::unordered_map<std::string, std::size_t> column_of;
     for (const Json& row : rows) {
@@ -174,6 +174,10 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
             if (!bookkeeping.contains(key) && column_of.try_emplace(key, columns.size()).second) {
     std::unordered_set<std::string> known(bookkeeping.begin(), bookkeeping.end());
             if (known.insert(key).second) {
+    for (const std::string& field : bookkeeping) {
+        column_of[field] = none;
+    }
+            if (column_of.try_emplace(key, columns.size()).second) {
                 columns.push_back(key);
             }
         }
@@ -184,6 +188,7 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
     }
     text += '\n';
     std::vector<const Json*> values;
+    std::vector<const Json*> cells(columns.size());
     for (const Json& row : rows) {
         const std::string name = row.value("name", "");
         const RowKey key = parse_key(name).value_or(RowKey{});
@@ -208,6 +213,12 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
             const auto found = row.find(column);
             if (found != row.end()) {
                 text += csv_field(found->is_string() ? found->get<std::string>() : found->dump());
+        std::fill(cells.begin(), cells.end(), nullptr);
+            if (const std::size_t column = column_of.at(field); column != none) {
+                cells[column] = &value;
+        for (const Json* cell : cells) {
+            if (cell != nullptr) {
+                text += csv_field(cell->is_string() ? cell->get<std::string>() : cell->dump());
             }
         }
         text += '\n';

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <boost/archive/iterators/base64_from_binary.hpp>
@@ -95,15 +96,22 @@ struct Table {
     std::size_t rows = 0;
     std::map<std::string, std::vector<std::string>> texts;
     std::map<std::string, std::vector<double>> numbers;
+    std::unordered_map<std::string, std::vector<double>*> known;  // of each field met: its column, null if it has none
     void set_text(const std::string& column, const std::string& text) {
         auto& cells = texts[column];
         cells.resize(rows);
         cells.back() = text;
     }
-    void set_number(const std::string& column, double number) {
-        auto& cells = numbers[column];
-        cells.resize(rows, std::numeric_limits<double>::quiet_NaN());
-        cells.back() = number;
+    void set_number(const std::string& field, double number) {
+        const auto [found, is_new] = known.try_emplace(field, nullptr);
+        if (is_new &&
+            (field.starts_with("stall_") || std::find(counters.begin(), counters.end(), field) != counters.end())) {
+            found->second = &numbers[field];
+        }
+        if (found->second != nullptr) {
+            found->second->resize(rows, std::numeric_limits<double>::quiet_NaN());
+            found->second->back() = number;
+        }
     }
 };
 
@@ -129,8 +137,7 @@ void add_row(Table& table, const std::string& name, const std::optional<RowKey>&
         table.set_text("name", name);
     }
     for (const auto& [field, value] : row.items()) {
-        if (value.is_number() &&
-            (field.starts_with("stall_") || std::find(counters.begin(), counters.end(), field) != counters.end())) {
+        if (value.is_number()) {
             table.set_number(field, value.get<double>());
         }
     }

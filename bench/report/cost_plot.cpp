@@ -30,6 +30,8 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
                   const std::string& order, const Cost& cost, std::size_t c, bool key) {
     std::vector<std::string> data(formats.size());
     std::vector<std::pair<double, double>> front;
+    std::vector<double> costs_shown;
+    std::vector<double> errors_shown;
     for (const CurvePoint& point : points) {
         const Entry& entry = *point.entry;
         const auto x = cost.of(entry);
@@ -39,6 +41,8 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
         }
         const auto format = std::find(formats.begin(), formats.end(), format_of(entry.kernel)) - formats.begin();
         data[static_cast<std::size_t>(format)] += fmt::format("{:.6e} {:.6e}\n", *x, *entry.error_max);
+        costs_shown.push_back(*x);
+        errors_shown.push_back(*entry.error_max);
         if (point.front[c]) {
             front.emplace_back(*x, *entry.error_max);
         }
@@ -55,6 +59,10 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
     if (lines.empty()) {
         return "set multiplot next\n";
     }
+    const auto range = [](const std::vector<double>& values) {
+        const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
+        return log_range(*smallest, *largest);
+    };
     std::sort(front.begin(), front.end());
     blocks += "$front << EOD\n";
     for (const auto& [x, y] : front) {
@@ -63,9 +71,10 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
     blocks += "EOD\n";
     lines.emplace_back("$front using 1:2 with steps lw 1.5 lc rgb \"black\" title \"Pareto front\"");
     lines.emplace_back("$front using 1:2 with points pt 6 ps 0.9 lc rgb \"black\" notitle");
-    return blocks + fmt::format("set title \"order {}\"\nset xlabel \"{}\"\n{}\nplot {}\n", gnuplot_text(order),
-                                gnuplot_text(cost.title), key ? "set key at screen 0.995, screen 0.93" : "unset key",
-                                fmt::join(lines, ", \\\n  "));
+    return blocks +
+           fmt::format("set title \"order {}\"\nset xlabel \"{}\"\nset xrange {}\nset yrange {}\n{}\nplot {}\n",
+                       gnuplot_text(order), gnuplot_text(cost.title), range(costs_shown), range(errors_shown),
+                       key ? "set key at screen 0.995, screen 0.93" : "unset key", fmt::join(lines, ", \\\n  "));
 }
 
 }  // namespace

@@ -1,21 +1,22 @@
 
 // ---- The rows, out of their columns.
 
-const decodeBytes = text => Uint8Array.from(atob(text), letter => letter.charCodeAt(0)).buffer;
+function decodeBytes(text) {
+  const letters = atob(text), bytes = new Uint8Array(letters.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = letters.charCodeAt(i);
+  return bytes.buffer;
+}
 
-// A column as {at(row) -> value}: a text, a number or NaN.
+// A column as a function of the row, decoded when it is first asked: a text, a number or NaN.
 function decodeColumn(column) {
-  if (column.float32) {
-    const cells = new Float32Array(decodeBytes(column.float32));
-    return row => Number(cells[row].toPrecision(7));
-  }
-  const values = column.values.map(value => value === null ? NaN : value);
-  if (!column.at) {
+  const values = (column.values || []).map(value => value === null ? NaN : value);
+  if (!column.float32 && !column.at) {
     return () => values[0];
   }
-  const Cells = {8: Uint8Array, 16: Uint16Array, 32: Uint32Array}[column.bits];
-  const cells = new Cells(decodeBytes(column.at));
-  return row => values[cells[row]];
+  const Cells = column.float32 ? Float32Array : {8: Uint8Array, 16: Uint16Array, 32: Uint32Array}[column.bits];
+  let cells = null;
+  const decoded = () => cells = new Cells(decodeBytes(column.float32 || column.at));
+  return column.float32 ? row => (cells || decoded())[row] : row => values[(cells || decoded())[row]];
 }
 
 function decodeTable(table) {
@@ -46,9 +47,10 @@ function wordsOf(kernel) {
 const wholeSignal = signal => !signal.includes(",");  // the amplitude sweep is another question
 
 /// What each kernel does at each order and length of one file, whatever the signal: cases[order][kernel][taps] =
-/// {kernel, order, taps, at: number of taps, signals: {signal: {counters}}, host, m7: {core: counters}, fault}.
+/// {kernel, order, taps, at: number of taps, accuracy: table, signals: {signal: its row}, host, m7: {core: counters}, fault}.
 function joinFile(file) {
   const tables = file.tables.map(decodeTable);
+  const accuracy = tables.find(table => table.aspect === "accuracy");
   const samples = file.context.n_samples;
   const cases = new Map();
   const allTaps = new Set();
@@ -68,7 +70,7 @@ function joinFile(file) {
     if (!byKernel.has(kernel)) byKernel.set(kernel, new Map());
     const byTaps = byKernel.get(kernel);
     if (!byTaps.has(taps)) {
-      byTaps.set(taps, {kernel, order, taps, at: lengths.get(taps), signals: {}, m7: {}, fault: ""});
+      byTaps.set(taps, {kernel, order, taps, at: lengths.get(taps), accuracy, signals: {}, m7: {}, fault: ""});
     }
     kernels.add(kernel);
     return byTaps.get(taps);
@@ -97,7 +99,7 @@ function joinFile(file) {
       if (fault) {
         found.fault = table.aspect + ": " + fault;
       } else if (table.aspect === "accuracy") {
-        found.signals[textOf(table, "signal", row)] = counters(row);
+        found.signals[textOf(table, "signal", row)] = row;
       } else {
         found.m7[table.aspect] = counters(row);
       }
@@ -123,15 +125,22 @@ function joinFile(file) {
           samples};
 }
 
+/// A counter of a case at a signal; undefined without it.
+function accuracyOf(found, signal, counter) {
+  const row = found.signals[signal], cells = found.accuracy && found.accuracy.number[counter];
+  const value = row === undefined || !cells ? NaN : cells(row);
+  return Number.isNaN(value) ? undefined : value;
+}
+
 /// The error of a case for one signal, or the worst of the signals: {value, signal}; undefined if there is none.
 function errorOf(found, counter, signal) {
   if (signal !== "worst") {
-    const value = found.signals[signal] && found.signals[signal][counter];
+    const value = accuracyOf(found, signal, counter);
     return value === undefined ? undefined : {value, signal};
   }
   let worst;
   for (const name in found.signals) {
-    const value = found.signals[name][counter];
+    const value = accuracyOf(found, name, counter);
     if (wholeSignal(name) && value !== undefined && (!worst || value > worst.value)) {
       worst = {value, signal: name};
     }
@@ -139,16 +148,18 @@ function errorOf(found, counter, signal) {
   return worst;
 }
 
-const firstSignal = found => Object.values(found.signals)[0] || {};
+// What does not depend on the signal, at the first one.
+const atFirstSignal = (found, counter) => accuracyOf(found, Object.keys(found.signals)[0], counter);
 
 // State and coefficients, on the target where the kernel runs there.
 function bytesOf(found) {
-  for (const counters of [...Object.values(found.m7), firstSignal(found), found.host || {}]) {
+  for (const counters of [...Object.values(found.m7), found.host || {}]) {
     if (counters.state_bytes !== undefined && counters.coefficient_bytes !== undefined) {
       return counters.state_bytes + counters.coefficient_bytes;
     }
   }
-  return undefined;
+  const [state, coefficients] = [atFirstSignal(found, "state_bytes"), atFirstSignal(found, "coefficient_bytes")];
+  return state === undefined || coefficients === undefined ? undefined : state + coefficients;
 }
 
 /// What an error is drawn against: {id, title, unit, aspect, cost(case), band(case)}.

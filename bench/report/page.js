@@ -185,9 +185,9 @@ function referenceLines(points, order) {
 function describe(point) {
   const found = point.found, rows = [];
   const add = (name, value, note) => { if (value !== undefined && value !== "" && !Number.isNaN(value)) rows.push([name, (typeof value === "number" ? show(value) : value) + (note || "")]); };
-  const counters = found.signals[point.signal] || {};
+  const effective = accuracyOf(found, point.signal, "effective_taps");
   add("order", found.order);
-  add("taps", found.taps, counters.effective_taps !== undefined && counters.effective_taps < found.at ? `, ${counters.effective_taps} effective` : "");
+  add("taps", found.taps, effective < found.at ? `, ${effective} effective` : "");
   add("signal", point.signal, state.signal === "worst" ? " (the worst)" : "");
   for (const error of errors) {
     const other = errorOf(found, error.id, state.signal);
@@ -217,6 +217,13 @@ function describe(point) {
   return [found.kernel + (files.length > 1 ? point.file === files[0] ? " (A)" : " (B)" : ""), rows];
 }
 
+// As many columns as fit, and no panel alone in the last row where that can be helped.
+function even(row, count) {
+  const fit = Math.max(1, Math.floor((row.node().getBoundingClientRect().width + 16) / 336));
+  const rows = Math.ceil(count / fit);
+  row.style("grid-template-columns", `repeat(${Math.max(1, Math.ceil(count / rows))}, minmax(0, 1fr))`);
+}
+
 function drawCurves() {
   const error = errors.find(one => one.id === state.error);
   byId("curves-title").textContent = error ? error.title[0].toUpperCase() + error.title.slice(1) + " of the sum" : "No accuracy in this file";
@@ -236,7 +243,9 @@ function drawCurves() {
     const costs = axes.filter(axis => axis.id !== "taps" && active.includes(axis));
     const onAxis = new Map(active.map(axis => [axis, files.map(file => placed(points.filter(point => point.file === file), axis)).flat()]));
     const fronts = new Map(costs.map(axis => [axis, new Set(onAxis.get(axis).filter(point => point.front).map(point => point.kernel))]));
-    const anyFront = new Set([...fronts.values()].flatMap(set => [...set]));
+    // As in the tables of `glsum bench`: what no target's time ranks is dominated, whatever its bytes.
+    const ranking = costs.some(axis => axis.aspect) ? costs.filter(axis => axis.aspect) : costs;
+    const anyFront = new Set(ranking.flatMap(axis => [...fronts.get(axis)]));
     for (const kernel of anyFront) litFronts.add(kernel);
     const lines = referenceLines(points, order);
     const shared = points.map(point => point.y).concat(lines.flatMap(line => line.points.map(point => point.y)));
@@ -266,10 +275,11 @@ function drawCurves() {
         onPin: kernel => { flip("lit", kernel); update(); }
       }]);
     }
+    even(row, figures.length);
     for (const [figure, panel] of figures) drawPanel(figure.node(), panel);
   }
   const shown = measured.filter(passes);
-  byId("curves-text").textContent = error ? `${error.text}, relative to the largest exact sum` +
+  byId("curves-text").textContent = error ? `${error.text[0].toUpperCase()}${error.text.slice(1)}, relative to the largest exact sum` +
     (state.signal === "worst" ? "; the worst of the signals" : `; signal ${state.signal}`) +
     `. ${shown.length} of ${measured.length} kernels; those on no front are dimmed.` +
     (files[0].bounds.missing ? ` No truncation bound: ${files[0].bounds.missing}.` : "") : "";
@@ -333,8 +343,8 @@ function drawEffective() {
     const series = [];
     for (const [kernel, byTaps] of files[0].cases.get(order) || []) {
       if (!passes(kernel) || !wordsOf(kernel).format.startsWith("q")) continue;
-      const points = [...byTaps.values()].filter(found => !found.fault && shownTaps(found.taps) && firstSignal(found).effective_taps !== undefined)
-        .map(found => ({kernel, taps: found.taps, x: found.at, y: firstSignal(found).effective_taps, signal: Object.keys(found.signals)[0], found, file: files[0], second: false}))
+      const points = [...byTaps.values()].filter(found => !found.fault && shownTaps(found.taps) && atFirstSignal(found, "effective_taps") !== undefined)
+        .map(found => ({kernel, taps: found.taps, x: found.at, y: atFirstSignal(found, "effective_taps"), signal: Object.keys(found.signals)[0], found, file: files[0], second: false}))
         .sort((a, b) => a.x - b.x);
       if (points.length > 0) series.push({kernel, style: styleFor(kernel), dim: false, second: false, points});
     }
@@ -342,6 +352,7 @@ function drawEffective() {
   }
   byId("effective").hidden = any.length === 0;
   const row = root.append("div").attr("class", "row");
+  even(row, any.length);
   for (const [order, series] of any) {
     const figure = row.append("figure");
     figure.append("figcaption").text("order " + order);

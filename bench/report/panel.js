@@ -1,7 +1,7 @@
 
 // ---- A panel: series over a cost, on one error axis; hover, arrow keys, highlight.
 
-const panelHeight = 300;
+const panelHeight = 320;
 const margin = {top: 10, right: 16, bottom: 44, left: 50};
 const panels = [];             // all that are drawn: {svg, groups: Map(kernel -> elements)}
 let lit = null;                // the kernel under the pointer or the focus
@@ -140,7 +140,7 @@ function drawPanel(node, panel) {
     seen.add(series.kernel);
   }
   for (const one of panel.lines) {
-    const point = one.points.find(point => point.y > 0);
+    const point = one.points.filter(point => point.y > 0).pop();
     if (point) labels.push({text: one.text, px: px(point), py: py(point), kind: "name reference", kernel: ""});
   }
   for (const series of drawn.filter(s => !s.second)) {
