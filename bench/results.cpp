@@ -36,18 +36,6 @@ std::optional<double> number(const Json& row, const char* counter) {
     return found != row.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
 }
 
-// A cell as RFC 4180 has it: in quotes where it holds a comma, a quote or a line's end.
-std::string quoted(const std::string& cell) {
-    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
-        return cell;
-    }
-    std::string text = "\"";
-    for (const char letter : cell) {
-        text.append(letter == '"' ? 2 : 1, letter);
-    }
-    return text + '"';
-}
-
 void keep_larger(std::optional<double>& kept, std::optional<double> value) {
     kept = !kept || (value && *value > *kept) ? value : kept;
 }
@@ -127,15 +115,13 @@ std::optional<RowKey> parse_key(const std::string& name) {
     return whole && to_name(key) == name ? std::optional(key) : std::nullopt;
 }
 
-std::string to_csv(const std::vector<Json>& rows) {
-    static const std::set<std::string> bookkeeping = {
 std::string csv_field(const std::string& text) {
     if (text.find_first_of(",\"\r\n") == std::string::npos) {
         return text;
     }
     std::string quoted = "\"";
-    for (const char c : text) {
-        quoted += c == '"' ? "\"\"" : std::string(1, c);
+    for (const char letter : text) {
+        quoted.append(letter == '"' ? 2 : 1, letter);
     }
     return quoted + '"';
 }
@@ -161,40 +147,32 @@ std::optional<double> taps_number(const std::string& taps) {
     }
 }
 
-void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
-    static const std::vector<std::string> bookkeeping = {
+std::string to_csv(const std::vector<Json>& rows) {
+    static const std::set<std::string> bookkeeping = {
         "name",     "family_index", "per_family_instance_index", "run_name",
         "run_type", "repetitions",  "repetition_index",          "threads",
         "time_unit"};
-    constexpr std::size_t none = ~std::size_t{0};
     std::vector<std::string> columns;
     std::unordered_map<std::string, std::size_t> column_of;
     for (const Json& row : rows) {
         for (const auto& [key, value] : row.items()) {
             if (!bookkeeping.contains(key) && column_of.try_emplace(key, columns.size()).second) {
-    std::unordered_set<std::string> known(bookkeeping.begin(), bookkeeping.end());
-            if (known.insert(key).second) {
-    for (const std::string& field : bookkeeping) {
-        column_of[field] = none;
-    }
-            if (column_of.try_emplace(key, columns.size()).second) {
                 columns.push_back(key);
             }
         }
     }
     std::string text = "name,kernel,order,taps,aspect,signal,amplitude";
     for (const std::string& column : columns) {
-        text += ',' + quoted(column);
+        text += ',' + csv_field(column);
     }
     text += '\n';
     std::vector<const Json*> values;
-    std::vector<const Json*> cells(columns.size());
     for (const Json& row : rows) {
         const std::string name = row.value("name", "");
         const RowKey key = parse_key(name).value_or(RowKey{});
-        text += quoted(name);
+        text += csv_field(name);
         for (const std::string* part : {&key.kernel, &key.order, &key.taps, &key.aspect, &key.signal, &key.amplitude}) {
-            text += ',' + quoted(*part);
+            text += ',' + csv_field(*part);
         }
         values.assign(columns.size(), nullptr);
         for (const auto& [field, value] : row.items()) {
@@ -205,20 +183,7 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
         for (const Json* value : values) {
             text += ',';
             if (value != nullptr) {
-                text += value->is_string() ? quoted(value->get_ref<const std::string&>()) : value->dump();
-        text += ',' + csv_field(column);
-        text += csv_field(name);
-            text += ',' + csv_field(*part);
-        for (const std::string& column : columns) {
-            const auto found = row.find(column);
-            if (found != row.end()) {
-                text += csv_field(found->is_string() ? found->get<std::string>() : found->dump());
-        std::fill(cells.begin(), cells.end(), nullptr);
-            if (const std::size_t column = column_of.at(field); column != none) {
-                cells[column] = &value;
-        for (const Json* cell : cells) {
-            if (cell != nullptr) {
-                text += csv_field(cell->is_string() ? cell->get<std::string>() : cell->dump());
+                text += value->is_string() ? csv_field(value->get_ref<const std::string&>()) : value->dump();
             }
         }
         text += '\n';

@@ -23,12 +23,11 @@ struct RowKey {
 /// Empty for another kind of row.
 [[nodiscard]] std::optional<RowKey> parse_key(const std::string& name);
 
-/// One line a row; the columns are the parts of the name and every counter that occurs (RFC 4180).
-[[nodiscard]] std::string to_csv(const std::vector<Json>& rows);
-/// A text as one field of a CSV line.
+/// A text as one field of a CSV line (RFC 4180): in quotes where it holds a comma, a quote or a line's end.
 [[nodiscard]] std::string csv_field(const std::string& text);
 
-/// One line a row; the columns are the parts of the name and every counter that occurs. Quoted as RFC 4180 says.
+/// One line a row; the columns are the parts of the name and every counter that occurs (RFC 4180).
+[[nodiscard]] std::string to_csv(const std::vector<Json>& rows);
 void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
 
 /// The length of "<near>[+<modes>]": how many terms its sum has. Nothing for `full`, whose length the name does not

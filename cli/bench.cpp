@@ -142,39 +142,8 @@ void run(const Options& options, const PassedOn& flags) {
     }
     const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
     if (!shard) {
-        finish_run(out, results);
+        finish_run(out, results, sweep.jobs);
         return;
-    std::vector<bench::Json> rows = bench::measure_accuracy(sweep);
-    const auto append = [&](std::vector<bench::Json> more) {
-        std::move(more.begin(), more.end(), std::back_inserter(rows));
-    };
-    if (board) {
-        append(bench::measure_on_target(sweep, *board));
-    }
-    bench::Json google;
-    if (wants(options, "host")) {
-        // Last and alone: nothing else of this run is at work.
-        bench::HostTiming timing = bench::time_on_host(sweep, flags);
-        google = std::move(timing.context);
-        append(std::move(timing.rows));
-    }
-    const bench::Json context = bench::make_context(std::move(google), sweep, board ? &*board : nullptr);
-    const std::vector<bench::Group> groups = bench::group(rows);
-    bench::write_results(options.out, context, rows);
-    std::filesystem::path stem = options.out;
-    stem.replace_extension();
-    std::filesystem::path csv = stem;
-    csv += ".csv";
-    bench::write_csv(csv, rows);
-    fmt::print("{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1));
-    bench::plot_error(groups, worst_of_signals(bench::truncation_bounds(context, rows, options.jobs)), stem);
-    fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", rows.size(), options.out.string());
-    const auto wrong = std::count_if(rows.begin(), rows.end(),
-                                     [](const bench::Json& row) { return row.value("error_occurred", false); });
-    if (wrong > 0) {
-        throw Failure(
-            Exit::check_failed,
-            fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong, rows.size()));
     }
     bench::write_results(out, results.context, results.rows);
     fmt::print("{} rows of shard {}/{} in {}; glsum merge puts all shards together\n", results.rows.size(),

@@ -9,11 +9,12 @@
 #include "bench/plot.hpp"
 #include "bench/results.hpp"
 #include "bench/table.hpp"
+#include "bench/truncation_bound.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
 
-void finish_run(const std::filesystem::path& out, const bench::Results& results) {
+void finish_run(const std::filesystem::path& out, const bench::Results& results, unsigned jobs) {
     const std::vector<bench::Group> groups = bench::group(results.rows);
     bench::write_results(out, results.context, results.rows);
     std::filesystem::path stem = out;
@@ -22,7 +23,7 @@ void finish_run(const std::filesystem::path& out, const bench::Results& results)
     csv += ".csv";
     bench::write_csv(csv, results.rows);
     fmt::print("{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1));
-    bench::plot_error(groups, stem);
+    bench::plot_error(groups, worst_of_signals(bench::truncation_bounds(results.context, results.rows, jobs)), stem);
     fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", results.rows.size(), out.string());
     check_rows(results);
 }

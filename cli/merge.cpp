@@ -24,7 +24,7 @@ void run(const Options& options) {
     for (const auto& path : options.shards) {
         shards.push_back({path.string(), bench::read_results(path)});
     }
-    finish_run(options.out, bench::merge(std::move(shards), options.allow_mixed_hosts));
+    finish_run(options.out, bench::merge(std::move(shards), options.allow_mixed_hosts), options.jobs);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void add_merge(CLI::App& app) {
     command->add_option("shards", options->shards, "Result files of bench --shard")->required();
     command->add_flag("--allow-mixed-hosts", options->allow_mixed_hosts,
                       "Shards may come from different CPUs; the context then says mixed_hosts");
-    command->add_option("--jobs", options->jobs, "Without effect: merging takes one thread")
+    command->add_option("--jobs", options->jobs, "Threads at once, for the bound that the picture draws")
         ->check(CLI::Range(1, 1024));
     command->add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
     command->callback([options] { run(*options); });
