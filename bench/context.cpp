@@ -57,6 +57,7 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
     }
     const std::string git = fmt::format("git -C '{}' ", build_info::source_folder);
     const std::string commit = first_line(git + "rev-parse HEAD 2>/dev/null");
+    context["schema"] = "glsum-results-1";
     context["glsum_version"] = build_info::version;
     context["commit"] = commit.empty() ? "unknown" : commit;
     context["dirty"] = commit.empty()                                                                    ? "unknown"

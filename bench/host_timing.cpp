@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -162,7 +163,9 @@ public:
     }
     void ReportRuns(const std::vector<Run>& runs) override {
         JSONReporter::ReportRuns(runs);
-        progress_.advance();
+        if (!runs.empty() && runs.front().run_type != Run::RT_Aggregate) {
+            progress_.advance();
+        }
     }
     [[nodiscard]] Json json() const { return Json::parse(out_.str()); }
 
@@ -235,6 +238,10 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
     for (auto& row : json["benchmarks"]) {
         timing.rows.push_back(std::move(row));
     }
+    // As they were registered: repetitions that take turns end in any order.
+    std::stable_sort(timing.rows.begin(), timing.rows.end(), [](const Json& a, const Json& b) {
+        return a.value("family_index", 0) < b.value("family_index", 0);
+    });
     return timing;
 }
 

@@ -172,7 +172,7 @@ private:
     // What the current run says, where it says something that can be judged at this layer.
     const Measured* judged(Layer layer, const std::string& name) {
         const Measured* now = current_.find(name);
-        if (now == nullptr) {
+        if (now == nullptr || baseline_.find(name)->wrong()) {
             return nullptr;
         }
         if (moot_.contains(subject_of(name))) {
@@ -235,19 +235,15 @@ private:
             if (of_row.empty()) {
                 continue;
             }
-            const Measured* now = judged(layer, name);
-            const Measured* then = baseline_.find(name);
-            if (now == nullptr || then->wrong()) {
-                continue;
-            }
-            for (const auto& [counter, value] : then->first().items()) {
-                if (is_counter(counter, value)) {
-                    const Rule* fails = first_rule(layer, true, of_row, counter);
-                    const Rule* warns = first_rule(layer, false, of_row, counter);
-                    if (fails != nullptr || warns != nullptr) {
-                        this->value(layer, name, counter, value.get<double>(), number(now->first(), counter), fails,
-                                    warns);
-                    }
+            for (const auto& [counter, value] : baseline_.find(name)->first().items()) {
+                if (!is_counter(counter, value)) {
+                    continue;
+                }
+                const Rule* fails = first_rule(layer, true, of_row, counter);
+                const Rule* warns = first_rule(layer, false, of_row, counter);
+                const Measured* now = fails != nullptr || warns != nullptr ? judged(layer, name) : nullptr;
+                if (now != nullptr) {
+                    this->value(layer, name, counter, value.get<double>(), number(now->first(), counter), fails, warns);
                 }
             }
         }
@@ -314,11 +310,6 @@ private:
         std::map<std::string, std::size_t> not_judged;  // by reason
         for (const std::string& name : verdict_.rows) {
             const std::vector<std::size_t> of_row = rules_of_row(Layer::host_time, name);
-            const Measured* then = baseline_.find(name);
-            const Measured* now = of_row.empty() ? nullptr : judged(Layer::host_time, name);
-            if (now == nullptr || then->wrong()) {
-                continue;
-            }
             const Rule* fails = first_rule(Layer::host_time, true, of_row, "cpu_time");
             const Rule* warns = first_rule(Layer::host_time, false, of_row, "cpu_time");
             if (fails == nullptr && warns == nullptr) {
@@ -326,10 +317,10 @@ private:
             }
             const Rule& rule = fails != nullptr ? *fails : *warns;
             const std::string kernel = kernel_of(name);
-            std::string anchor_row = name;
-            if (kernel.empty() || kernel == rule.anchor) {
+            if (kernel.empty() || kernel == rule.anchor || judged(Layer::host_time, name) == nullptr) {
                 continue;
             }
+            std::string anchor_row = name;
             anchor_row.replace(3, kernel.size(), rule.anchor);
             std::string why_not;
             const auto old_times = timing(baseline_, name, anchor_row, why_not);
@@ -358,15 +349,15 @@ private:
         finding.reason = rule.reason;
         finding.what = fmt::format("{:+.1f} % ({:+.1f} to {:+.1f} %) of the time of {}", 100.0 * change.estimate,
                                    100.0 * change.low, 100.0 * change.high, rule.anchor);
-        if (change.low > 0.0 && change.estimate > rule.relative) {
+        if (change.low > rule.relative) {
             finding.level = rule.fails && !advisory_ ? Level::fail : Level::warn;
             add(std::move(finding));
-        } else if (change.high < 0.0 && change.estimate < -rule.relative) {
+        } else if (change.high < -rule.relative) {
             finding.level = Level::improvement;
             add(std::move(finding));
-        } else if (change.high > rule.relative && change.high - change.low > 2.0 * rule.relative) {
+        } else if (change.high > rule.relative) {
             finding.level = Level::note;
-            finding.what += fmt::format("; too noisy to tell a change of {:.0f} %", 100.0 * rule.relative);
+            finding.what += fmt::format("; whether it is beyond {:.3g} % cannot be told; more --repetitions can", 100.0 * rule.relative);
             add(std::move(finding));
         }
     }

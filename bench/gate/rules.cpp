@@ -38,14 +38,14 @@ public:
         Rule rule;
         rule.line = table.source().begin.line;
         rule.layer = one_of<Layer>(table, "layer",
-                            {{name_of(Layer::accuracy), Layer::accuracy},
-                             {name_of(Layer::instructions_and_bytes), Layer::instructions_and_bytes},
-                             {name_of(Layer::model_cycles), Layer::model_cycles},
-                             {name_of(Layer::host_time), Layer::host_time}});
+                                   {{name_of(Layer::accuracy), Layer::accuracy},
+                                    {name_of(Layer::instructions_and_bytes), Layer::instructions_and_bytes},
+                                    {name_of(Layer::model_cycles), Layer::model_cycles},
+                                    {name_of(Layer::host_time), Layer::host_time}});
         rule.rows = globs(table, "rows");
         rule.counters = globs(table, "counters");
-        rule.better =
-            one_of<Better>(table, "better", {{"lower", Better::lower}, {"higher", Better::higher}, {"equal", Better::equal}});
+        rule.better = one_of<Better>(table, "better",
+                                     {{"lower", Better::lower}, {"higher", Better::higher}, {"equal", Better::equal}});
         rule.fails = one_of<bool>(table, "level", {{"fail", true}, {"warn", false}});
         rule.reason = text(table, "reason");
         const auto relative = number(table, "relative");
