@@ -22,4 +22,7 @@ void add_gate(CLI::App& app);
 /// `choose`.
 void add_choose(CLI::App& app);
 
+/// `generate`.
+void add_generate(CLI::App& app);
+
 }  // namespace cli

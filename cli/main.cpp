@@ -44,6 +44,7 @@ int main(int argc, char** argv) {
     cli::add_report(app);
     cli::add_gate(app);
     cli::add_choose(app);
+    cli::add_generate(app);
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {

@@ -1,0 +1,33 @@
+// One kernel at one order and length as a C99 header.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace generate {
+
+/// What to generate.
+struct Spec {
+    std::string kernel;
+    double order;                  ///< v, in (-2, 2]
+    std::size_t taps;              ///< L >= 1
+    std::optional<double> step_s;  ///< gives the factor h^-v, where it is known
+    std::string prefix = "glsum";  ///< of every identifier
+    std::string licence = "the terms of glsum itself";
+    std::vector<std::string> provenance;  ///< lines of the comment: where it comes from, what was measured
+};
+
+/// Kernels that can be generated, in the registry's order.
+[[nodiscard]] std::vector<std::string> generatable();
+
+/// The header: constant table, instance, init, step, and a self-check with outputs of the registered kernel.
+/// \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, a prefix that is no
+///         identifier, and a design that the kernel refuses.
+[[nodiscard]] std::string make_header(const Spec& spec);
+
+/// The format's word in a kernel's name, which ends the names of the header's functions.
+[[nodiscard]] std::string format_word(const std::string& kernel);
+
+}  // namespace generate

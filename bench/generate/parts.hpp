@@ -1,0 +1,75 @@
+// The C text of a kernel's three words, mirroring kernels/glsum: each history, technique and format is written once,
+// and a header is their combination. Places (text.hpp): @name@ and @NAME@ begin every identifier, @sample@,
+// @coefficient@,
+// @accumulator@ and @output@ are the format's types.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "glsum/registry.hpp"
+
+namespace generate {
+
+/// A contiguous piece of the past, newest first, as C expressions.
+struct Piece {
+    std::string samples;  ///< pointer to its newest sample
+    std::string count;
+    std::string offset;  ///< of its first coefficient in a table of one coefficient a tap
+};
+
+/// How a history is written.
+struct HistoryText {
+    std::string summary;
+    std::string fields;         ///< of the instance
+    std::string reset;          ///< statements of `init`
+    std::vector<Piece> pieces;  ///< newest first
+    std::string push;           ///< statements that store `newest`
+};
+
+/// How a technique is written.
+struct TechniqueText {
+    std::string summary;
+    std::string sum;      ///< statements that end with the accumulator in `sum`
+    bool pushes = false;  ///< whether they store `newest` too
+    bool pairs = false;   ///< needs the words of two samples
+    bool fused = false;   ///< needs a fused multiply-add
+};
+
+/// How a format is written.
+struct FormatText {
+    std::string summary;
+    /// Name behind @name@_ and text, each after those that it calls; a header has the ones that it uses.
+    std::vector<std::pair<std::string, std::string>> helpers;
+    std::string scaling;  ///< the comment's paragraph on scaling and overflow
+};
+
+/// \param past  L - 1, at least 1
+[[nodiscard]] HistoryText history_text(glsum::Shift, std::size_t past);
+[[nodiscard]] HistoryText history_text(glsum::Ring, std::size_t past);
+[[nodiscard]] HistoryText history_text(glsum::Mirror, std::size_t past);
+
+[[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText multi_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText fir_text(bool fused);
+[[nodiscard]] TechniqueText compensated_text(const HistoryText& history);
+[[nodiscard]] TechniqueText paired_text(bool wide);
+/// \param table  as `prepare` filled it: `past` coefficients, then the octaves' shifts
+[[nodiscard]] TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts);
+
+[[nodiscard]] FormatText floating_text(bool wide_data, bool wide_sum);
+/// The constants of a fixed-point kernel's scale.
+struct FixedScale {
+    int sample_bits;
+    int coefficient_bits;
+    int table_exponent;
+    int output_exponent;
+    int output_shift;
+};
+[[nodiscard]] FormatText fixed_text(const FixedScale& scale);
+
+}  // namespace generate

@@ -1,0 +1,26 @@
+#include "bench/generate/text.hpp"
+
+#include <stdexcept>
+
+namespace generate {
+
+std::string fill(std::string_view text, const Places& places) {
+    std::string filled;
+    while (!text.empty()) {
+        const std::size_t at = text.find('@');
+        filled += text.substr(0, at);
+        if (at == std::string_view::npos) {
+            break;
+        }
+        const std::size_t end = text.find('@', at + 1);
+        const auto place = places.find(text.substr(at + 1, end - at - 1));
+        if (end == std::string_view::npos || place == places.end()) {
+            throw std::out_of_range("no such place: " + std::string(text.substr(at, end - at + 1)));
+        }
+        filled += place->second;
+        text.remove_prefix(end + 1);
+    }
+    return filled;
+}
+
+}  // namespace generate

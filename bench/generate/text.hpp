@@ -1,0 +1,15 @@
+// C text with places: @name@ stands for what a table gives for it.
+#pragma once
+
+#include <map>
+#include <string>
+#include <string_view>
+
+namespace generate {
+
+using Places = std::map<std::string, std::string, std::less<>>;
+
+/// \throws std::out_of_range for a place that the table does not have.
+[[nodiscard]] std::string fill(std::string_view text, const Places& places);
+
+}  // namespace generate

@@ -1,0 +1,49 @@
+// make_headers FOLDER: every kernel that can be generated, at several orders and lengths, as headers, and all.c, which
+// includes them all and runs their self-checks: `const char *check_all(void)` returns the name of the first that fails.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "bench/generate/header.hpp"
+
+int main(int argc, char** argv) {
+    if (argc != 2) {
+        fmt::print(stderr, "make_headers: expected a folder\n");
+        return 2;
+    }
+    const std::filesystem::path folder = argv[1];
+    struct Case {
+        double order;
+        std::size_t taps;
+    };
+    // Each kind of scale and shift (v < 0, 0 < v <= 1, 1 < v), no past at all, groups of four and their rests.
+    const Case cases[] = {{0.5, 1}, {1.9909, 2}, {0.98319, 40}, {-0.5, 101}, {0.5, 63}, {-1.9, 150}};
+    std::string includes;
+    std::string calls;
+    int number = 0;
+    for (const std::string& kernel : generate::generatable()) {
+        for (const Case& test : cases) {
+            const std::string prefix = fmt::format("g{}", number++);
+            const std::string file = prefix + ".h";
+            std::ofstream out(folder / file);
+            out << generate::make_header(
+                {.kernel = kernel, .order = test.order, .taps = test.taps, .step_s = 0.001, .prefix = prefix, .provenance = {}});
+            const std::string format = generate::format_word(kernel);
+            includes += fmt::format("#include \"{}\"\n", file);
+            calls += fmt::format(
+                "    {{\n        static {0}_{1}_instance line;\n        if ({0}_self_check_{1}(&line) != 0U) {{\n"
+                "            return \"{2}, order {3}, {4} taps\";\n        }}\n    }}\n",
+                prefix, format, kernel, test.order, test.taps);
+            if (!out.flush()) {
+                return 1;
+            }
+        }
+    }
+    std::ofstream all(folder / "all.c");
+    all << includes
+        << "#ifdef __cplusplus\nextern \"C\"\n#endif\nconst char *check_all(void);\nconst char *check_all(void)\n{\n"
+        << calls << "    return 0;\n}\n";
+    fmt::print("{}\n", number);
+    return all.flush() ? 0 : 1;
+}
