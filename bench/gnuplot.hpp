@@ -3,6 +3,9 @@
 
 #include <filesystem>
 #include <functional>
+// Pictures by gnuplot: one script, drawn as SVG and PNG, whole or not at all.
+
+#include <cstddef>
 #include <string>
 
 namespace bench {
@@ -22,5 +25,14 @@ inline constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC7
 /// `set terminal` and `set output`
 /// \throws glsum::Failure (missing) without gnuplot, (bad input) when a file cannot be written.
 void draw(const std::filesystem::path& stem, std::size_t height, const std::string& script);
+/// A gnuplot script without its terminal and output, and the size of the picture.
+struct Picture {
+    std::string script;
+    std::size_t width = 1200;
+    std::size_t height = 600;
+};
+
+/// Writes `stem`.svg and `stem`.png.
+void draw(const Picture& picture, const std::filesystem::path& stem);
 
 }  // namespace bench

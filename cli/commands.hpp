@@ -24,5 +24,9 @@ void add_choose(CLI::App& app);
 
 /// `generate`.
 void add_generate(CLI::App& app);
+void add_indices(CLI::App& app);
+void add_resample(CLI::App& app);
+void add_simulate(CLI::App& app);
+void add_stability(CLI::App& app);
 
 }  // namespace cli

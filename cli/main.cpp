@@ -45,6 +45,10 @@ int main(int argc, char** argv) {
     cli::add_gate(app);
     cli::add_choose(app);
     cli::add_generate(app);
+    cli::add_simulate(app);
+    cli::add_stability(app);
+    cli::add_indices(app);
+    cli::add_resample(app);
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {

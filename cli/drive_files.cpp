@@ -1,0 +1,53 @@
+#include "cli/drive_files.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "bench/files.hpp"
+#include "drive/model_file.hpp"
+
+namespace cli {
+
+drive::Model read_model(const std::filesystem::path& path) {
+    return drive::parse_model(bench::read_file(path, drive::most_model_bytes), path.string());
+}
+
+drive::Log read_log(const std::filesystem::path& path, const drive::Columns& columns) {
+    drive::Log log = drive::parse_log(bench::read_file(path, drive::LogLimits::bytes), path.string(), columns);
+    for (const std::string& warning : log.warnings) {
+        fmt::print(stderr, "glsum: warning: {}\n", warning);
+    }
+    return log;
+}
+
+drive::Log read_ordered_log(const std::filesystem::path& path, const drive::Columns& columns) {
+    drive::Log log = read_log(path, columns);
+    const drive::StampReport report = drive::order_stamps(log);
+    if (!report.clean()) {
+        fmt::print(stderr, "glsum: warning: {}: {}\n", log.name, report.text());
+    }
+    return log;
+}
+
+void add_column_options(CLI::App& command, drive::Columns& columns) {
+    command.add_option("--time-column", columns.time, "Column of the stamps; usually time_s");
+    command.add_option("--input-column", columns.input, "Column of the input; usually input or duty");
+    command.add_option("--output-column", columns.output,
+                       "Column of the output; usually output, y, angle_rad or counts");
+    command.add_option("--counts-per-unit", columns.counts_per_unit,
+                       "Divide the output by this: encoder counts to units");
+    command
+        .add_option("--counter-bits", columns.counter_bits, "Counts come from a counter of so many bits, which wraps")
+        ->check(CLI::Range(2, 52));
+}
+
+void put(const std::string& text, const std::filesystem::path& path) {
+    if (path.empty()) {
+        std::fputs(text.c_str(), stdout);
+    } else {
+        bench::write_file(path, text);
+    }
+}
+
+}  // namespace cli

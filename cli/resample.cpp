@@ -1,0 +1,52 @@
+// glsum resample: a log with stamps as the logger wrote them, to a constant rate.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "cli/commands.hpp"
+#include "cli/drive_files.hpp"
+#include "drive/log.hpp"
+
+namespace cli {
+namespace {
+
+struct Options {
+    std::filesystem::path log;
+    drive::Columns columns;
+    double step_s = 0.001;
+    std::string method = "linear";
+    std::filesystem::path out;
+};
+
+void run(const Options& options) {
+    const drive::Resampled resampled =
+        drive::resample(read_log(options.log, options.columns), options.step_s,
+                        options.method == "zoh" ? drive::Hold::zero_order : drive::Hold::linear);
+    put(drive::to_csv(resampled.log), options.out);
+    fmt::print(stderr, "{}: {}\n{} samples at {} s, {}\n", resampled.log.name, resampled.stamps.text(),
+               resampled.log.time_s.size(), options.step_s, options.method);
+}
+
+}  // namespace
+
+void add_resample(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    options->columns.needs_input = false;
+    CLI::App* command = app.add_subcommand("resample", "A log with uneven stamps to a constant rate");
+    command->footer(
+        "Repeated, backward and missing stamps are reported with their lines: repeated ones give their mean, backward "
+        "ones "
+        "are left out, gaps are bridged.\nExample: glsum resample log.csv --step-s 0.001 --method linear --out "
+        "even.csv");
+    command->add_option("log", options->log, "Log, CSV with time_s and the output")->required();
+    command->add_option("--step-s", options->step_s, "New sampling time")->capture_default_str();
+    command->add_option("--method", options->method, "linear or zoh (zero-order hold); the input is always held")
+        ->check(CLI::IsMember({"linear", "zoh"}))
+        ->capture_default_str();
+    add_column_options(*command, options->columns);
+    command->add_option("--out", options->out, "CSV file; printed if not given");
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

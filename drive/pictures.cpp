@@ -1,0 +1,88 @@
+#include "drive/pictures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace drive {
+namespace {
+
+// Okabe and Ito's palette, which colour-blind readers can tell apart.
+constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
+                                   "#E69F00", "#56B4E9", "#000000", "#8C6D1F"};
+
+// A record of any length as at most some thousand points: more cannot be seen.
+std::string data_block(std::size_t index, const Curve& curve) {
+    std::string block = fmt::format("$d{} << EOD\n", index);
+    const std::size_t stride = std::max<std::size_t>(1, curve.time_s.size() / 2500);
+    for (std::size_t i = 0; i < curve.time_s.size(); i += stride) {
+        if (std::isfinite(curve.value[i])) {
+            block += fmt::format("{:.7g} {:.7g}\n", curve.time_s[i], curve.value[i]);
+        }
+    }
+    return block + "EOD\n";
+}
+
+}  // namespace
+
+bench::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title, const std::string& unit) {
+    std::string script;
+    std::vector<std::string> plots;
+    for (std::size_t i = 0; i < curves.size(); ++i) {
+        script += data_block(i, curves[i]);
+        plots.push_back(
+            fmt::format("$d{} using 1:2 with {} lc rgb \"{}\" title \"{}\" noenhanced", i,
+                        curves[i].points ? "points pt 7 ps 0.35" : fmt::format("lines lw 2 dt {}", i % 4 + 1),
+                        palette[i % std::size(palette)], curves[i].title));
+    }
+    script += fmt::format(
+        "set title \"{}\" noenhanced\nset xlabel \"t [s]\"\nset ylabel \"{}\"\nset grid lc rgb \"#dddddd\"\n"
+        "set key outside below horizontal maxcols 3 width 2\nset border 3\nset tics nomirror\nplot {}\n",
+        title, unit, fmt::join(plots, ", \\\n  "));
+    return {script, 900, 520};
+}
+
+bench::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title) {
+    std::string roots = "$roots << EOD\n";
+    double largest = 0.0;
+    double nearest = 1.0;
+    double nearest_angle = 10.0;
+    for (const auto& root : judged.roots) {
+        roots += fmt::format("{:.9g} {:.9g}\n", root.real(), root.imag());
+        largest = std::max(largest, std::abs(root));
+        if (std::fabs(std::arg(root)) < nearest_angle) {
+            nearest_angle = std::fabs(std::arg(root));
+            nearest = std::abs(root);
+        }
+    }
+    const double reach = 1.15 * std::max(largest, 1e-9);
+    const double slope = std::tan(std::min(judged.limit_rad, 1.5706));
+    const std::string axes =
+        "set xlabel \"Re s^q\" enhanced\nset ylabel \"Im s^q\" enhanced\nset grid lc rgb \"#dddddd\"\n"
+        "set zeroaxis lc rgb \"#888888\"\nset tics nomirror\nset border 3\nunset key\n";
+    const auto panel = [&](double x0, double x1, double y1, const char* name) {
+        const double right = std::min(x1, y1 / slope);
+        return fmt::format(
+            "set title \"{}\" noenhanced\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset object 1 polygon "
+            "from 0,0 to "
+            "{:.9g},{:.9g} to {:.9g},{:.9g} to {:.9g},{:.9g} to {:.9g},{:.9g} to 0,0 fillcolor rgb \"#D55E00\" "
+            "fillstyle solid 0.25 "
+            "noborder behind\nplot $roots using 1:2 with points pt 2 ps 0.9 lw 1.6 lc rgb \"#0072B2\"\n",
+            name, x0, x1, -y1, y1, right, right * slope, x1, std::min(y1, x1 * slope), x1, -std::min(y1, x1 * slope),
+            right, -right * slope);
+    };
+    const double close = std::max(nearest * 1.3, 1e-9);
+    const double height = std::max(3.0 * close * std::sin(std::min(judged.limit_rad, 1.0)),
+                                   1.6 * nearest * std::sin(std::min(nearest_angle, 1.5)));
+    std::string script =
+        roots + fmt::format("set multiplot layout 1,2 title \"{}: {}\" noenhanced\n", title, name_of(judged.verdict)) +
+        axes +
+        panel(-reach, reach, reach,
+              fmt::format("all {} roots, q = {}", judged.roots.size(), judged.base_order).c_str()) +
+        panel(0.0 - 0.05 * close, close, height, "near the positive axis; shaded: |arg| < q pi/2") +
+        "unset multiplot\n";
+    return {script, 1100, 520};
+}
+
+}  // namespace drive

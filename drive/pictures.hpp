@@ -1,0 +1,27 @@
+// Pictures of the drive, as gnuplot scripts.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/gnuplot.hpp"
+#include "drive/stability.hpp"
+
+namespace drive {
+
+struct Curve {
+    std::string title;
+    std::vector<double> time_s;
+    std::vector<double> value;
+    bool points = false;  ///< measured samples
+};
+
+/// Curves over time, each with its title in the key.
+[[nodiscard]] bench::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title,
+                                               const std::string& unit);
+
+/// The roots in the plane of sigma = s^q with the unstable sector, and on the right that sector at close range, as in
+/// [Matusiak2020] Figs. 5 to 7.
+[[nodiscard]] bench::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title);
+
+}  // namespace drive
