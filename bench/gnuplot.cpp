@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstdio>
 #include <string_view>
+#include <system_error>
 
 #include "bench/files.hpp"
 #include "qemu/failure.hpp"
@@ -65,6 +66,11 @@ void draw(const Picture& picture, const std::filesystem::path& stem) {
                         svg ? "svg" : "pngcairo", picture.width, picture.height, svg ? "Helvetica,12" : "Helvetica,10",
                         partial.string(), picture.script),
             path);
+        std::error_code error;
+        if (const auto size = std::filesystem::file_size(partial, error); error || size == 0) {
+            std::filesystem::remove(partial, error);
+            throw glsum::Failure(glsum::Exit::check_failed, fmt::format("{}: gnuplot drew nothing", path.string()));
+        }
         publish(partial, path);
     }
 }

@@ -61,7 +61,7 @@ bench::Picture picture_of_roots(const StabilityVerdict& judged, const std::strin
     const std::string axes =
         "set xlabel \"Re s^q\" enhanced\nset ylabel \"Im s^q\" enhanced\nset grid lc rgb \"#dddddd\"\n"
         "set zeroaxis lc rgb \"#888888\"\nset tics nomirror\nset border 3\nunset key\n";
-    const auto panel = [&](double x0, double x1, double y1, const char* name) {
+    const auto panel = [&](double x0, double x1, double y1, const std::string& name) {
         const double right = std::min(x1, y1 / slope);
         return fmt::format(
             "set title \"{}\" noenhanced\nset xrange [{:.6g}:{:.6g}]\nset yrange [{:.6g}:{:.6g}]\nset object 1 polygon "
@@ -75,14 +75,17 @@ bench::Picture picture_of_roots(const StabilityVerdict& judged, const std::strin
     const double close = std::max(nearest * 1.3, 1e-9);
     const double height = std::max(3.0 * close * std::sin(std::min(judged.limit_rad, 1.0)),
                                    1.6 * nearest * std::sin(std::min(nearest_angle, 1.5)));
-    std::string script =
-        roots + fmt::format("set multiplot layout 1,2 title \"{}: {}\" noenhanced\n", title, name_of(judged.verdict)) +
-        axes +
-        panel(-reach, reach, reach,
-              fmt::format("all {} roots, q = {}", judged.roots.size(), judged.base_order).c_str()) +
-        panel(0.0 - 0.05 * close, close, height, "near the positive axis; shaded: |arg| < q pi/2") +
-        "unset multiplot\n";
-    return {script, 1100, 520};
+    const bool whole_plane = judged.limit_rad > 0.5;  // nothing more to see at close range
+    const std::string all = fmt::format("all {} roots, q = {}", judged.roots.size(), judged.base_order);
+    std::string script = roots + "EOD\n" +
+                         fmt::format("set multiplot layout 1,{} title \"{}: {}\" noenhanced\n", whole_plane ? 1 : 2,
+                                     title, name_of(judged.verdict)) +
+                         axes + panel(-reach, reach, reach, all + (whole_plane ? "; shaded: |arg| < q pi/2" : ""));
+    if (!whole_plane) {
+        script += panel(-0.05 * close, close, height, "near the positive axis; shaded: |arg| < q pi/2");
+    }
+    script += "unset multiplot\n";
+    return {script, whole_plane ? 640U : 1100U, 520};
 }
 
 }  // namespace drive

@@ -174,7 +174,9 @@ StabilityVerdict judge_stability(const Model& model, double base_order) {
         on_the_limit = on_the_limit || std::fabs(angle - judged.limit_rad) <= on_the_limit_rad;
         judged.unstable_by_roots += angle < judged.limit_rad - on_the_limit_rad ? 1 : 0;
         if (root != 0.0 && std::fabs(std::arg(root)) <= std::numbers::pi * std::min(1.0, base_order) + 1e-12) {
-            judged.poles.push_back(std::polar(std::pow(std::abs(root), 1.0 / base_order), std::arg(root) / base_order));
+            const Complex pole = std::polar(std::pow(std::abs(root), 1.0 / base_order), std::arg(root) / base_order);
+            // A double root comes as a pair that rounding has parted.
+            judged.poles.push_back(std::fabs(pole.imag()) < 1e-7 * std::abs(pole) ? Complex(pole.real()) : pole);
         }
     }
     judged.unstable_by_argument = zeros_right_of_axis(model.denominator);
