@@ -25,8 +25,6 @@ std::string quoted_path(const std::filesystem::path& path) {
 void run_gnuplot(const std::string& script, const std::filesystem::path& path) {
     FILE* pipe = popen("gnuplot >/dev/null", "w");
     const bool written = pipe != nullptr && std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
-void run_gnuplot(const std::string& text, const std::filesystem::path& path) {
-    const bool written = pipe != nullptr && std::fwrite(text.data(), 1, text.size(), pipe) == text.size();
     const int status = pipe != nullptr ? pclose(pipe) : -1;
     if (!written || status != 0) {
         throw glsum::Failure(glsum::Exit::missing,
@@ -50,22 +48,16 @@ std::string log_range(double smallest, double largest) {
     return fmt::format("[{:.4e}:{:.4e}]", smallest / 1.5, largest * 1.5);
 }
 
-void draw(const std::filesystem::path& stem, std::size_t height, const std::string& script) {
 void draw(const Picture& picture, const std::filesystem::path& stem) {
     for (const bool svg : {true, false}) {
         std::filesystem::path path = stem;
         path += svg ? ".svg" : ".png";
         const std::filesystem::path partial = partial_name(path);
-        const std::string terminal =
-            svg ? fmt::format("svg size 1200,{} font \"Helvetica,12\" background rgb \"white\"", height)
-                : fmt::format("pngcairo size 1200,{} font \"Helvetica,10\" background rgb \"white\"", height);
-        run_gnuplot(
-            fmt::format("set terminal {}\nset output {}\n{}unset output\n", terminal, quoted_path(partial), script),
-            fmt::format("set terminal {} size {},{} font \"{}\" background rgb \"white\"\nset output \"{}\"\n{}\nunset "
-                        "output\n",
-                        svg ? "svg" : "pngcairo", picture.width, picture.height, svg ? "Helvetica,12" : "Helvetica,10",
-                        partial.string(), picture.script),
-            path);
+        run_gnuplot(fmt::format("set terminal {} size {},{} font \"{}\" background rgb \"white\"\n"
+                                "set output {}\n{}\nunset output\n",
+                                svg ? "svg" : "pngcairo", picture.width, picture.height,
+                                svg ? "Helvetica,12" : "Helvetica,10", quoted_path(partial), picture.script),
+                    path);
         std::error_code error;
         if (const auto size = std::filesystem::file_size(partial, error); error || size == 0) {
             std::filesystem::remove(partial, error);

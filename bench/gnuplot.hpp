@@ -1,11 +1,8 @@
 // What every picture shares: gnuplot, its words, and the colours.
 #pragma once
 
-#include <filesystem>
-#include <functional>
-// Pictures by gnuplot: one script, drawn as SVG and PNG, whole or not at all.
-
 #include <cstddef>
+#include <filesystem>
 #include <string>
 
 namespace bench {
@@ -21,10 +18,6 @@ inline constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC7
 /// "[low:high]" around values above 0 on a logarithmic axis, with room; also of a single value.
 [[nodiscard]] std::string log_range(double smallest, double largest);
 
-/// Writes `stem`.svg and `stem`.png, 1200 wide. \param script  the commands, for a picture of that height, that follow
-/// `set terminal` and `set output`
-/// \throws glsum::Failure (missing) without gnuplot, (bad input) when a file cannot be written.
-void draw(const std::filesystem::path& stem, std::size_t height, const std::string& script);
 /// A gnuplot script without its terminal and output, and the size of the picture.
 struct Picture {
     std::string script;
@@ -33,6 +26,8 @@ struct Picture {
 };
 
 /// Writes `stem`.svg and `stem`.png.
+/// \throws glsum::Failure (missing) without gnuplot, (check failed) when it draws nothing, (bad input) when a file
+/// cannot be written.
 void draw(const Picture& picture, const std::filesystem::path& stem);
 
 }  // namespace bench

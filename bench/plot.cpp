@@ -151,9 +151,6 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
 
 std::string script(const std::vector<Group>& groups, const std::vector<std::string>& orders,
                    const std::vector<std::string>& kernels, const WorstBounds& bounds, double height) {
-std::string script(const std::vector<Group>& groups, double height) {
-    const auto orders = distinct(groups, false);
-    const auto kernels = distinct(groups, true);
     double shortest = 1e9;
     double longest = 0.0;
     for (const Group& group : groups) {
@@ -198,10 +195,7 @@ void plot_error(const std::vector<Group>& groups, const WorstBounds& bounds, con
     orders.resize(std::min(orders.size(), most_orders));
     kernels.resize(std::min(kernels.size(), most_kernels));
     const std::size_t height = 140 + 330 * orders.size();
-    draw(stem, height, script(groups, orders, kernels, bounds, static_cast<double>(height)));
-void plot_error(const std::vector<Group>& groups, const std::filesystem::path& stem) {
-    const std::size_t height = 140 + 330 * distinct(groups, false).size();
-    draw({script(groups, static_cast<double>(height)), 1200, height}, stem);
+    draw({script(groups, orders, kernels, bounds, static_cast<double>(height)), 1200, height}, stem);
 }
 
 }  // namespace bench

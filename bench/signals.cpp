@@ -12,18 +12,20 @@
 namespace bench {
 namespace {
 
-std::vector<double> sine(double hz, std::size_t samples, double h_s) {
-    std::vector<double> x(samples);
-    for (std::size_t k = 0; k < samples; ++k) {
-        x[k] = signal_peak * std::sin(2.0 * std::numbers::pi * hz * static_cast<double>(k) * h_s);
 using reference::Real;
 
 // Sines and powers in 50 digits, rounded once: the last bit of the C library's own depends on which of its variants a
 // processor gets, and so would every accuracy that is measured on the record.
-std::vector<double> sine(double hz, std::size_t samples) {
-    const auto period = static_cast<std::size_t>(std::lround(1.0 / (hz * step_s)));  // all of them whole numbers
+std::vector<double> sine(double hz, std::size_t samples, double h_s) {
     const Real turn = 2 * boost::math::constants::pi<Real>();
-        x[k] = k < period ? static_cast<double>(Real(signal_peak) * sin(turn * k / period)) : x[k - period];
+    const double period = std::round(1.0 / (hz * h_s));
+    // A step that divides the period repeats, to the last bit.
+    const bool whole = std::fabs(period * hz * h_s - 1.0) < 1e-12;
+    const auto repeat = whole ? static_cast<std::size_t>(period) : samples;
+    const Real phase = whole ? turn / repeat : turn * Real(hz) * Real(h_s);
+    std::vector<double> x(samples);
+    for (std::size_t k = 0; k < samples; ++k) {
+        x[k] = k < repeat ? static_cast<double>(Real(signal_peak) * sin(phase * k)) : x[k - repeat];
     }
     return x;
 }
@@ -53,13 +55,8 @@ std::vector<double> weights(double order, std::size_t count) {
 // y_0 = 0 and the forcing from the second sample, which leaves 5.4e-4 to the exact response at 1 ms: a fifteenth of a
 // count. The scheme errs by its step, so that a record of larger steps is taken from one of at most 1 ms.
 std::vector<double> step_response(std::size_t samples, double h_s) {
-    const double high = 0.18234 * std::pow(h_s, -1.9909);
-    const double low = 0.65536 * std::pow(h_s, -0.98319);
-// y_0 = 0 and the forcing from the second sample, which leaves 5.4e-4 to the exact response: a fifteenth of a count.
-std::vector<double> drive(std::size_t samples) {
-    constexpr double counts_per_unit = 1000.0 / 8.0;  // 45 degrees is an eighth of a turn
-    const double high = 0.18234 * static_cast<double>(pow(Real(step_s), Real(-1.9909)));
-    const double low = 0.65536 * static_cast<double>(pow(Real(step_s), Real(-0.98319)));
+    const double high = 0.18234 * static_cast<double>(pow(Real(h_s), Real(-1.9909)));
+    const double low = 0.65536 * static_cast<double>(pow(Real(h_s), Real(-0.98319)));
     const std::vector<double> high_weights = weights(1.9909, samples);
     const std::vector<double> low_weights = weights(0.98319, samples);
     std::vector<double> y(samples, 0.0);

@@ -37,7 +37,6 @@ struct Options {
     std::vector<std::string> signals;
     std::vector<std::string> targets = bench::Sweep().targets;
     std::optional<std::string> shard;
-    std::vector<std::string> targets{"host", "m7"};
     unsigned repetitions = 1;
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
     std::filesystem::path out;
@@ -153,41 +152,11 @@ void run(const Options& options, const PassedOn& passed_on) {
     if (sweep.wants("m7")) {
         board = built_board();
     }
-    const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
+    const bench::Results results =
+        bench::measure(sweep, shard, board ? &*board : nullptr, timing_flags(options, passed_on));
     if (!shard) {
         finish_run(out, results, sweep.jobs);
         return;
-    std::vector<bench::Json> rows = bench::measure_accuracy(sweep);
-    const auto append = [&](std::vector<bench::Json> more) {
-        std::move(more.begin(), more.end(), std::back_inserter(rows));
-    };
-    if (board) {
-        append(bench::measure_on_target(sweep, *board));
-    }
-    bench::Json google;
-    if (wants(options, "host")) {
-        // Last and alone: nothing else of this run is at work.
-        bench::HostTiming timing = bench::time_on_host(sweep, timing_flags(options, passed_on));
-        google = std::move(timing.context);
-        append(std::move(timing.rows));
-    }
-    const bench::Json context = bench::make_context(std::move(google), sweep, board ? &*board : nullptr);
-    const std::vector<bench::Group> groups = bench::group(rows);
-    bench::write_results(options.out, context, rows);
-    std::filesystem::path stem = options.out;
-    stem.replace_extension();
-    std::filesystem::path csv = stem;
-    csv += ".csv";
-    bench::write_csv(csv, rows);
-    fmt::print("{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1));
-    bench::plot_error(groups, stem);
-    fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", rows.size(), options.out.string());
-    const auto wrong = std::count_if(rows.begin(), rows.end(),
-                                     [](const bench::Json& row) { return row.value("error_occurred", false); });
-    if (wrong > 0) {
-        throw Failure(
-            Exit::check_failed,
-            fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong, rows.size()));
     }
     bench::write_results(out, results.context, results.rows);
     fmt::print("{} rows of shard {}/{} in {}; glsum merge puts all shards together\n", results.rows.size(),
@@ -215,15 +184,13 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
     command->add_option("--shard", options->shard,
                         "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "
                         "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");
-    command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
-    command->add_option("--out", options->out,
-                        "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
     command
         ->add_option("--repetitions", options->repetitions,
                      "Time each kernel so often, 5 ms each, all in random turns: what gate and compare judge by")
         ->check(CLI::Range(1, 10000));
-    command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::PositiveNumber);
-    command->add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
+    command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
+    command->add_option("--out", options->out,
+                        "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
     command->callback([options, &passed_on] { run(*options, passed_on); });
 }
 

@@ -99,7 +99,7 @@ void plot_costs(const std::filesystem::path& stem, const std::vector<CurvePoint>
             key = false;
         }
     }
-    draw(stem, height, text + "unset multiplot\n");
+    draw({text + "unset multiplot\n", 1200, height}, stem);
 }
 
 }  // namespace bench::report
