@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
+#include <cctype>
+#include <cmath>
 #include <map>
 #include <set>
+#include <string_view>
+#include <system_error>
 #include <unordered_map>
 
 #include "bench/files.hpp"
@@ -29,6 +33,31 @@ std::string to_name(const RowKey& key) {
     return fmt::format("gl/{}/order:{}/taps:{}/{}{}{}{}{}", key.kernel, key.order, key.taps, key.aspect,
                        key.signal.empty() ? "" : "/signal:", key.signal,
                        key.amplitude.empty() ? "" : "/amplitude:", key.amplitude);
+}
+
+// Names come from files, and go to terminals and into gnuplot's scripts: only what our own names are made of.
+bool is_word(std::string_view text, std::string_view marks) {
+    return !text.empty() && text.size() <= 64 && std::all_of(text.begin(), text.end(), [&](char c) {
+        const auto letter = static_cast<unsigned char>(c);
+        return letter < 0x80 && (std::isalnum(letter) != 0 || marks.find(c) != marks.npos);
+    });
+}
+
+bool is_number(std::string_view text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() && std::isfinite(value);
+}
+
+// "600", "full" or "2+7".
+bool is_length(std::string_view text) {
+    return text == "full" || (is_word(text, "+") && text.size() <= 18 && text.front() != '+' &&
+                              text.find_first_not_of("0123456789+") == text.npos);
+}
+
+bool is_ours(const RowKey& key) {
+    return is_word(key.kernel, "_") && is_number(key.order) && is_length(key.taps) && is_word(key.aspect, "_:-.") &&
+           (key.signal.empty() || is_word(key.signal, "_")) && (key.amplitude.empty() || is_number(key.amplitude));
 }
 
 std::optional<double> number(const Json& row, const char* counter) {
@@ -110,9 +139,8 @@ std::optional<RowKey> parse_key(const std::string& name) {
         key.signal = take(rest, "signal:");
         key.amplitude = take(rest, "amplitude:");
     }
-    const bool whole = !key.kernel.empty() && !key.order.empty() && !key.taps.empty() && !key.aspect.empty();
     // Nothing may be left over that another row's name lacks.
-    return whole && to_name(key) == name ? std::optional(key) : std::nullopt;
+    return is_ours(key) && to_name(key) == name ? std::optional(key) : std::nullopt;
 }
 
 std::string csv_field(const std::string& text) {

@@ -20,7 +20,8 @@ struct RowKey {
     std::string signal;
     std::string amplitude;  ///< empty: 1
 };
-/// Empty for another kind of row.
+/// Empty for another kind of row, and for one whose parts are not what ours are: words of letters and digits, numbers,
+/// lengths, and nothing more behind them.
 [[nodiscard]] std::optional<RowKey> parse_key(const std::string& name);
 
 /// A text as one field of a CSV line (RFC 4180): in quotes where it holds a comma, a quote or a line's end.

@@ -16,7 +16,9 @@ std::string count(std::optional<double> value, const char* form) {
 std::string line_of(const Entry& entry) {
     const bool ranked = entry.error_max && entry.fault.empty();
     const bool dominated = ranked && !entry.host_front && !entry.target_front;
-    std::string note = entry.fault;
+    std::string note = entry.fault;  // from a file: without what would steer a terminal
+    std::replace_if(
+        note.begin(), note.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
     if (note.empty() && entry.software_double) {
         note = "double in software on the M7";
     }

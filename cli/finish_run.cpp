@@ -16,6 +16,12 @@ namespace cli {
 
 void finish_run(const std::filesystem::path& out, const bench::Results& results, unsigned jobs) {
     const std::vector<bench::Group> groups = bench::group(results.rows);
+    if (groups.empty()) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{}: not written: the sweep has no rows of kernels (peers are timed on the "
+                                         "host alone)",
+                                         out.string()));
+    }
     bench::write_results(out, results.context, results.rows);
     std::filesystem::path stem = out;
     stem.replace_extension();

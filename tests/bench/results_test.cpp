@@ -47,6 +47,13 @@ TEST(Results, NamesAreShortestRoundTripAndReadBack) {
     EXPECT_FALSE(bench::parse_key("gl/ring_plain_f32/order:0.5/taps:50/host/"));
     EXPECT_FALSE(bench::parse_key("gl/ring_plain_f32/order:0.5/taps:50/accuracy/signal:step/other"));
     EXPECT_FALSE(bench::parse_key("ring_plain_f32/order:0.5/taps:50/host"));
+    EXPECT_TRUE(bench::parse_key("gl/ring_plain_f32/order:-1e-05/taps:50/m7:m7-ideal_mean"));
+    for (const char* name : {"gl/a\";system(\"id\")/order:0.5/taps:50/host", "gl/a/order:0.5\"/taps:50/host",
+                             "gl/a/order:half/taps:50/host", "gl/a/order:inf/taps:50/host", "gl/a/order:1/taps:x/host",
+                             "gl/a/order:1/taps:99999999999999999999/host", "gl/a/order:1/taps:50/ho\033st",
+                             "gl/a/order:1/taps:50/accuracy/signal:a b", "gl//order:1/taps:50/host"}) {
+        EXPECT_FALSE(bench::parse_key(name)) << name;
+    }
 }
 
 TEST(Results, CellsOfACsvAreQuotedWhereTheyMustBe) {
