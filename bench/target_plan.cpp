@@ -104,7 +104,7 @@ std::vector<double> piece_costs(const TargetPlan& whole) {
 }
 
 double estimated_cost(const qemu::PlannedRow& row) {
-    const double per_tap = double_in_software(row.kernel) ? 20.0 : 1.0;
+    const double per_tap = double_in_software(row.kernel) ? 10.0 : 1.0;
     return static_cast<double>(row.calls) * static_cast<double>(row.taps) * per_tap;
 }
 

@@ -164,8 +164,12 @@ TEST_P(CallCounter, RefusesToBeTrustedWhenItCannotKnow) {
 
     std::stringstream empty;
     EXPECT_THROW(qemu::read_call_log(empty), std::runtime_error);
-    std::stringstream damaged("calls 1 2 x\nend\n");
-    EXPECT_THROW(qemu::read_call_log(damaged), std::runtime_error);
+    for (const char* text : {"calls 1 2 x\nend\n", "calls 256 1 10 2 1\nend\n", "calls 256 0 10 2 1 1\nend\n",
+                             "calls -1 1 10 2 1 1\nend\n", "calls 256 1 10 2 1 1 9\nend\n", "reached 256 25x\nend\n",
+                             "reached\nend\n", "calls 256 1 10 2 1 1\nend of it\n"}) {
+        std::stringstream damaged(text);
+        EXPECT_THROW(qemu::read_call_log(damaged), std::runtime_error) << text;
+    }
 }
 
 }  // namespace

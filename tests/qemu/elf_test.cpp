@@ -1,7 +1,9 @@
 #include "qemu/elf.hpp"
 
+#include <elf.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <fstream>
 
 #include "qemu/failure.hpp"
@@ -28,6 +30,46 @@ TEST(Elf, RefusesWhatIsNoArmExecutable) {
     std::ofstream(folder.file("text.elf")) << "not an ELF";
     expect_refused(folder.file("text.elf"), "another kind of file");
     expect_refused("/proc/self/exe", "machine");
+}
+
+// An ELF without any bytes of its own: `sections` sections that are the same `bytes` zeros of a sparse file.
+void write_sparse_elf(const std::filesystem::path& path, std::uint16_t sections, std::uint32_t bytes) {
+    Elf32_Ehdr header{};
+    std::memcpy(header.e_ident, ELFMAG, SELFMAG);
+    header.e_ident[EI_CLASS] = ELFCLASS32;
+    header.e_ident[EI_DATA] = ELFDATA2LSB;
+    header.e_ident[EI_VERSION] = EV_CURRENT;
+    header.e_type = ET_EXEC;
+    header.e_machine = EM_ARM;
+    header.e_version = EV_CURRENT;
+    header.e_ehsize = sizeof header;
+    header.e_shentsize = sizeof(Elf32_Shdr);
+    header.e_shoff = sizeof header;
+    header.e_shnum = static_cast<std::uint16_t>(sections + 1);
+    std::ofstream out(path, std::ios::binary);
+    out.write(reinterpret_cast<const char*>(&header), sizeof header);
+    Elf32_Shdr section{};
+    out.write(reinterpret_cast<const char*>(&section), sizeof section);
+    section.sh_type = SHT_PROGBITS;
+    section.sh_flags = SHF_ALLOC;
+    section.sh_offset = 1 << 16;
+    section.sh_size = bytes;
+    for (std::uint16_t i = 0; i < sections; ++i) {
+        out.write(reinterpret_cast<const char*>(&section), sizeof section);
+    }
+    out.close();
+    std::filesystem::resize_file(path, (1 << 16) + bytes);
+}
+
+TEST(Elf, RefusesWhatWouldFillTheMemory) {
+    const qemu::Scratch folder;
+    write_sparse_elf(folder.file("one.elf"), 1, 16 << 20);
+    expect_refused(folder.file("one.elf"), "without symbols");  // its size is not what is wrong
+    write_sparse_elf(folder.file("many.elf"), 5, 16 << 20);
+    expect_refused(folder.file("many.elf"), "more than 67108864 bytes in its sections");
+    write_sparse_elf(folder.file("large.elf"), 1, 257 << 20);
+    expect_refused(folder.file("large.elf"), "no regular file of at most 268435456 bytes");
+    expect_refused("/dev/zero", "no regular file");
 }
 
 TEST(Elf, FindsSymbolsFunctionsAndWords) {
