@@ -1,6 +1,7 @@
 // The words of a line of text that another program wrote, taken one by one; numbers are whole words within their range.
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <concepts>
 #include <optional>
@@ -32,9 +33,7 @@ public:
     }
 
 private:
-    void skip() {
-        rest_.remove_prefix(rest_.find_first_not_of(' ') == rest_.npos ? rest_.size() : rest_.find_first_not_of(' '));
-    }
+    void skip() { rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size())); }
     std::string_view rest_;
 };
 

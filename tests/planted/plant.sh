@@ -47,7 +47,9 @@ library_of() {
     case $1 in
         kernels/*) echo kernels/libglsum.a ;;
         bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
+        bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
+        qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
         qemu/*) echo qemu/libglsum_stream.a ;;
         *) echo "plant.sh: no library is known for $1" >&2; exit 2 ;;
     esac
@@ -58,7 +60,7 @@ compile() { ninja -C "$build" -j "$jobs" "$@" >"$build/planted.log" 2>&1; }
 run_tests() {
     timeout 60 "$build/tests/kernel_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
         timeout 30 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
-        timeout 60 "$build/tests/qemu_tests" --gtest_brief=1 --gtest_filter='Thumb.*:CallCounter.*' >"$build/tests.log" 2>&1
+        timeout 60 "$build/tests/qemu_tests" --gtest_brief=1 --gtest_filter='Thumb.*:*CallCounter.*:Answers.*:Elf.*' >"$build/tests.log" 2>&1
 }
 # A run that was killed left a bug in objects whose source looks older: none of them can be trusted.
 [ ! -e "$build/marker" ] || find "$build" -name '*.o' -delete
