@@ -226,9 +226,19 @@ Json to_tables(const std::vector<Json>& rows) {
                                  fmt::format("rows of aspect {}: expected at most {} counters stall_<cause>, found {}",
                                              aspect, most_stalls, stalls));
         }
-        for (auto& [name, cells] : table.numbers) {
-            cells.resize(table.rows, std::numeric_limits<double>::quiet_NaN());
-            encoded["numbers"][name] = encode_numbers(cells);
+        const auto encode = [&](const std::string& name) {
+            if (const auto found = table.numbers.find(name); found != table.numbers.end()) {
+                found->second.resize(table.rows, std::numeric_limits<double>::quiet_NaN());
+                encoded["numbers"][name] = encode_numbers(found->second);
+            }
+        };
+        for (const std::string_view name : counters) {  // in this order they are read
+            encode(std::string(name));
+        }
+        for (const auto& [name, cells] : table.numbers) {
+            if (name.starts_with("stall_")) {
+                encode(name);
+            }
         }
         all.push_back(std::move(encoded));
     }

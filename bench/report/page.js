@@ -218,10 +218,10 @@ function describe(point) {
 }
 
 // As many columns as fit, and no panel alone in the last row where that can be helped.
-function even(row, count) {
+function even(row, count, least = 1) {
   const fit = Math.max(1, Math.floor((row.node().getBoundingClientRect().width + 16) / 336));
   const rows = Math.ceil(count / fit);
-  row.style("grid-template-columns", `repeat(${Math.max(1, Math.ceil(count / rows))}, minmax(0, 1fr))`);
+  row.style("grid-template-columns", `repeat(${Math.max(Math.min(least, fit), Math.ceil(count / rows))}, minmax(0, 1fr))`);
 }
 
 function drawCurves() {
@@ -306,7 +306,7 @@ function drawKey() {
   };
   const front = add("Pareto front").attr("width", 30).attr("height", 14).attr("aria-hidden", "true");
   front.append("path").attr("class", "front").attr("d", "M1,3H15V11H29");
-  if (files[0].bounds.of) sample("reference bound", "truncation bound: dropped coefficients' absolute sum × peak of the record");
+  if (files[0].bounds.of) sample("reference bound", "truncation bound: absolute sum of the dropped coefficients × peak of the record ÷ its largest exact sum");
   if (files.length > 1) {
     mark(add("A: " + files[0].name), styleOf(0), false);
     mark(add("B: " + files[1].name), styleOf(0), true);
@@ -352,7 +352,7 @@ function drawEffective() {
   }
   byId("effective").hidden = any.length === 0;
   const row = root.append("div").attr("class", "row");
-  even(row, any.length);
+  even(row, any.length, 2);
   for (const [order, series] of any) {
     const figure = row.append("figure");
     figure.append("figcaption").text("order " + order);
@@ -458,8 +458,8 @@ function drawDifference() {
   drawTable(byId("difference-table"), "Differences", [
     {title: "kernel", text: row => row.kernel}, {title: "order", text: row => row.order}, {title: "taps", text: row => row.taps},
     {title: "rows", text: row => row.aspect}, {title: "signal", text: row => row.signal}, {title: "counter", text: row => row.counter || row.note},
-    {title: "A", text: row => show(row.a), number: row => row.a}, {title: "B", text: row => show(row.b), number: row => row.b},
-    {title: "B / A", text: row => row.counter ? row.a === 0 ? "from 0" : row.ratio.toPrecision(4) : "", number: row => row.counter ? row.ratio : NaN}
+    {title: "B / A", text: row => row.counter ? row.a === 0 ? "from 0" : row.ratio.toPrecision(4) : "", number: row => row.counter ? row.ratio : NaN},
+    {title: "A", text: row => show(row.a), number: row => row.a}, {title: "B", text: row => show(row.b), number: row => row.b}
   ], rows);
 }
 

@@ -37,7 +37,7 @@ function spread(ticks, position, width) {
 function drawAxes(svg, panel, x, y, width, height) {
   const floor = panel.zero ? y.zero : null;
   const rows = (panel.linear ? y.ticks(5) : decades(y, 7)).map(value => ({value, at: y(value),
-    text: !panel.linear && isPowerOfTen(value) ? tenTo(Math.round(Math.log10(value))) : panel.yText ? panel.yText(value) : tick(value)}));
+    text: panel.yText ? panel.yText(value) : !panel.linear && isPowerOfTen(value) ? tenTo(Math.round(Math.log10(value))) : tick(value)}));
   if (floor !== null && !panel.linear) rows.push({value: 0, at: floor, text: "0"});
   const grid = svg.append("g").attr("class", "axis");
   for (const row of rows) {
