@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cctype>
+#include <csignal>
 #include <cstdio>
 #include <string_view>
 #include <system_error>
@@ -23,9 +24,11 @@ std::string quoted_path(const std::filesystem::path& path) {
 }
 
 void run_gnuplot(const std::string& script, const std::filesystem::path& path) {
+    void (*const before)(int) = std::signal(SIGPIPE, SIG_IGN);  // without gnuplot nobody reads
     FILE* pipe = popen("gnuplot >/dev/null", "w");
     const bool written = pipe != nullptr && std::fwrite(script.data(), 1, script.size(), pipe) == script.size();
     const int status = pipe != nullptr ? pclose(pipe) : -1;
+    std::signal(SIGPIPE, before);
     if (!written || status != 0) {
         throw glsum::Failure(glsum::Exit::missing,
                              fmt::format("{}: gnuplot failed (Debian package gnuplot-nox)", path.string()));

@@ -164,8 +164,11 @@ function boundOf(file, order, taps) {
   return d3.max(signals, signal => of[signal][taps]);
 }
 
+// The bound is of what truncation adds.
+const bounded = () => ["error_max", "error_rms", "truncation_error_max"].includes(state.error);
+
 function referenceLines(points, order) {
-  if (!["error_max", "error_rms", "truncation_error_max"].includes(state.error)) return [];
+  if (!bounded()) return [];
   const file = files[0];
   const lengths = [...file.lengths].filter(([taps]) => shownTaps(taps));
   const line = (value, kind, text) =>
@@ -282,7 +285,7 @@ function drawCurves() {
   byId("curves-text").textContent = error ? `${error.text[0].toUpperCase()}${error.text.slice(1)}, relative to the largest exact sum` +
     (state.signal === "worst" ? "; the worst of the signals" : `; signal ${state.signal}`) +
     `. ${shown.length} of ${measured.length} kernels; those on no front are dimmed.` +
-    (files[0].bounds.missing ? ` No truncation bound: ${files[0].bounds.missing}.` : "") : "";
+    (files[0].bounds.missing && bounded() ? ` No truncation bound: ${files[0].bounds.missing}.` : "") : "";
   drawKey();
   drawKernels(litFronts);
 }
@@ -306,7 +309,7 @@ function drawKey() {
   };
   const front = add("Pareto front").attr("width", 30).attr("height", 14).attr("aria-hidden", "true");
   front.append("path").attr("class", "front").attr("d", "M1,3H15V11H29");
-  if (files[0].bounds.of) sample("reference bound", "truncation bound: absolute sum of the dropped coefficients × peak of the record ÷ its largest exact sum");
+  if (bounded() && !files[0].bounds.missing) sample("reference bound", "truncation bound: absolute sum of the dropped coefficients × peak of the record ÷ its largest exact sum");
   if (files.length > 1) {
     mark(add("A: " + files[0].name), styleOf(0), false);
     mark(add("B: " + files[1].name), styleOf(0), true);

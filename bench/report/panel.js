@@ -143,12 +143,11 @@ function drawPanel(node, panel) {
     const point = one.points.filter(point => point.y > 0).pop();
     if (point) labels.push({text: one.text, px: px(point), py: py(point), kind: "name reference", kernel: ""});
   }
-  for (const series of drawn.filter(s => !s.second)) {
-    const point = series.drawn.find(point => point.front && !seen.has(point.kernel));
-    if (point) {
-      labels.push({kernel: series.kernel, text: series.kernel, px: px(point), py: py(point), kind: "name"});
-      seen.add(series.kernel);
-    }
+  // Of the front the most accurate point of each kernel, these first: the crowd is at the other end.
+  const best = drawn.filter(series => !series.second && !seen.has(series.kernel))
+    .map(series => series.drawn.filter(point => point.front).sort((a, b) => a.y - b.y)[0]).filter(Boolean);
+  for (const point of best.sort((a, b) => a.y - b.y)) {
+    labels.push({kernel: point.kernel, text: point.kernel, px: px(point), py: py(point), kind: "name"});
   }
   placeLabels(svg, labels, width, height);
 
