@@ -136,7 +136,7 @@ std::vector<std::string> timing_flags(const Options& options, const PassedOn& pa
     std::vector<std::string> flags;
     if (options.repetitions > 1) {
         flags = {fmt::format("--benchmark_repetitions={}", options.repetitions),
-                 "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.005"};
+                 "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.002"};
     }
     flags.insert(flags.end(), passed_on.begin(), passed_on.end());  // the later ones count
     return flags;
@@ -186,7 +186,7 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
                         "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");
     command
         ->add_option("--repetitions", options->repetitions,
-                     "Time each kernel so often, 5 ms each, all in random turns: what gate and compare judge by")
+                     "Time each kernel so often, 2 ms each, all in random turns: what gate and compare judge by")
         ->check(CLI::Range(1, 10000));
     command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
     command->add_option("--out", options->out,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 namespace bench::gate {
@@ -9,21 +10,18 @@ namespace {
 
 constexpr std::size_t resamples = 4000;
 
-// The lower quartile, between two values in proportion. What disturbs a time only makes it longer: the quartile stays
-// while less than three quarters of the repetitions are disturbed, where a median follows half of them; and unlike the
-// minimum it does not hang on one lucky draw.
-double lower_quartile(std::vector<double>& values) {
-    const double place = 0.25 * static_cast<double>(values.size() - 1);
-    const auto below = static_cast<std::size_t>(place);
-    const auto at = values.begin() + static_cast<std::ptrdiff_t>(below);
-    std::nth_element(values.begin(), at, values.end());
-    const double low = *at;
-    const double share = place - static_cast<double>(below);
-    return share > 0.0 ? low + share * (*std::min_element(at + 1, values.end()) - low) : low;
+// The mean of the fastest hundredth, two at least. What disturbs a time only makes it longer, and on a busy machine may
+// do so to nine repetitions of ten: a neighbour on the same core that multiplies costs some kernels two thirds and
+// others nothing, so that no quartile and no ratio is safe. A few quiet moments are nearly always left.
+double fastest(std::vector<double>& values) {
+    const std::size_t count = std::max<std::size_t>(2, values.size() / 100);
+    const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(count, values.size()));
+    std::partial_sort(values.begin(), end, values.end());
+    return std::accumulate(values.begin(), end, 0.0) / static_cast<double>(end - values.begin());
 }
 
 double log_ratio(std::vector<double>& kernel, std::vector<double>& anchor) {
-    return std::log(lower_quartile(kernel) / lower_quartile(anchor));
+    return std::log(fastest(kernel) / fastest(anchor));
 }
 
 double log_ratio_of(const Timing& timing) {

@@ -21,7 +21,7 @@ struct TimeChange {
 };
 
 /// Fewer repetitions are not judged.
-inline constexpr std::size_t least_repetitions = 10;
+inline constexpr std::size_t least_repetitions = 20;
 
 /// \pre all four lists hold at least `least_repetitions` positive numbers
 /// The bootstrap is seeded: the same files give the same verdict.

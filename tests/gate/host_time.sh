@@ -1,71 +1,83 @@
 #!/bin/sh
-# host_time.sh [--gates N] [--other PROGRAM] [--folder DIR]: how often the gate's host time raises an alarm, by real runs of
-# five kernels, 3 s of timing each on an idle machine, longer on a busy one.
-#   without --other   nothing has changed: each of N+1 recordings is gated against the one before, and against the first
-#   --other PROGRAM   a build that is slower somewhere: N recordings of it, each gated against one of this build
-# The recordings stay in DIR (default build/gate); a run that was stopped goes on where it was. Prints the alarms, row by row.
+# host_time.sh [--gates N] [--slower M] [--folder DIR]: how often the gate's host time raises an alarm, by real runs of five
+# kernels, about 4 s each on an idle machine, longer on a busy one.
+#   --gates N    (200) nothing has changed: each of N + 1 runs is gated against the one before, and against the first
+#   --slower M   (100) M runs of a copy of the project in which ring_plain_q31 and mirror_simd_f32 are planted to work a
+#                tenth longer, each gated against the run of this build beside it
+# The runs stay in DIR (build/gate); a series that was stopped goes on where it was. Prints each alarm, then the counts.
+# Every run sits on the machine as it is: how busy it is belongs to the answer.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 program=$root/build/host/cli/glsum
 gates=200
-other=
+slower=100
 folder=$root/build/gate
 while [ $# -gt 0 ]; do
     case $1 in
         --gates) gates=$2; shift 2 ;;
-        --other) other=$2; shift 2 ;;
+        --slower) slower=$2; shift 2 ;;
         --folder) folder=$2; shift 2 ;;
-        *) echo "host_time.sh: expected --gates N, --other PROGRAM or --folder DIR, found $1" >&2; exit 2 ;;
+        *) echo "host_time.sh: expected --gates N, --slower M or --folder DIR, found $1" >&2; exit 2 ;;
     esac
 done
 mkdir -p "$folder"
+# The program as it is now: a build in the meantime must not change the series.
+[ -x "$folder/glsum" ] || cp "$program" "$folder/glsum"
+program=$folder/glsum
+
+# The planted copy: a tenth of the taps twice. The sum itself is untouched, so its answers stay right.
+plant() {
+    copy=$folder/slower/source
+    [ ! -x "$folder/slower/glsum" ] || return 0
+    (cd "$root" && git ls-files) | while IFS= read -r file; do
+        [ -f "$root/$file" ] || continue
+        mkdir -p "$copy/$(dirname "$file")"
+        cp -p "$root/$file" "$copy/$file"
+    done
+    perl -0pi -e 's/(static typename Format::Accumulator sum\(const typename Format::Coefficient\* table,\s+const Window<typename Format::Sample>& window,\s+typename Format::Sample newest, const typename Format::Scale& scale\) \{\n)/$1        if constexpr (std::is_same_v<typename Format::Accumulator, long> \&\& sizeof(typename Format::Sample) == 4) {\n            auto again = Format::start(newest, scale);\n            for (std::size_t i = 0; i < (window.newer_count + window.older_count) \/ 10; ++i) {\n                again = accumulate<Format, false>(again, table[i], window.newer[0]);\n                asm volatile("" : "+r"(again));\n            }\n        }\n/' "$copy/kernels/glsum/technique/plain.hpp"
+    perl -0pi -e 's/(float simd_dot\(const float\* a, const float\* x, std::size_t blocks\) \{\n)/$1    volatile float again = chosen<float, false>.load(std::memory_order_relaxed)(a, x, 1);\n    static_cast<void>(again);\n/' "$copy/kernels/glsum/simd_dot.cpp"
+    for file in kernels/glsum/technique/plain.hpp kernels/glsum/simd_dot.cpp; do
+        ! cmp -s "$root/$file" "$copy/$file" || { echo "host_time.sh: the plant does not match in $file" >&2; exit 2; }
+    done
+    cmake -S "$copy" -B "$folder/slower/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
+        cmake --build "$folder/slower/build" --target glsum_cli >"$folder/log" || { tail "$folder/log" >&2; exit 1; }
+    cp "$folder/slower/build/cli/glsum" "$folder/slower/glsum"
+}
 
 # record PROGRAM NAME
 record() {
-    [ -s "$folder/$2.json" ] && return
-    "$1" bench --quick --targets host --orders 0.5 --taps 600 --signals step --repetitions 100 --out "$folder/$2.json" \
+    [ ! -s "$folder/$2.json" ] || return 0
+    "$1" bench --quick --targets host --orders 0.5 --taps 600 --signals step --repetitions 200 --out "$folder/$2.json" \
         --kernels ring_plain_f32,ring_horner_f32,mirror_multi_f32,mirror_simd_f32,ring_plain_q31,peer_std_f32 >"$folder/log" 2>&1 ||
-        { cat "$folder/log" >&2; exit 1; }
+        { tail "$folder/log" >&2; exit 1; }
     rm -f "$folder/$2.csv" "$folder/$2.svg" "$folder/$2.png"
 }
 
-# gate BASELINE CURRENT: counts the alarms
+# gate BASELINE CURRENT: its exit status; what it says of times is in $folder/said
 gate() {
-    trials=$((trials + 1))
-    status=0
     "$program" gate --baseline "$folder/$1.json" --current "$folder/$2.json" --thresholds "$root/results/thresholds.toml" \
-        >"$folder/said" 2>&1 || status=$?
-    case $status in
-        0) ;;
-        1) alarms=$((alarms + 1)); sed -n "s|^  host_time  *\(gl/.*% .*\)|  $2: \1|p" "$folder/said" ;;
-        *) cat "$folder/said" >&2; exit 1 ;;
-    esac
+        >"$folder/all" 2>&1
+    status=$?
+    sed -n "/^Failures/,/^\$/s|^  host_time  *\(gl/.*\)|$2: \1|p" "$folder/all" >"$folder/said"
+    [ $status -le 1 ] || { cat "$folder/all" >&2; exit 1; }
+    return $status
 }
 
-trials=0 alarms=0
-if [ -n "$other" ]; then
-    i=0
-    while [ $i -lt "$gates" ]; do
-        record "$program" "run$i"
-        record "$other" "other$i"
-        gate "run$i" "other$i"
-        i=$((i + 1))
-    done
-    echo "$alarms of $trials gates of the other build raise an alarm"
-    exit 0
-fi
+[ "$slower" -eq 0 ] || plant
+alarms=0 against_first=0 caught=0 caught_q31=0 caught_simd=0
 record "$program" run0
 i=1
 while [ $i -le "$gates" ]; do
     record "$program" "run$i"
-    gate "run$((i - 1))" "run$i"
+    gate "run$((i - 1))" "run$i" || { alarms=$((alarms + 1)); cat "$folder/said"; }
+    gate run0 "run$i" || against_first=$((against_first + 1))
+    if [ $i -le "$slower" ]; then
+        record "$folder/slower/glsum" "slower$i"
+        if gate "run$i" "slower$i"; then :; else caught=$((caught + 1)); fi
+        ! grep -q mirror_simd "$folder/said" || caught_simd=$((caught_simd + 1))
+        ! grep -q ring_plain_q31 "$folder/said" || caught_q31=$((caught_q31 + 1))
+    fi
     i=$((i + 1))
 done
-echo "$alarms of $trials gates against the run before raise an alarm; nothing has changed"
-trials=0 alarms=0
-i=1
-while [ $i -le "$gates" ]; do
-    gate run0 "run$i"
-    i=$((i + 1))
-done
-echo "$alarms of $trials gates against the first run raise an alarm; nothing has changed"
+echo "nothing changed: $alarms of $gates gates against the run before raise an alarm, $against_first of $gates against the first run"
+[ "$slower" -eq 0 ] || echo "a tenth slower: $caught of $slower gates raise an alarm; mirror_simd_f32 $caught_simd times, ring_plain_q31 $caught_q31 times"

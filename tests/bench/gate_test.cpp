@@ -1,0 +1,459 @@
+// The gate: each kind of change is found, named by its layer, and told from the others; and what is no change is
+// passed.
+#include "bench/gate/gate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+
+#include "bench/gate/baseline.hpp"
+#include "bench/gate/outputs.hpp"
+#include "qemu/failure.hpp"
+
+namespace {
+
+using namespace bench::gate;
+using bench::Json;
+using bench::Results;
+using glsum::Exit;
+using testing::HasSubstr;
+using testing::Not;
+
+const Rules& rules() {
+    static const Rules rules = parse_rules(R"(
+[[rule]]
+layer = "accuracy"
+rows = "gl/*/accuracy/*"
+counters = "error_max"
+better = "lower"
+relative = 0.001
+level = "fail"
+reason = "exact"
+[[rule]]
+layer = "accuracy"
+rows = "gl/*/accuracy/*"
+counters = "effective_taps"
+better = "higher"
+absolute = 0
+level = "warn"
+reason = "memory"
+[[rule]]
+layer = "instructions_and_bytes"
+rows = "gl/*/m7:*"
+counters = ["instructions_per_sample", "*_bytes"]
+better = "lower"
+absolute = 0
+level = "fail"
+reason = "exact"
+[[rule]]
+layer = "instructions_and_bytes"
+rows = "gl/*/m7:*"
+counters = "loads_per_sample"
+better = "lower"
+relative = 0.5
+level = "fail"
+reason = "far too many"
+[[rule]]
+layer = "instructions_and_bytes"
+rows = "gl/*/m7:*"
+counters = "loads_per_sample"
+better = "lower"
+relative = 0.1
+level = "warn"
+reason = "many"
+[[rule]]
+layer = "model_cycles"
+rows = "gl/*/m7:*"
+counters = "model_cycles_per_sample"
+better = "lower"
+absolute = 0
+level = "fail"
+reason = "exact"
+[[rule]]
+layer = "host_time"
+rows = "gl/*/host"
+counters = "cpu_time"
+better = "lower"
+relative = 0.05
+anchor = "peer_std_f32"
+level = "fail"
+reason = "ratio"
+)",
+                                           "rules");
+    return rules;
+}
+
+constexpr char accuracy_row[] = "gl/a/order:0.5/taps:50/accuracy/signal:step";
+constexpr char count_row[] = "gl/a/order:0.5/taps:50/m7:count";
+constexpr char model_row[] = "gl/a/order:0.5/taps:50/m7:stm32f746-itcm";
+constexpr char time_row[] = "gl/a/order:0.5/taps:50/host";
+
+Results run() {
+    Results run;
+    run.context = {{"compiler", "GNU 12.2.0"},
+                   {"flags", "-O3"},
+                   {"contraction", "off"},
+                   {"n_samples", 1000},
+                   {"seed", 2020},
+                   {"target_compiler", "GNU 12.2.1"},
+                   {"core_file", "f746"},
+                   {"core_file_sha256", "1"},
+                   {"cpu", "one"},
+                   {"commit", "c0ffee"}};
+    for (const std::string kernel : {"a", "b"}) {
+        const std::string line = "gl/" + kernel + "/order:0.5/taps:50/";
+        Json accuracy = bench::make_row(line + "accuracy/signal:step", 1000);
+        accuracy["error_max"] = 1e-5;
+        accuracy["effective_taps"] = 50;
+        Json count = bench::make_row(line + "m7:count", 32);
+        count["instructions_per_sample"] = 315;
+        count["loads_per_sample"] = 100;
+        count["code_bytes"] = 400;
+        Json model = bench::make_row(line + "m7:stm32f746-itcm", 32);
+        model["model_cycles_per_sample"] = 500.25;
+        for (const Json& row : {accuracy, count, model}) {
+            run.rows.push_back(row);
+        }
+    }
+    for (const auto& [kernel, ns] : {std::pair("a", 100.0), std::pair("b", 50.0), std::pair("peer_std_f32", 20.0)}) {
+        for (int i = 0; i < 40; ++i) {
+            Json time = bench::make_row(std::string("gl/") + kernel + "/order:0.5/taps:50/host", 1000);
+            time["repetition_index"] = i;
+            time["cpu_time"] = ns * (1.0 + 0.0001 * (i * 17 % 40));
+            run.rows.push_back(time);
+        }
+    }
+    return run;
+}
+
+void change(Results& results, const std::string& name, const std::function<void(Json&)>& how) {
+    bool found = false;
+    for (Json& row : results.rows) {
+        if (row["name"] == name) {
+            how(row);
+            found = true;
+        }
+    }
+    ASSERT_TRUE(found) << name;
+}
+
+void scale(Results& results, const std::string& name, const std::string& counter, double factor) {
+    change(results, name, [&](Json& row) { row[counter] = row[counter].get<double>() * factor; });
+}
+
+void drop(Results& results, const std::function<bool(const std::string&)>& which) {
+    std::erase_if(results.rows, [&](const Json& row) { return which(row["name"].get<std::string>()); });
+}
+
+const Finding* find(const Verdict& verdict, Level level) {
+    for (const Finding& finding : verdict.findings) {
+        if (finding.level == level) {
+            return &finding;
+        }
+    }
+    return nullptr;
+}
+
+TEST(Gate, PassesWhatIsTheSame) {
+    const Verdict verdict = judge(run(), run(), rules());
+    EXPECT_EQ(verdict.status, Exit::good);
+    EXPECT_TRUE(verdict.findings.empty()) << to_table(verdict, false);
+    EXPECT_EQ(verdict.count(Layer::rows).compared, 9u);
+    EXPECT_EQ(verdict.count(Layer::answer).compared, 9u);
+    EXPECT_EQ(verdict.count(Layer::accuracy).compared, 4u);
+    EXPECT_EQ(verdict.count(Layer::instructions_and_bytes).compared, 6u);
+    EXPECT_EQ(verdict.count(Layer::model_cycles).compared, 2u);
+    EXPECT_EQ(verdict.count(Layer::host_time).compared, 2u);
+}
+
+// The counter that gets worse, by how much, and where that is found.
+struct Regression {
+    const char* row;
+    const char* counter;
+    double factor;
+    Layer layer;
+    Level level;
+};
+
+TEST(Gate, FindsWhatGetsWorse) {
+    for (const Regression& test :
+         {Regression{accuracy_row, "error_max", 1.01, Layer::accuracy, Level::fail},
+          Regression{accuracy_row, "effective_taps", 0.98, Layer::accuracy, Level::warn},
+          Regression{count_row, "instructions_per_sample", 316.0 / 315.0, Layer::instructions_and_bytes, Level::fail},
+          Regression{count_row, "code_bytes", 1.01, Layer::instructions_and_bytes, Level::fail},
+          Regression{count_row, "loads_per_sample", 1.2, Layer::instructions_and_bytes, Level::warn},
+          Regression{count_row, "loads_per_sample", 1.6, Layer::instructions_and_bytes, Level::fail},
+          Regression{model_row, "model_cycles_per_sample", 1.0005, Layer::model_cycles, Level::fail},
+          Regression{time_row, "cpu_time", 1.1, Layer::host_time, Level::fail}}) {
+        Results current = run();
+        scale(current, test.row, test.counter, test.factor);
+        const Verdict verdict = judge(run(), current, rules());
+        EXPECT_EQ(verdict.status, test.level == Level::fail ? Exit::check_failed : Exit::good) << test.counter;
+        ASSERT_EQ(verdict.findings.size(), 1u) << test.counter << to_table(verdict, false);
+        const Finding& finding = verdict.findings.front();
+        EXPECT_EQ(finding.level, test.level) << test.counter;
+        EXPECT_EQ(finding.layer, test.layer);
+        EXPECT_EQ(finding.row, test.row);
+        EXPECT_EQ(finding.counter, test.counter);
+        EXPECT_NEAR(finding.change.value(), test.factor - 1.0, 1e-9);
+        EXPECT_FALSE(finding.reason.empty());
+        // The other way round it is an improvement, and no reason to fail.
+        const Verdict back = judge(current, run(), rules());
+        EXPECT_EQ(back.status, Exit::good);
+        ASSERT_EQ(back.findings.size(), test.factor == 1.2 ? 1u : 1u) << test.counter << to_table(back, false);
+        EXPECT_EQ(back.findings.front().level, Level::improvement) << test.counter;
+    }
+}
+
+TEST(Gate, AllowsWhatTheRulesAllow) {
+    Results current = run();
+    scale(current, accuracy_row, "error_max", 1.0009);
+    scale(current, count_row, "loads_per_sample", 1.05);
+    scale(current, time_row, "cpu_time", 1.03);
+    for (Json& row : current.rows) {
+        row["iterations"] = 7;
+        row["real_time"] = 1e9;  // nobody's rule
+    }
+    EXPECT_TRUE(judge(run(), current, rules()).findings.empty());
+}
+
+TEST(Gate, TellsALostKernelFromALostRowAndALostCounter) {
+    Results current = run();
+    drop(current, [](const std::string& name) { return name.starts_with("gl/a/"); });
+    Verdict verdict = judge(run(), current, rules());
+    EXPECT_EQ(verdict.status, Exit::check_failed);
+    ASSERT_EQ(verdict.with(Level::fail), 1u);
+    EXPECT_EQ(verdict.headline(), "rows: gl/a/*: the kernel is lost: all 4 of its rows are missing");
+
+    current = run();
+    drop(current, [](const std::string& name) { return name == count_row; });
+    verdict = judge(run(), current, rules());
+    EXPECT_EQ(verdict.status, Exit::check_failed);
+    EXPECT_EQ(verdict.headline(), std::string("rows: ") + count_row + ": the row is missing");
+
+    current = run();
+    change(current, count_row, [](Json& row) { row.erase("instructions_per_sample"); });
+    verdict = judge(run(), current, rules());
+    EXPECT_EQ(verdict.status, Exit::check_failed);
+    EXPECT_THAT(verdict.headline(), HasSubstr("instructions_per_sample: the counter is missing"));
+
+    current.rows.clear();
+    EXPECT_EQ(judge(run(), current, rules()).status, Exit::check_failed);
+}
+
+TEST(Gate, ReportsNewRowsAndPasses) {
+    Results baseline = run();
+    drop(baseline, [](const std::string& name) { return name.starts_with("gl/b/") || name == model_row; });
+    const Verdict verdict = judge(baseline, run(), rules());
+    EXPECT_EQ(verdict.status, Exit::good);
+    ASSERT_EQ(verdict.findings.size(), 2u);
+    EXPECT_EQ(verdict.findings[0].row, model_row);
+    EXPECT_EQ(verdict.findings[1].row, "gl/b/*");
+    EXPECT_THAT(verdict.findings[1].what, HasSubstr("4 rows"));
+}
+
+TEST(Gate, NamesTheEarliestLayerFirst) {
+    Results current = run();
+    scale(current, time_row, "cpu_time", 2.0);
+    scale(current, model_row, "model_cycles_per_sample", 2.0);
+    scale(current, count_row, "instructions_per_sample", 2.0);
+    scale(current, accuracy_row, "error_max", 2.0);
+    const Verdict verdict = judge(run(), current, rules());
+    ASSERT_EQ(verdict.findings.size(), 4u);
+    EXPECT_THAT(verdict.headline(), HasSubstr("accuracy: "));
+    for (std::size_t i = 1; i < 4; ++i) {
+        EXPECT_LT(verdict.findings[i - 1].layer, verdict.findings[i].layer);
+    }
+}
+
+TEST(Gate, AWrongAnswerMakesTheLaterLayersOfItsKernelMoot) {
+    Results current = run();
+    change(current, count_row, [](Json& row) { bench::mark_error(row, "other bits"); });
+    scale(current, accuracy_row, "error_max", 2.0);
+    scale(current, model_row, "model_cycles_per_sample", 2.0);
+    scale(current, "gl/b/order:0.5/taps:50/m7:count", "instructions_per_sample", 2.0);
+    const Verdict verdict = judge(run(), current, rules());
+    EXPECT_EQ(verdict.status, Exit::check_failed);
+    EXPECT_EQ(verdict.headline(), std::string("right_answer: ") + count_row + ": other bits");
+    EXPECT_EQ(verdict.with(Level::fail), 2u) << to_table(verdict, false);  // that, and the other kernel's instructions
+    EXPECT_EQ(verdict.count(Layer::accuracy).moot, 2u);
+    EXPECT_EQ(verdict.count(Layer::model_cycles).moot, 1u);
+    EXPECT_EQ(verdict.count(Layer::host_time).moot, 1u);
+    // One repetition suffices, and Google Benchmark's newer word.
+    current = run();
+    for (Json& row : current.rows) {
+        if (row["name"] == time_row && row["repetition_index"] == 7) {
+            row["skipped"] = "ERROR";
+        }
+    }
+    EXPECT_THAT(judge(run(), current, rules()).headline(), HasSubstr("right_answer: gl/a/order:0.5/taps:50/host"));
+}
+
+TEST(Gate, OtherConditionsAreNotComparable) {
+    for (const char* field :
+         {"compiler", "flags", "contraction", "n_samples", "seed", "target_compiler", "target_flags",
+          "target_count_order", "placement", "core_file", "core_file_sha256", "schema"}) {
+        Results current = run();
+        current.context[field] = "another";
+        scale(current, accuracy_row, "error_max", 2.0);
+        const Verdict verdict = judge(run(), current, rules());
+        EXPECT_EQ(verdict.status, Exit::not_comparable) << field;
+        EXPECT_THAT(verdict.headline(), HasSubstr(std::string(field) + ": "));
+        EXPECT_THAT(verdict.headline(), HasSubstr(" in the baseline, another now"));
+        EXPECT_TRUE(verdict.findings.empty());
+    }
+    Results current = run();
+    current.context.erase("compiler");
+    EXPECT_EQ(judge(run(), current, rules()).headline(), "compiler: GNU 12.2.0 in the baseline, (absent) now");
+}
+
+TEST(Gate, ConditionsOfRowsThatAreNotThereDoNotMatter) {
+    const auto without_target = [](Results results) {
+        drop(results, [](const std::string& name) { return name.find("/m7:") != std::string::npos; });
+        return results;
+    };
+    Results current = without_target(run());
+    current.context["target_compiler"] = current.context["core_file"] = "another";
+    EXPECT_EQ(judge(without_target(run()), current, rules()).status, Exit::good);
+    current = run();
+    for (const char* field : {"commit", "dirty", "date", "elf_sha256", "glsum_version", "qemu_version"}) {
+        current.context[field] = "another";
+    }
+    EXPECT_EQ(judge(run(), current, rules()).status, Exit::good);
+}
+
+TEST(Gate, OnAnotherProcessorTimesOnlyWarnAndCountsDecide) {
+    for (const char* field : {"cpu", "simd", "cycle_counter", "peer_flags"}) {
+        Results current = run();
+        current.context[field] = "another";
+        scale(current, time_row, "cpu_time", 1.5);
+        Verdict verdict = judge(run(), current, rules());
+        EXPECT_EQ(verdict.status, Exit::good) << field;
+        ASSERT_NE(find(verdict, Level::warn), nullptr);
+        EXPECT_EQ(find(verdict, Level::warn)->layer, Layer::host_time);
+        scale(current, count_row, "instructions_per_sample", 1.5);
+        EXPECT_EQ(judge(run(), current, rules()).status, Exit::check_failed) << field;
+    }
+}
+
+TEST(Gate, JudgesTimesOnlyAgainstTheAnchor) {
+    Results current = run();
+    for (Json& row : current.rows) {
+        if (row["name"].get<std::string>().ends_with("/host")) {
+            row["cpu_time"] = 3.0 * row["cpu_time"].get<double>();  // the whole machine
+        }
+    }
+    EXPECT_TRUE(judge(run(), current, rules()).findings.empty());
+    drop(current, [](const std::string& name) { return name.find("peer_std") != std::string::npos; });
+    Results baseline = run();
+    drop(baseline, [](const std::string& name) { return name.find("peer_std") != std::string::npos; });
+    Verdict verdict = judge(baseline, current, rules());
+    EXPECT_EQ(verdict.count(Layer::host_time).not_judged, 2u);
+    EXPECT_THAT(find(verdict, Level::note)->what, HasSubstr("2 rows not judged: no row of the anchor"));
+    current = run();
+    std::erase_if(current.rows, [](const Json& row) { return row["repetition_index"].get<int>() > 10; });
+    verdict = judge(run(), current, rules());
+    EXPECT_THAT(find(verdict, Level::note)->what, HasSubstr("fewer than 20 repetitions"));
+}
+
+TEST(Gate, WithoutARuleThatSpeaksIsRefused) {
+    Results other;
+    other.rows.push_back(bench::make_row("something", 1));
+    EXPECT_THROW((void)judge(other, other, rules()), glsum::Failure);
+    EXPECT_THROW((void)judge({}, {}, rules()), glsum::Failure);
+}
+
+// Every value that a rule speaks of, one after the other: no regression slips through.
+TEST(Gate, CatchesEachValueOfAllRows) {
+    const Results baseline = run();
+    std::size_t tried = 0;
+    for (std::size_t r = 0; r < baseline.rows.size(); ++r) {
+        for (const auto& [counter, factor] :
+             {std::pair("error_max", 1.01), std::pair("instructions_per_sample", 316.0 / 315.0),
+              std::pair("code_bytes", 1.0025), std::pair("model_cycles_per_sample", 1.002)}) {
+            if (baseline.rows[r].contains(counter)) {
+                Results current = baseline;
+                current.rows[r][counter] = factor * current.rows[r][counter].get<double>();
+                const Verdict verdict = judge(baseline, current, rules());
+                EXPECT_EQ(verdict.with(Level::fail), 1u) << baseline.rows[r]["name"] << counter;
+                ++tried;
+            }
+        }
+    }
+    EXPECT_EQ(tried, 8u);
+}
+
+TEST(GateBaseline, KeepsItsSelectionAndTheHistory) {
+    Json previous = {{"history", Json::array({{{"reason", "first"}}})}};
+    const Results baseline = make_baseline(run(), {"*/m7:*", "*/host"}, previous, "a faster loop", "2 better");
+    EXPECT_EQ(baseline.rows.size(), 4u + 3u * 40u);
+    EXPECT_EQ(baseline.context["history"].size(), 2u);
+    EXPECT_EQ(baseline.context["history"][1]["reason"], "a faster loop");
+    EXPECT_EQ(baseline.context["history"][1]["changed"], "2 better");
+    EXPECT_EQ(baseline.context["history"][1]["commit"], "c0ffee");
+    EXPECT_EQ(baseline.context["compiler"], "GNU 12.2.0");
+    EXPECT_TRUE(std::is_sorted(baseline.rows.begin(), baseline.rows.end(), [](const Json& a, const Json& b) {
+        return a["name"].get<std::string>() < b["name"].get<std::string>();
+    }));
+    // Rows outside the selection are no news, and the rest is as it was.
+    const Verdict verdict = judge(baseline, run(), rules());
+    EXPECT_TRUE(verdict.findings.empty()) << to_table(verdict, false);
+    EXPECT_EQ(verdict.count(Layer::host_time).compared, 2u);
+    EXPECT_EQ(verdict.count(Layer::accuracy).compared, 0u);
+    EXPECT_EQ(verdict.count(Layer::instructions_and_bytes).compared, 6u);
+}
+
+TEST(GateBaseline, IsNoWrongRunAndNotEmpty) {
+    Results wrong = run();
+    change(wrong, count_row, [](Json& row) { bench::mark_error(row, "other bits"); });
+    EXPECT_THROW((void)make_baseline(wrong, {"*"}, Json::object(), "x", "y"), glsum::Failure);
+    EXPECT_NO_THROW((void)make_baseline(wrong, {"*/accuracy/*"}, Json::object(), "x", "y"));
+    EXPECT_THROW((void)make_baseline(run(), {"nothing"}, Json::object(), "x", "y"), glsum::Failure);
+}
+
+TEST(GateOutputs, EscapeWhatTheirFormatsCannotHold) {
+    Results current = run();
+    change(current, count_row, [](Json& row) { bench::mark_error(row, "<a & \"b\"> 100 %\nnext: | line, \x01"); });
+    const Verdict verdict = judge(run(), current, rules());
+    const std::string xml = to_junit(verdict);
+    EXPECT_THAT(xml, HasSubstr("&lt;a &amp; &quot;b&quot;&gt; 100 %&#10;next"));
+    EXPECT_THAT(xml, Not(HasSubstr("\x01")));
+    EXPECT_THAT(xml, HasSubstr("tests=\"10\" failures=\"1\""));
+    const std::string annotations = to_annotations(verdict);
+    EXPECT_THAT(annotations, HasSubstr("::error title=glsum gate%3A right_answer::gl/a"));
+    EXPECT_THAT(annotations, HasSubstr("100 %25%0Anext: | line"));
+    EXPECT_EQ(std::count(annotations.begin(), annotations.end(), '\n'), 1);
+    EXPECT_THAT(to_markdown(verdict), HasSubstr("100 % next: \\| line"));
+    const Json json = Json::parse(to_json(verdict));
+    EXPECT_EQ(json["schema"], "glsum-gate-1");
+    EXPECT_EQ(json["verdict"], "fail");
+    EXPECT_EQ(json["exit_status"], 1);
+    EXPECT_EQ(json["findings"][0]["layer"], "right_answer");
+}
+
+TEST(GateOutputs, StayShortAndSaySo) {
+    Results baseline = run();
+    for (int i = 0; i < 1000; ++i) {
+        Json row = bench::make_row("gl/c/order:0.5/taps:" + std::to_string(i + 1) + "/m7:count", 32);
+        row["instructions_per_sample"] = 10;
+        baseline.rows.push_back(row);
+    }
+    Results current = baseline;
+    for (Json& row : current.rows) {
+        if (row.contains("instructions_per_sample")) {
+            row["instructions_per_sample"] = 1000;
+        }
+    }
+    const Verdict verdict = judge(baseline, current, rules());
+    ASSERT_EQ(verdict.with(Level::fail), 1002u);
+    EXPECT_THAT(to_table(verdict, false), HasSubstr("... and 982 more; --json has them all"));
+    EXPECT_THAT(to_markdown(verdict), HasSubstr("... and 902 more"));
+    EXPECT_LT(to_markdown(verdict).size(), 1u << 20);
+    const std::string annotations = to_annotations(verdict);
+    EXPECT_EQ(std::count(annotations.begin(), annotations.end(), '\n'), 10);
+    EXPECT_THAT(annotations, HasSubstr("and 992 more"));
+    EXPECT_EQ(Json::parse(to_json(verdict))["findings"].size(), 1002u);
+}
+
+}  // namespace

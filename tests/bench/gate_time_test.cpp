@@ -1,0 +1,66 @@
+// Host time by statistics, on made-up machines: a quiet one, one whose neighbours come and go, one that is always busy.
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "bench/gate/host_time.hpp"
+
+namespace {
+
+using bench::gate::Timing;
+
+// A run of a kernel of 100 ns and an anchor of 20 ns: a share of the repetitions is disturbed, which costs the kernel
+// up to 70 % and the anchor up to 20 %.
+Timing run(unsigned seed, std::size_t repetitions, double disturbed, double slower = 1.0) {
+    std::mt19937_64 generator(seed);
+    std::uniform_real_distribution<double> unit(0.0, 1.0);
+    Timing timing;
+    for (std::size_t i = 0; i < repetitions; ++i) {
+        const auto time = [&](double ns, double cost) {
+            const double hit = unit(generator) < disturbed ? cost * unit(generator) : 0.0;
+            return ns * (1.0 + hit + 0.01 * unit(generator));
+        };
+        timing.kernel.push_back(slower * time(100.0, 0.7));
+        timing.anchor.push_back(time(20.0, 0.2));
+    }
+    return timing;
+}
+
+TEST(GateTime, IsTheChangeOfTheRatio) {
+    Timing before{std::vector<double>(20, 100.0), std::vector<double>(20, 20.0)};
+    Timing after{std::vector<double>(20, 330.0), std::vector<double>(20, 60.0)};
+    const auto change = bench::gate::time_change(before, after, 0.99);
+    EXPECT_NEAR(change.estimate, 0.1, 1e-12);
+    EXPECT_NEAR(change.low, 0.1, 1e-12);
+    EXPECT_NEAR(change.high, 0.1, 1e-12);
+}
+
+TEST(GateTime, SameFilesSameVerdict) {
+    const auto first = bench::gate::time_change(run(1, 50, 0.5), run(2, 50, 0.5), 0.99);
+    const auto second = bench::gate::time_change(run(1, 50, 0.5), run(2, 50, 0.5), 0.99);
+    EXPECT_EQ(first.low, second.low);
+    EXPECT_EQ(first.high, second.high);
+}
+
+TEST(GateTime, NeighboursRaiseNoAlarmAndHideNoTenth) {
+    int alarms = 0;
+    int caught = 0;
+    for (unsigned seed = 0; seed < 100; ++seed) {
+        const double before = 0.9 * (seed % 10) / 9.0;
+        const double after = 0.9 * (seed / 10) / 9.0;
+        const Timing baseline = run(2 * seed, 200, before);
+        alarms += bench::gate::time_change(baseline, run(2 * seed + 1, 200, after), 0.99).low > 0.05 ? 1 : 0;
+        caught += bench::gate::time_change(baseline, run(2 * seed + 1, 200, after, 1.1), 0.99).low > 0.05 ? 1 : 0;
+    }
+    EXPECT_EQ(alarms, 0);
+    EXPECT_GE(caught, 95);
+}
+
+// Where no moment is quiet, the interval says that nothing can be said.
+TEST(GateTime, FewQuietMomentsWidenTheInterval) {
+    const auto quiet = bench::gate::time_change(run(1, 200, 0.0), run(2, 200, 0.0), 0.99);
+    const auto busy = bench::gate::time_change(run(1, 200, 0.995), run(2, 200, 0.995), 0.99);
+    EXPECT_GT(busy.high - busy.low, 3.0 * (quiet.high - quiet.low));
+}
+
+}  // namespace
