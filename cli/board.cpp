@@ -14,15 +14,16 @@ qemu::Board built_board() {
     return board;
 }
 
-std::optional<qemu::Board> board_for(const choose::Question& question) {
+std::optional<qemu::Board> board_if_there() {
     try {
         return built_board();
     } catch (const glsum::Failure&) {
-        if (question.target == choose::Target::m7) {
-            throw;
-        }
         return std::nullopt;
     }
+}
+
+std::optional<qemu::Board> board_for(const choose::Question& question) {
+    return question.target == choose::Target::m7 ? built_board() : board_if_there();
 }
 
 }  // namespace cli

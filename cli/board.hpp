@@ -11,6 +11,9 @@ namespace cli {
 /// \throws glsum::Failure (missing) naming the file that is not there, or the emulator.
 [[nodiscard]] qemu::Board built_board();
 
+/// Nothing where it throws.
+[[nodiscard]] std::optional<qemu::Board> board_if_there();
+
 /// The board where a question needs it, else the board if it is there.
 [[nodiscard]] std::optional<qemu::Board> board_for(const choose::Question& question);
 

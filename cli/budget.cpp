@@ -55,10 +55,8 @@ std::shared_ptr<Budget> add_budget(CLI::App& command) {
     auto budget = std::make_shared<Budget>();
     budget->jobs = std::max(1U, std::thread::hardware_concurrency());
     command.add_option("--order", budget->order, "Order v in (-2, 2]")->required();
-    command
-        .add_option("--step-s", budget->step_s,
-                    "Seconds from sample to sample: the sines and the drive's response are sampled there")
-        ->required();
+    command.add_option("--step-s", budget->step_s,
+                       "Seconds from sample to sample: the sines and the drive's response are sampled there");
     command.add_option("--max-error", budget->max_error,
                        "Largest error of the sum, relative to the largest exact full-memory sum, before h^-v");
     command.add_option("--signal", budget->signals, "The error is the worst of these records (default: all of them)")
@@ -69,7 +67,7 @@ std::shared_ptr<Budget> add_budget(CLI::App& command) {
     command.add_option("--max-bytes", budget->max_bytes, "Bytes of state and coefficients");
     command.add_option("--clock-hz", budget->clock_hz, "The core's clock: with --rate-hz, says the share of real time");
     command.add_option("--rate-hz", budget->rate_hz, "Samples a second");
-    command.add_option("--target", budget->target, "host or m7")->required();
+    command.add_option("--target", budget->target, "host or m7");
     command.add_option("--core", budget->core,
                        "Core of the timing model, whose cycles decide if the results hold them");
     command.add_option("--results", budget->results,

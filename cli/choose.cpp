@@ -36,7 +36,9 @@ void add_choose(CLI::App& app) {
     CLI::App* command = app.add_subcommand("choose", "The cheapest kernel, length and format within a budget");
     auto budget = add_budget(*command);
     auto json = std::make_shared<std::string>();
-    command->get_option("--max-error")->required();
+    for (const char* needed : {"--step-s", "--max-error", "--target"}) {
+        command->get_option(needed)->required();
+    }
     command->add_option("--json", *json, "Writes the answer there too");
     command->footer(
         "Records are sampled at --step-s: sines and the drive's response are the same signals at other instants; "

@@ -28,5 +28,7 @@ void add_indices(CLI::App& app);
 void add_resample(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_stability(CLI::App& app);
+/// `generate`. \param command_line  as it was typed, for the record; filled before the command runs
+void add_generate(CLI::App& app, const std::string& command_line);
 
 }  // namespace cli

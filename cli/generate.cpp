@@ -1,26 +1,152 @@
-// glsum generate: the chosen kernel as one C99 header.
+// glsum generate: a kernel, chosen within a budget or named, as one C99 header.
 #include <fmt/format.h>
+#include <fnmatch.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <memory>
+#include <optional>
 
+#include "bench/choose/report.hpp"
 #include "bench/files.hpp"
 #include "bench/generate/header.hpp"
+#include "bench/generate/provenance.hpp"
+#include "bench/generate/verify.hpp"
+#include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/commands.hpp"
+#include "qemu/failure.hpp"
 
 namespace cli {
-void add_generate(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("generate", "A kernel as one C99 header for firmware");
-    auto budget = add_budget(*command);
-    auto spec = std::make_shared<generate::Spec>();
-    auto out = std::make_shared<std::string>();
-    command->add_option("--kernel", spec->kernel, "");
-    command->add_option("--taps", spec->taps, "");
-    command->add_option("--prefix", spec->prefix, "");
-    command->add_option("--out", *out, "")->required();
-    command->callback([=] {
-        spec->order = budget->order;
-        bench::write_file(*out, generate::make_header(*spec));
-    });
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+struct Options {
+    std::string kernel;
+    std::size_t taps = 0;
+    std::string prefix = "glsum";
+    std::string licence;
+    std::string out;
+    bool verify = false;
+};
+
+[[noreturn]] void refuse(const std::string& what) { throw Failure(Exit::bad_input, what); }
+
+// Kernels that match what was typed; one that is there but cannot be generated is refused by name.
+std::vector<std::string> named_kernels(const std::string& glob) {
+    std::vector<std::string> kernels = generate::generatable();
+    std::erase_if(kernels, [&](const std::string& kernel) { return fnmatch(glob.c_str(), kernel.c_str(), 0) != 0; });
+    if (kernels.empty()) {
+        kernels = {glob};  // make_header says why not
+    }
+    return kernels;
 }
+
+choose::Answer choose_one(const Budget& budget) {
+    choose::Question question = to_question(budget);
+    const std::vector<std::string> possible = generate::generatable();
+    std::erase_if(question.kernels, [&](const std::string& kernel) {
+        return std::find(possible.begin(), possible.end(), kernel) == possible.end();
+    });
+    choose::Answer answer = choose::answer(question, board_for(question));
+    fmt::print("{}", choose::to_table(answer, isatty(STDOUT_FILENO) == 1));
+    if (!answer.choice.chosen) {
+        throw Failure(Exit::check_failed, choose::nearest_miss(answer));
+    }
+    return answer;
+}
+
+generate::Spec to_spec(const Options& options, const Budget& budget, const std::string& kernel, std::size_t taps) {
+    generate::Spec spec;
+    spec.kernel = kernel;
+    spec.order = budget.order;
+    spec.taps = taps;
+    spec.step_s = budget.step_s;
+    spec.prefix = options.prefix;
+    if (!options.licence.empty()) {
+        spec.licence = options.licence;
+    }
+    return spec;
+}
+
+void run(const Options& options, Budget budget, const std::string& command) {
+    if (options.out.empty() && !options.verify) {
+        refuse("--out: expected a file to write (or --verify alone)");
+    }
+    if (!options.out.empty()) {
+        bench::check_writable(options.out);
+    }
+    std::vector<generate::Spec> specs;
+    std::optional<choose::Answer> answer;
+    if (options.kernel.empty()) {
+        if (budget.step_s == 0.0 || budget.max_error == 0.0 || budget.target.empty() || options.taps != 0) {
+            refuse(
+                "expected a budget (--order, --step-s, --max-error, --target) or a kernel (--order, --kernel, --taps)");
+        }
+        answer = choose_one(budget);
+        specs = {to_spec(options, budget, answer->choice.chosen->kernel, answer->choice.chosen->taps)};
+    } else {
+        if (options.taps == 0 || options.taps > 8000) {
+            refuse(fmt::format("--taps: expected 1 to 8000 with --kernel, found {}", options.taps));
+        }
+        budget.step_s = budget.step_s == 0.0 ? 0.001 : budget.step_s;
+        budget.target = budget.target.empty() ? "m7" : budget.target;
+        budget.max_error = 1.0;  // no limit: it is measured and told
+        const std::vector<std::string> kernels = named_kernels(options.kernel);
+        if (kernels.size() > 1 && !options.out.empty()) {
+            refuse(fmt::format("--kernel: expected one kernel for --out, found {} that match {}", kernels.size(),
+                               options.kernel));
+        }
+        for (const std::string& kernel : kernels) {
+            specs.push_back(to_spec(options, budget, kernel, options.taps));
+        }
+        if (!options.out.empty()) {
+            (void)generate::make_header(specs.front());  // refused before anything is measured
+            answer = choose::measure_one(to_question(budget), kernels.front(), options.taps, board_if_there());
+        }
+    }
+    if (!options.out.empty()) {
+        specs.front().provenance = generate::provenance(*answer, command);
+        const std::string header = generate::make_header(specs.front());
+        bench::write_file(options.out, header);
+        fmt::print("{} with {} taps in {}\n", specs.front().kernel, specs.front().taps, options.out);
+    }
+    if (options.verify) {
+        const auto verified = generate::verify_on_target(specs, built_board());
+        fmt::print("{}", generate::to_table(verified));
+        const auto failed =
+            std::count_if(verified.begin(), verified.end(), [](const auto& one) { return !one.good(); });
+        if (failed > 0) {
+            throw Failure(Exit::check_failed,
+                          fmt::format("{} of {} headers differ in their bits or cost more", failed, verified.size()));
+        }
+    }
+}
+
+}  // namespace
+
+void add_generate(CLI::App& app, const std::string& command_line) {
+    CLI::App* command = app.add_subcommand("generate", "A kernel, chosen or named, as one C99 header for firmware");
+    auto budget = add_budget(*command);
+    auto options = std::make_shared<Options>();
+    command->add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
+    command->add_option("--taps", options->taps, "Its length, with --kernel");
+    command->add_option("--prefix", options->prefix, "Begins every identifier of the header")->capture_default_str();
+    command->add_option("--licence", options->licence, "The header's licence line");
+    command->add_option("--out", options->out, "The header");
+    command->add_flag("--verify", options->verify,
+                      "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
+                      "the kernel's");
+    command->footer(
+        "Takes the budget of `choose` (see there) and writes what that chooses, among the kernels that can be "
+        "generated\n"
+        "(all but the host's vector kernels); or a kernel by name, at h = 1 ms unless --step-s says otherwise.\n"
+        "Exit status: 0 written; 1 nothing fits, or --verify failed; 2 wrong use; 3 something is missing.\n"
+        "Example: glsum generate --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --out half_derivative.h\n"
+        "         glsum generate --order 0.5 --kernel ring_plain_q31 --taps 300 --out half_derivative.h --verify");
+    command->callback([options, budget, &command_line] { run(*options, *budget, command_line); });
+}
+
 }  // namespace cli

@@ -49,6 +49,12 @@ int main(int argc, char** argv) {
     cli::add_stability(app);
     cli::add_indices(app);
     cli::add_resample(app);
+    std::string command_line = "glsum";
+    for (int i = 1; i < argc; ++i) {
+        command_line += ' ';
+        command_line += argv[i];
+    }
+    cli::add_generate(app, command_line);
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {

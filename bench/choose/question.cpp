@@ -109,4 +109,28 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
     return answer;
 }
 
+Answer measure_one(const Question& question, const std::string& kernel, std::size_t taps,
+                   const std::optional<qemu::Board>& board) {
+    Answer answer;
+    answer.question = question;
+    answer.context = context_of(question, board);
+    MeasuredErrors errors(question.conditions.order, make_records(question.conditions, question.jobs));
+    Candidate candidate{kernel, taps, errors.error(kernel, taps), {}};
+    if (!candidate.error.fault.empty()) {
+        throw Failure(Exit::bad_input, fmt::format("{} with {} taps: {}", kernel, taps, candidate.error.fault));
+    }
+    std::string note;
+    if (question.target == Target::m7 && !board) {
+        candidate.cost.fault = "the emulated board was not found";
+        answer.unit = answer.limited_unit = "instructions";
+    } else {
+        const auto costs = make_costs(question, {}, board, note);
+        candidate.cost = costs->costs({{kernel, taps}}).front();
+        answer.unit = costs->unit();
+        answer.limited_unit = costs->limited_unit();
+    }
+    answer.choice.chosen = candidate;
+    return answer;
+}
+
 }  // namespace choose

@@ -49,4 +49,9 @@ struct Answer {
 ///         modelled cycles are known.
 [[nodiscard]] Answer answer(const Question& question, const std::optional<qemu::Board>& board);
 
+/// The error and cost of one kernel and length, whatever the limits: `chosen` of the answer. Without a board the
+/// target's cost has a fault that says so. \throws glsum::Failure (bad input) when the kernel refuses the length.
+[[nodiscard]] Answer measure_one(const Question& question, const std::string& kernel, std::size_t taps,
+                                 const std::optional<qemu::Board>& board);
+
 }  // namespace choose

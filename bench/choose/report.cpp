@@ -18,17 +18,6 @@ std::string hertz(double hz) {
                        : fmt::format("{:g} Hz", hz);
 }
 
-std::string cost_text(const Answer& answer, const Candidate& candidate) {
-    const Cost& cost = candidate.cost;
-    if (answer.question.target == Target::host) {
-        return fmt::format("{:.1f} +- {:.1f} ns, {} cycles", cost.value, cost.noise, count(cost.limited));
-    }
-    if (cost.limited > cost.value) {
-        return fmt::format("{} {}, at most {}", count(cost.value), answer.unit, count(cost.limited));
-    }
-    return fmt::format("{} {}", count(cost.value), answer.unit);
-}
-
 // "max_error" as the user typed it.
 std::string option(const Answer& answer, const std::string& limit) {
     if (limit == "max_cost") {
@@ -129,6 +118,17 @@ bench::Json to_json(const Answer& answer, const Candidate& candidate) {
 }
 
 }  // namespace
+
+std::string cost_text(const Answer& answer, const Candidate& candidate) {
+    const Cost& cost = candidate.cost;
+    if (answer.question.target == Target::host) {
+        return fmt::format("{:.1f} +- {:.1f} ns, {} cycles", cost.value, cost.noise, count(cost.limited));
+    }
+    if (cost.limited > cost.value) {
+        return fmt::format("{} {}, at most {}", count(cost.value), answer.unit, count(cost.limited));
+    }
+    return fmt::format("{} {}", count(cost.value), answer.unit);
+}
 
 std::string budget_share(const Answer& answer, const Candidate& candidate) {
     const Question& question = answer.question;

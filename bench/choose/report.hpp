@@ -13,6 +13,9 @@ namespace choose {
 /// {"schema": "glsum-choice-1", ...}
 [[nodiscard]] bench::Json to_json(const Answer& answer);
 
+/// What a candidate costs, with its unit.
+[[nodiscard]] std::string cost_text(const Answer& answer, const Candidate& candidate);
+
 /// The share of the time between two samples, in words; empty without `clock_hz` and `rate_hz`.
 [[nodiscard]] std::string budget_share(const Answer& answer, const Candidate& candidate);
 

@@ -60,7 +60,7 @@ FormatText floating_text(bool wide_data, bool wide_sum) {
          helper("@accumulator@", "fused_multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
                 "    return " + fma + "(a, x, sum);\n")},
         {"nest", helper("@accumulator@", "nest", "@sample@ x, @coefficient@ c, @accumulator@ inner",
-                        "    return x + @name@_product(c, inner);\n")},
+                        "    return @name@_product(c, inner) + x;\n")},
         {"fused_nest", helper("@accumulator@", "fused_nest", "@sample@ x, @coefficient@ c, @accumulator@ inner",
                               "    return " + fma + "(c, inner, x);\n")},
         {"finish", helper("@output@", "finish", "@name@_instance *S, @accumulator@ sum",

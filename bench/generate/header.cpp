@@ -3,20 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cctype>
-#include <cmath>
 #include <span>
+#include <sstream>
 
-#include "bench/generate/parts.hpp"
+#include "bench/generate/kernel_data.hpp"
 #include "bench/generate/text.hpp"
-#include "bench/host_line.hpp"
-#include "bench/row.hpp"
 #include "bench/signals.hpp"
-#include "glsum/bound.hpp"
 #include "glsum/gain.hpp"
+#include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
-#include "targets/firmware/output_hash.hpp"
 
 namespace generate {
 namespace {
@@ -27,98 +23,60 @@ using glsum::Failure;
 // A prime number of inputs, repeated: no length of the past is a multiple of it by design.
 constexpr std::size_t check_samples = 37;
 
-template <class T, class... Ts>
-constexpr bool one_of = (std::is_same_v<T, Ts> || ...);
-
-template <class Technique>
-constexpr bool is_paired = one_of<Technique, glsum::Smlald, glsum::Smlad, glsum::SmlaldShaped>;
-
-template <class K>
-constexpr bool can_generate = false;
-template <class H, class T, class F>
-constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror> &&
-    (is_paired<T> ||
-     one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
-            glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
-            glsum::FirFma, glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15,
-                                                   glsum::Q15C31>;
-
-template <class Technique>
-TechniqueText technique_text(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
-    using namespace glsum;
-    if constexpr (one_of<Technique, Plain, PlainFma>) {
-        return plain_text(history, std::is_same_v<Technique, PlainFma>);
-    } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
-        return oldest_text(history, std::is_same_v<Technique, OldestFma>);
-    } else if constexpr (one_of<Technique, Multi, MultiFma>) {
-        return multi_text(history, std::is_same_v<Technique, MultiFma>);
-    } else if constexpr (one_of<Technique, Horner, HornerFma>) {
-        return horner_text(history, std::is_same_v<Technique, HornerFma>);
-    } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {
-        return horner_split_text(history, std::is_same_v<Technique, HornerSplitFma>);
-    } else if constexpr (one_of<Technique, Fir, FirFma>) {
-        return fir_text(std::is_same_v<Technique, FirFma>);
-    } else if constexpr (std::is_same_v<Technique, Compensated>) {
-        return compensated_text(history);
-    } else if constexpr (std::is_same_v<Technique, Scaled>) {
-        return scaled_text(past, shifts);
-    } else {
-        return paired_text(!std::is_same_v<Technique, Smlad>);
-    }
-}
-
-template <class T>
-std::string c_type() {
-    return std::is_same_v<T, double>         ? "double"
-           : std::is_same_v<T, float>        ? "float"
-           : std::is_same_v<T, std::int64_t> ? "int64_t"
-           : std::is_same_v<T, std::int32_t> ? "int32_t"
-           : std::is_same_v<T, std::int16_t> ? "int16_t"
-                                             : "uint32_t";
-}
-
 // A constant that every compiler reads back to the same bits: decimal with the digits of a round trip, since hex floats
 // are not C++11.
-template <class T>
-std::string literal(T value) {
-    if constexpr (std::is_floating_point_v<T>) {
-        std::string text = fmt::format("{}", value);
-        text += text.find_first_of(".e") == std::string::npos ? ".0" : "";
-        return text + (std::is_same_v<T, float> ? "F" : "");
-    } else if constexpr (std::is_same_v<T, std::uint32_t>) {
-        return fmt::format("0x{:08X}U", value);
-    } else if constexpr (std::is_same_v<T, std::uint64_t>) {
-        return fmt::format("UINT64_C(0x{:016X})", value);
-    } else if constexpr (std::is_same_v<T, std::int32_t>) {
-        return value == INT32_MIN ? "INT32_MIN" : fmt::format("{}", value);
-    } else {
-        return fmt::format("{}", value);
-    }
+std::string real_literal(const std::string& type, double value) {
+    std::string text = type == "float" ? fmt::format("{}", static_cast<float>(value)) : fmt::format("{}", value);
+    text += text.find_first_of(".e") == std::string::npos ? ".0" : "";
+    return text + (type == "float" ? "F" : "");
 }
 
-template <class T>
-std::string array(const std::string& type, const std::string& name, std::span<const T> values) {
-    std::string text = "static const " + type + " " + name + "[" + std::to_string(values.size()) + "] = {\n";
+// Bits as an unsigned constant.
+std::string bits_literal(std::uint64_t bits, bool wide) {
+    return wide ? fmt::format("UINT64_C(0x{:016X})", bits) : fmt::format("0x{:08X}U", bits);
+}
+
+std::string array(const std::string& type, const std::string& name, const std::vector<std::string>& literals) {
+    std::string text = "static const " + type + " " + name + "[" + std::to_string(literals.size()) + "] = {\n";
     std::string line;
-    for (const T value : values) {
-        const std::string next = literal(value) + ",";
-        if (line.size() + next.size() + 5 > 118) {
+    for (const std::string& literal : literals) {
+        if (line.size() + literal.size() + 6 > 118) {
             text += "   " + line + "\n";
             line.clear();
         }
-        line += " " + next;
+        line += " " + literal + ",";
     }
     return text + "   " + line + "\n};\n";
 }
 
-template <class Output>
-auto bits_of(Output output) {
-    if constexpr (sizeof(Output) == 4) {
-        return std::bit_cast<std::uint32_t>(output);
-    } else {
-        return std::bit_cast<std::uint64_t>(output);
+std::vector<std::string> literals(const Numbers& numbers) {
+    std::vector<std::string> texts;
+    for (const double real : numbers.reals) {
+        texts.push_back(real_literal(numbers.type, real));
     }
+    for (const std::int64_t integer : numbers.integers) {
+        texts.push_back(integer == INT32_MIN ? "INT32_MIN" : std::to_string(integer));
+    }
+    return texts;
+}
+
+// Two coefficients a word, the first in the lower half.
+std::vector<std::string> words(const std::vector<std::int64_t>& coefficients) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i + 1 < coefficients.size(); i += 2) {
+        const auto low = static_cast<std::uint16_t>(coefficients[i]);
+        const auto high = static_cast<std::uint16_t>(coefficients[i + 1]);
+        texts.push_back(bits_literal(static_cast<std::uint32_t>(low) | static_cast<std::uint32_t>(high) << 16, false));
+    }
+    return texts;
+}
+
+std::vector<std::string> bits(std::span<const std::uint64_t> outputs, bool wide) {
+    std::vector<std::string> texts;
+    for (const std::uint64_t output : outputs) {
+        texts.push_back(bits_literal(output, wide));
+    }
+    return texts;
 }
 
 std::string upper(std::string text) {
@@ -127,26 +85,23 @@ std::string upper(std::string text) {
     return text;
 }
 
-// Commented text may not end the comment.
+// Lines of a comment, which none of them may end.
 std::string comment(const std::string& text) {
-    std::string lines = " * ";
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        if (text[i] == '\n') {
-            lines += "\n * ";
-        } else if (text[i] == '/' && i > 0 && text[i - 1] == '*') {
-            lines += " /";
-        } else {
-            lines += text[i];
+    std::string lines;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+        for (std::size_t at; (at = line.find("*/")) != std::string::npos;) {
+            line.replace(at, 2, "* /");
         }
+        lines += line.empty() ? " *\n" : " * " + line + "\n";
     }
-    return lines + "\n";
+    return lines;
 }
 
 // What the sum of the coefficients beyond the length can come to for |x| <= 1, at any length of the record.
 std::string truncation_bound(double order, std::size_t taps) {
     if (order < 0.0) {
-        return "without bound for records without end (v < 0); of a record of N samples, the sum of |a_j| from L to "
-               "N-1";
+        return "none for records without end (v < 0); of N samples, the sum of |a_j| from L to N-1";
     }
     const double all = order == 0.0 ? 1.0 : order <= 1.0 ? 2.0 : 2.0 * order;
     return fmt::format("{:.3g}", std::max(0.0, all - glsum::absolute_sum(order, taps)) * (1.0 + 1e-9) + 1e-14);
@@ -193,7 +148,7 @@ const char* const guard_floating = R"(
 #elif defined(__GNUC__) && (defined(__aarch64__) || (defined(__ARM_FP) && (__ARM_FP & @fp_bit@)))
 #define @NAME@_KEEP(value) __asm__("" : "+@fp_register@"(value))
 #elif defined(__GNUC__) && defined(__arm__)
-#define @NAME@_KEEP(value) __asm__("" : "+r"(value))
+#define @NAME@_KEEP(value) ((void)(value)) /* in software: nothing is fused there */
 #elif defined(__GNUC__) && defined(__riscv_flen)
 #define @NAME@_KEEP(value) __asm__("" : "+f"(value))
 #elif defined(__GNUC__)
@@ -305,200 +260,83 @@ static inline uint32_t @prefix@_self_check_@f@(@prefix@_@f@_instance *S)
 #endif /* @NAME@_H */
 )";
 
-template <class K>
-std::string make(const Spec& spec) {
-    using History = typename K::HistoryPart;
-    using Technique = typename K::TechniquePart;
-    using Format = typename K::FormatPart;
-    using Sample = typename K::Sample;
-    using Coefficient = typename K::Coefficient;
-    using Output = typename K::Output;
-    constexpr bool fixed = Format::fixed_point;
-    const std::size_t past = spec.taps - 1;
-
-    bench::HostLine<K> line({spec.order, spec.taps});
-    if (line.status() != glsum::Status::ok) {
-        throw Failure(Exit::bad_input, fmt::format("{} with {} taps at order {}: {}", spec.kernel, spec.taps,
-                                                   spec.order, bench::to_text(line.status())));
+// The constants that follow from format and step.
+std::string constants(const Spec& spec, const KernelData& data) {
+    std::string text;
+    if (data.fixed) {
+        text = fmt::format("#define @NAME@_OUTPUT_EXPONENT {}     /* S_k = output * 2^(OUTPUT_EXPONENT - 31) */\n",
+                           data.scale.output_exponent);
     }
-    const auto& state = line.state();
-    const std::span<const Coefficient> table(state.table, K::table_count(spec.taps));
-
-    HistoryText history = history_text(History{}, past);
-    std::vector<int> shifts;
-    if constexpr (std::is_same_v<Technique, glsum::Scaled>) {
-        shifts.assign(table.begin() + static_cast<std::ptrdiff_t>(past), table.end());
+    if (spec.step_s && data.fixed) {
+        const glsum::Gain gain = glsum::make_gain(glsum::step_factor(spec.order, *spec.step_s));
+        text += fmt::format(
+            "/* h^-v = GAIN_MANTISSA * 2^(GAIN_EXPONENT - 30): times S_k it is the derivative. */\n"
+            "#define @NAME@_GAIN_MANTISSA {}\n#define @NAME@_GAIN_EXPONENT ({})\n",
+            gain.mantissa, gain.exponent);
+    } else if (spec.step_s) {
+        text += fmt::format("#define @NAME@_STEP_FACTOR {} /* h^-v: times S_k it is the derivative */\n",
+                            real_literal(data.inputs.type, glsum::step_factor(spec.order, *spec.step_s)));
     }
-    TechniqueText technique = technique_text<Technique>(history, past, shifts);
-    FormatText format;
-    std::string constants;
-    if constexpr (fixed) {
-        format = fixed_text({Format::sample_bits, Format::coefficient_bits, state.scale.table_exponent,
-                             state.scale.output_exponent, state.scale.output_shift});
-        constants = fmt::format("#define @NAME@_OUTPUT_EXPONENT {}     /* S_k = output * 2^(OUTPUT_EXPONENT - 31) */\n",
-                                static_cast<int>(state.scale.output_exponent));
-        if (spec.step_s) {
-            const glsum::Gain gain = glsum::make_gain(glsum::step_factor(spec.order, *spec.step_s));
-            constants += fmt::format(
-                "/* h^-v = GAIN_MANTISSA * 2^(GAIN_EXPONENT - 30): times S_k it is the derivative. */\n"
-                "#define @NAME@_GAIN_MANTISSA {}\n#define @NAME@_GAIN_EXPONENT ({})\n",
-                gain.mantissa, gain.exponent);
-        }
-    } else {
-        format = floating_text(std::is_same_v<Sample, double>, std::is_same_v<typename Format::Accumulator, double>);
-        if (spec.step_s) {
-            constants = fmt::format("#define @NAME@_STEP_FACTOR {} /* h^-v: times S_k it is the derivative */\n",
-                                    literal(static_cast<Sample>(glsum::step_factor(spec.order, *spec.step_s))));
-        }
-    }
-
-    const std::string word(Format::word);
-    const std::string name = spec.prefix + "_" + word;
-    Places places{{"prefix", spec.prefix},
-                  {"name", name},
-                  {"NAME", upper(name)},
-                  {"f", word},
-                  {"taps", std::to_string(spec.taps)},
-                  {"past", std::to_string(past)},
-                  {"samples", std::to_string(std::max<std::size_t>(1, K::past_count(spec.taps)))},
-                  {"sample", c_type<Sample>()},
-                  {"coefficient", is_paired<Technique> ? "uint32_t" : c_type<Coefficient>()},
-                  {"accumulator", c_type<typename Format::Accumulator>()},
-                  {"output", c_type<Output>()},
-                  {"moved", fixed ? "int32_t" : c_type<Sample>()},
-                  {"includes", technique.fused ? "#include <math.h>\n" : ""},
-                  {"fp_bit", std::is_same_v<typename Format::Accumulator, double> ? "8" : "4"},
-                  {"fp_register", std::is_same_v<typename Format::Accumulator, double> ? "w" : "t"},
-                  {"word", std::is_same_v<Technique, glsum::Smlad> ? "smlad" : "smlald"},
-                  {"wide", std::is_same_v<Technique, glsum::Smlad> ? "int32_t" : "int64_t"}};
-    if constexpr (is_paired<Technique>) {
-        const std::size_t aligned = (past + 1) / 2;
-        constants += fmt::format(
+    if (data.pairs) {
+        const std::size_t all = data.table.integers.size() / 2;
+        text += fmt::format(
             "#define @NAME@_ALIGNED {}U            /* words of the table for windows that begin a word */\n"
             "#define @NAME@_SHIFTED {}U            /* and for those that begin in the middle of one */\n",
-            aligned, table.size() / 2 - aligned);
+            data.aligned_words, all - data.aligned_words);
     }
-    places["constants"] = fill(constants, places);
-    if (fixed) {
-        history.fields = "    uint32_t saturations; /* outputs that saturated since init */\n" + history.fields;
-        history.reset = "    S->saturations = 0U;\n" + history.reset;
-    }
-    places["fields"] = fill(history.fields, places);
-    places["reset"] = fill(history.reset, places);
+    return text;
+}
 
-    // The body: a length of 1 has no past to read or keep.
-    const bool pushes = technique.pushes;
-    std::string body;
+// The statements of `step`. A length of 1 has no past to read or keep.
+std::string step_body(const KernelData& data, std::size_t past) {
     if (past == 0) {
-        // The nested form's sums have other units than those of products.
-        constexpr bool nested = one_of<Technique, glsum::Horner, glsum::HornerFma>;
-        body = std::string("    return @name@_finish(S, ") + (nested ? "newest" : "@name@_start(newest)") + ");\n";
-        technique.sum.clear();
-    } else {
-        const bool has_head = history.fields.find(" head;") != std::string::npos;
-        body = technique.sum + (pushes ? "" : history.push) + "    return @name@_finish(S, sum);\n";
-        body = (has_head ? "    size_t head = S->head;\n" : "") +
-               std::string(body.find("i = ") != std::string::npos ? "    size_t i;\n" : "") + body;
+        return std::string("    return @name@_finish(S, ") + (data.nested ? "newest" : "@name@_start(newest)") + ");\n";
     }
+    const HistoryText& history = data.history_text;
+    const std::string body = data.technique_text.sum + (data.technique_text.pushes ? "" : history.push) +
+                             "    return @name@_finish(S, sum);\n";
+    const bool has_head = history.fields.find(" head;") != std::string::npos;
+    const bool has_index = body.find("i = ") != std::string::npos;
+    return std::string(has_head ? "    size_t head = S->head;\n" : "") + (has_index ? "    size_t i;\n" : "") + body;
+}
 
-    std::string text = "/**\n";
-    text += comment(
-        fmt::format("{}, {} taps: the Grünwald-Letnikov sum of order v = {}\n", spec.kernel, spec.taps, spec.order));
-    text += comment("  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 - (1+v)/j)\n");
-    text +=
-        comment(fmt::format("one sum a sample; h^-v S_k approximates the derivative of order v (v < 0: the integral).\n"
-                            "Made by glsum; make it again rather than edit it.\n\n"
-                            "History: {}.\nSum: {}.\nNumbers: {}.\n\nScaling and overflow behaviour\n{}\n",
-                            history.summary, technique.summary, format.summary, fill(format.scaling, places)));
-    text +=
-        comment(fmt::format("Error bounds, absolute, of S_k for |x| <= 1, before h^-v\n"
-                            "against the exact sum of {} taps, rounding of coefficients and inputs included: {:.3g}\n"
-                            "that sum against full memory (truncation): {}\n",
-                            spec.taps, glsum::error_bound<K>({spec.order, spec.taps}, state, 1.0),
-                            truncation_bound(spec.order, spec.taps)));
-    if (!spec.provenance.empty()) {
-        text += comment(fmt::format("{}\n", fmt::join(spec.provenance, "\n")));
-    }
-    text += comment(fmt::format(
-        "Bytes: instance {} + table {} (elsewhere the instance may be padded otherwise)\nLicence: {}.\n",
-        "sizeof(" + name + "_instance)", table.size_bytes() - (shifts.size() * sizeof(Coefficient)), spec.licence));
-    text +=
-        comment(fmt::format("    static {0}_instance line;\n    {1}_init_{2}(&line);\n    {3} sum = "
-                            "{1}_step_{2}(&line, x); /- once a sample -/",
-                            name, spec.prefix, word, c_type<Output>()));
-    text += " */\n";
-
-    text += fill(head, places);
-    if (fixed) {
-        text += fill(guard_fixed, places);
-        if (pushes && past > 0) {
-            text += fill(keep_fixed, places);
-        }
-    } else {
-        text += fill(guard_floating, places);
-    }
-    const bool moves = !pushes && std::is_same_v<History, glsum::Shift> && past > 0;
-    if (moves) {
-        text += fill(keep_word, places);
-    }
-    text += "\n";
-    if (past > 0) {
-        text += fill("/* The coefficients. */\n@NAME@_TABLE_ATTRIBUTES\n", places);
-        if constexpr (is_paired<Technique>) {
-            std::vector<std::uint32_t> words;
-            for (std::size_t i = 0; i + 1 < table.size(); i += 2) {
-                words.push_back(static_cast<std::uint16_t>(table[i]) |
-                                static_cast<std::uint32_t>(static_cast<std::uint16_t>(table[i + 1])) << 16);
-            }
-            text += array<std::uint32_t>("uint32_t", name + "_table", words);
-        } else {
-            text +=
-                array<Coefficient>(c_type<Coefficient>(), name + "_table", table.first(table.size() - shifts.size()));
-        }
-    }
-    text += fill(instance, places);
-    if (technique.pairs && past > 0) {
-        text += fill(dsp, places);
-    }
-    // The helpers that the body calls, and those that they call, in the order of their definition.
+// The helpers that the body calls, and those that they call, in the order of their definition.
+std::string helpers_of(const KernelData& data, const std::string& body) {
     std::string used = body;
-    std::string helpers;
-    for (auto helper = format.helpers.rbegin(); helper != format.helpers.rend(); ++helper) {
+    std::string text;
+    const auto& all = data.format_text.helpers;
+    for (auto helper = all.rbegin(); helper != all.rend(); ++helper) {
         if (used.find("@name@_" + helper->first + "(") != std::string::npos) {
-            helpers = "\n" + helper->second + helpers;
+            text = "\n" + helper->second + text;
             used += helper->second;
         }
     }
-    text += fill(helpers, places);
-    places["body"] = fill(body, places);
-    text += fill(step, places);
+    return text;
+}
 
-    // What the kernel itself gives.
-    const std::vector<double> reals = bench::make_signal("noise", check_samples, 20200601);
-    std::vector<Sample> inputs;
-    for (const double real : reals) {
-        inputs.push_back(K::from_real(real));
+std::string opening_comment(const Spec& spec, const KernelData& data, const Places& places) {
+    const std::string name = places.at("name");
+    std::string text = fmt::format(
+        "{}, {} taps: the Grünwald-Letnikov sum of order v = {}\n\n"
+        "  S_k = sum_{{j=0..min(k, L-1)}} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 - (1+v)/j)\n\n"
+        "one sum a sample; h^-v S_k approximates the derivative of order v (v < 0: the integral).\n"
+        "Made by glsum; make it again rather than edit it.\n\n",
+        spec.kernel, spec.taps, spec.order);
+    text += fmt::format(
+        "  static {0}_instance line;\n  {1}_init_{2}(&line);\n  {3} sum = {1}_step_{2}(&line, x);  once a sample\n\n",
+        name, spec.prefix, data.format, data.output);
+    text += fmt::format("History: {}.\nSum: {}.\nNumbers: {}.\n\nScaling and overflow behaviour\n{}\n\n",
+                        data.history_text.summary, data.technique_text.summary, data.format_text.summary,
+                        fill(data.format_text.scaling, places));
+    text += fmt::format(
+        "Error bounds, absolute, of S_k for |x| <= 1, before h^-v\n"
+        "against the exact sum of {} taps, rounding of coefficients and inputs included: {:.3g}\n"
+        "of that sum against full memory (truncation): {}\n\n",
+        spec.taps, data.error_bound, truncation_bound(spec.order, spec.taps));
+    for (const std::string& line : spec.provenance) {
+        text += line + "\n";
     }
-    const std::size_t blocks = (2 * past + 3 + check_samples - 1) / check_samples + 2;
-    const std::size_t steps = blocks * check_samples;
-    using Bits = decltype(bits_of(Output{}));
-    std::vector<Bits> outputs;
-    firmware::OutputHash hash;
-    for (std::size_t k = 0; k < steps; ++k) {
-        const Output output = line.step(inputs[k % check_samples]);
-        hash.add(output);
-        outputs.push_back(bits_of(output));
-    }
-    const std::span<const Bits> all(outputs);
-    places["bits"] = sizeof(Bits) == 4 ? "uint32_t" : "uint64_t";
-    places["steps"] = std::to_string(steps);
-    places["check"] = std::to_string(check_samples);
-    places["from"] = std::to_string(steps - check_samples);
-    places["hash"] = literal(hash.value());
-    places["inputs"] = array<Sample>(c_type<Sample>(), name + "_check_input", inputs);
-    places["first"] = array<Bits>(places["bits"], name + "_check_first", all.first(check_samples));
-    places["last"] = array<Bits>(places["bits"], name + "_check_last", all.last(check_samples));
-    return text + fill(self_check, places);
+    return "/**\n" + comment(text + (spec.provenance.empty() ? "" : "\n") + "Licence: " + spec.licence + ".") + " */\n";
 }
 
 bool is_identifier(const std::string& text) {
@@ -509,15 +347,7 @@ bool is_identifier(const std::string& text) {
 
 }  // namespace
 
-std::vector<std::string> generatable() {
-    std::vector<std::string> kernels;
-    glsum::Registry::for_each([&]<class K>() {
-        if (can_generate<K>) {
-            kernels.emplace_back(K::name());
-        }
-    });
-    return kernels;
-}
+std::vector<double> check_signal() { return bench::make_signal("noise", check_samples, 20200601); }
 
 std::string format_word(const std::string& kernel) { return kernel.substr(kernel.rfind('_') + 1); }
 
@@ -526,27 +356,63 @@ std::string make_header(const Spec& spec) {
         throw Failure(Exit::bad_input,
                       fmt::format("--prefix: expected letters, digits and underscores, found {}", spec.prefix));
     }
-    std::string header;
-    bool known = false;
-    bool host_only = false;
-    glsum::Registry::for_each([&]<class K>() {
-        if (K::name() == spec.kernel) {
-            known = true;
-            host_only = K::host_only;
-            if constexpr (can_generate<K>) {
-                header = make<K>(spec);
-            }
-        }
-    });
-    if (!known) {
-        throw Failure(Exit::bad_input, fmt::format("no kernel is called {}", spec.kernel));
+    const std::size_t past = spec.taps - 1;
+    // Past twice the window, so that every history wraps, and two blocks more.
+    const std::size_t steps = ((2 * past + 3 + check_samples - 1) / check_samples + 2) * check_samples;
+    const KernelData data = describe(spec.kernel, spec.order, spec.taps, check_signal(), steps);
+    const std::string name = spec.prefix + "_" + data.format;
+    const bool wide_sum = data.accumulator == "double";
+    const bool wide_bits = data.output == "double";
+    const bool smlad = spec.kernel.find("_smlad_") != std::string::npos;
+    Places places{{"prefix", spec.prefix},
+                  {"name", name},
+                  {"NAME", upper(name)},
+                  {"f", data.format},
+                  {"taps", std::to_string(spec.taps)},
+                  {"past", std::to_string(past)},
+                  {"samples", std::to_string(std::max<std::size_t>(1, data.samples_held))},
+                  {"sample", data.inputs.type},
+                  {"coefficient", data.pairs ? "uint32_t" : data.table.type},
+                  {"accumulator", data.accumulator},
+                  {"output", data.output},
+                  {"moved", data.fixed ? "int32_t" : data.inputs.type},
+                  {"includes", data.technique_text.fused ? "#include <math.h>\n" : ""},
+                  {"fp_bit", wide_sum ? "8" : "4"},
+                  {"fp_register", wide_sum ? "w" : "t"},
+                  {"word", smlad ? "smlad" : "smlald"},
+                  {"wide", smlad ? "int32_t" : "int64_t"},
+                  {"bits", wide_bits ? "uint64_t" : "uint32_t"},
+                  {"steps", std::to_string(steps)},
+                  {"check", std::to_string(check_samples)},
+                  {"from", std::to_string(steps - check_samples)},
+                  {"hash", bits_literal(data.hash, true)}};
+    const bool fixed = data.fixed;
+    const std::string body = step_body(data, past);
+    places["constants"] = fill(constants(spec, data), places);
+    places["fields"] = fill(
+        (fixed ? "    uint32_t saturations; /* outputs that saturated since init */\n" : "") + data.history_text.fields,
+        places);
+    places["reset"] = fill((fixed ? "    S->saturations = 0U;\n" : "") + data.history_text.reset, places);
+    places["body"] = fill(body, places);
+    const std::span<const std::uint64_t> outputs(data.outputs);
+    places["inputs"] = array(data.inputs.type, name + "_check_input", literals(data.inputs));
+    places["first"] = array(places["bits"], name + "_check_first", bits(outputs.first(check_samples), wide_bits));
+    places["last"] = array(places["bits"], name + "_check_last", bits(outputs.last(check_samples), wide_bits));
+
+    std::string text = opening_comment(spec, data, places) + fill(head, places);
+    text += fill(fixed ? guard_fixed : guard_floating, places);
+    const bool uses = past > 0;
+    text += uses && fixed && data.technique_text.pushes ? fill(keep_fixed, places) : "";
+    text += uses && body.find("_KEEP_WORD(") != std::string::npos ? fill(keep_word, places) : "";
+    if (uses) {
+        text += fill("\n/* The coefficients. */\n@NAME@_TABLE_ATTRIBUTES\n", places) +
+                array(places["coefficient"], name + "_table",
+                      data.pairs ? words(data.table.integers) : literals(data.table));
     }
-    if (header.empty()) {
-        throw Failure(Exit::bad_input, fmt::format("{} cannot be generated: {}", spec.kernel,
-                                                   host_only ? "it needs the host's vector unit"
-                                                             : "no emitter is written for one of its words"));
-    }
-    return header;
+    text += fill(instance, places);
+    text += uses && data.pairs ? fill(dsp, places) : "";
+    text += fill(helpers_of(data, body), places);
+    return text + fill(step, places) + fill(self_check, places);
 }
 
 }  // namespace generate

@@ -27,6 +27,9 @@ struct Spec {
 ///         identifier, and a design that the kernel refuses.
 [[nodiscard]] std::string make_header(const Spec& spec);
 
+/// The inputs of every self-check, as reals.
+[[nodiscard]] std::vector<double> check_signal();
+
 /// The format's word in a kernel's name, which ends the names of the header's functions.
 [[nodiscard]] std::string format_word(const std::string& kernel);
 

@@ -14,11 +14,11 @@ const char* const next_head = R"(    head = (head == 0U ? @NAME@_PAST : head) - 
 
 // The value passes through an empty instruction: without it compilers make the loop a call of memmove, which small C
 // libraries copy byte by byte.
-HistoryText history_text(glsum::Shift, std::size_t) {
+HistoryText history_text(glsum::Shift) {
     return {.summary = "every sample moves one place on at each step",
             .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ... */\n",
             .reset = clear,
-            .pieces = {{"S->past", "@NAME@_PAST", "0U"}},
+            .pieces = {{"S->past", "S->past + @NAME@_PAST", "", "@NAME@_PAST"}},
             .push = R"(    for (i = @NAME@_PAST - 1U; i > 0U; --i) {
         @moved@ moved = S->past[i - 1U];
         @NAME@_KEEP_WORD(moved);
@@ -28,23 +28,24 @@ HistoryText history_text(glsum::Shift, std::size_t) {
 )"};
 }
 
-HistoryText history_text(glsum::Ring, std::size_t) {
+HistoryText history_text(glsum::Ring) {
     return {.summary = "samples stay in place, the head moves down and wraps",
             .fields =
                 "    size_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES];\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
-            .pieces = {{"S->past + head", "@NAME@_PAST - head", "0U"}, {"S->past", "head", "@NAME@_PAST - head"}},
+            .pieces = {{"S->past + head", "S->past + @NAME@_PAST", "", "(@NAME@_PAST - head)"},
+                       {"S->past", "S->past + head", "(@NAME@_PAST - head)", "@NAME@_PAST", true}},
             .push = std::string(next_head) + "    S->past[head] = newest;\n    S->head = head;\n"};
 }
 
-HistoryText history_text(glsum::Mirror, std::size_t) {
+HistoryText history_text(glsum::Mirror) {
     return {.summary = "a ring kept twice, so that the past is one piece",
             .fields =
                 "    size_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES]; /* twice the same */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
-            .pieces = {{"S->past + head", "@NAME@_PAST", "0U"}},
+            .pieces = {{"S->past + head", "S->past + head + @NAME@_PAST", "", "@NAME@_PAST"}},
             .push = std::string(next_head) +
                     "    S->past[head] = newest;\n    S->past[head + @NAME@_PAST] = newest;\n    S->head = head;\n"};
 }

@@ -8,15 +8,19 @@
 #include <utility>
 #include <vector>
 
-#include "glsum/registry.hpp"
+#include "glsum/history/mirror.hpp"
+#include "glsum/history/ring.hpp"
+#include "glsum/history/shift.hpp"
 
 namespace generate {
 
-/// A contiguous piece of the past, newest first, as C expressions.
+/// A contiguous piece of the past, newest first, as C expressions: pointers to its newest sample and behind its oldest.
 struct Piece {
-    std::string samples;  ///< pointer to its newest sample
-    std::string count;
-    std::string offset;  ///< of its first coefficient in a table of one coefficient a tap
+    std::string begin;
+    std::string end;
+    std::string from;  ///< of its first coefficient in a table of one a tap; empty: 0
+    std::string to;    ///< behind its last one
+    bool may_be_empty = false;
 };
 
 /// How a history is written.
@@ -45,10 +49,9 @@ struct FormatText {
     std::string scaling;  ///< the comment's paragraph on scaling and overflow
 };
 
-/// \param past  L - 1, at least 1
-[[nodiscard]] HistoryText history_text(glsum::Shift, std::size_t past);
-[[nodiscard]] HistoryText history_text(glsum::Ring, std::size_t past);
-[[nodiscard]] HistoryText history_text(glsum::Mirror, std::size_t past);
+[[nodiscard]] HistoryText history_text(glsum::Shift);
+[[nodiscard]] HistoryText history_text(glsum::Ring);
+[[nodiscard]] HistoryText history_text(glsum::Mirror);
 
 [[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);

@@ -1,35 +1,41 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/generate/parts.hpp"
 
 namespace generate {
 namespace {
 
-// A block over one piece: the samples x, their coefficients a, their count.
-std::string over(const Piece& piece, const std::string& body) {
-    return "    {\n"
-           "        const @sample@ *x = " +
-           piece.samples +
-           ";\n"
-           "        const @coefficient@ *a = @name@_table" +
-           (piece.offset == "0U" ? "" : " + (" + piece.offset + ")") +
-           ";\n"
-           "        const size_t count = " +
-           piece.count + ";\n" + body + "    }\n";
+// A loop that begins with a test only where it may have nothing to do.
+std::string loop(const Piece& piece, const std::string& condition, const std::string& body) {
+    return piece.may_be_empty ? "        while (" + condition + ") {\n" + body + "        }\n"
+                              : "        do {\n" + body + "        } while (" + condition + ");\n";
 }
 
+// The samples x and coefficients a of a piece.
+std::string pointers(const std::string& x, const std::string& a) {
+    return "        const @sample@ *x = " + x + ";\n        const @coefficient@ *a = @name@_table" +
+           (a.empty() ? "" : " + " + a) + ";\n";
+}
+
+// Over the pieces, from the newest sample on: the body takes *x and *a, which move on behind it.
 std::string newest_first(const HistoryText& history, const std::string& body) {
     std::string text;
     for (const Piece& piece : history.pieces) {
-        text += over(piece, body);
+        text += "    {\n" + pointers(piece.begin, piece.from) + "        const @sample@ *const end = " + piece.end +
+                ";\n" + loop(piece, "x != end", body + "            ++a;\n            ++x;\n") + "    }\n";
     }
     return text;
 }
 
-std::string oldest_first(const HistoryText& history, const std::string& body) {
+// From the oldest on: they move back before it.
+std::string oldest_first(const HistoryText& history, const std::string& body, const char* further = "") {
     std::string text;
     for (auto piece = history.pieces.rbegin(); piece != history.pieces.rend(); ++piece) {
-        text += over(*piece, body);
+        text += "    {\n" + pointers(piece->end, piece->to + further) +
+                "        const @sample@ *const begin = " + piece->begin + ";\n" +
+                loop(*piece, "x != begin", "            --a;\n            --x;\n" + body) + "    }\n";
     }
     return text;
 }
@@ -43,71 +49,61 @@ std::string rounded_once(bool fused) { return fused ? ", product and addition ro
 TechniqueText plain_text(const HistoryText& history, bool fused) {
     return {.summary = "newest first, one accumulator" + rounded_once(fused),
             .sum = "    @accumulator@ sum = @name@_start(newest);\n" +
-                   newest_first(history,
-                                "        for (i = 0; i < count; ++i) {\n"
-                                "            sum = " +
-                                    accumulate(fused) +
-                                    "(sum, a[i], x[i]);\n"
-                                    "        }\n"),
+                   newest_first(history, "            sum = " + accumulate(fused) + "(sum, *a, *x);\n"),
             .fused = fused};
 }
 
 TechniqueText oldest_text(const HistoryText& history, bool fused) {
     return {.summary = "oldest first, one accumulator" + rounded_once(fused),
             .sum = "    @accumulator@ sum = 0;\n" +
-                   oldest_first(history,
-                                "        for (i = count; i > 0U; --i) {\n"
-                                "            sum = " +
-                                    accumulate(fused) +
-                                    "(sum, a[i - 1U], x[i - 1U]);\n"
-                                    "        }\n") +
+                   oldest_first(history, "            sum = " + accumulate(fused) + "(sum, *a, *x);\n") +
                    "    sum = @name@_start(newest) + sum;\n",
             .fused = fused};
 }
 
 TechniqueText multi_text(const HistoryText& history, bool fused) {
-    std::string body = "        for (i = 0; i + 4U <= count; i += 4U) {\n";
+    const auto add = [&](int chain, const char* at, int indent) {
+        return fmt::format("{3:{4}}s{0} = {1}(s{0}, a[{2}], x[{2}]);\n", chain, accumulate(fused),
+                           fmt::format("{}{}", at, chain == 0 ? "" : fmt::format(" + {}U", chain)), "", indent);
+    };
+    std::string body = "        const size_t rest = count % 4U;\n        for (i = 0; i != count - rest; i += 4U) {\n";
     for (int chain = 0; chain < 4; ++chain) {
-        body += fmt::format("            s{0} = {1}(s{0}, a[i + {0}U], x[i + {0}U]);\n", chain, accumulate(fused));
+        body += add(chain, "i", 12);
     }
-    body += "        }\n";
-    for (int chain = 0; chain < 3; ++chain) {
-        body += fmt::format(
-            "        if (i + {0}U < count) {{\n            s{0} = {1}(s{0}, a[i + {0}U], x[i + {0}U]);\n        }}\n",
-            chain, accumulate(fused));
+    body += "        }\n        if (rest > 0U) {\n" + add(0, "i", 12) + "            if (rest > 1U) {\n" +
+            add(1, "i", 16) + "                if (rest > 2U) {\n" + add(2, "i", 20) +
+            "                }\n            }\n        }\n";
+    std::string pieces;
+    for (const Piece& piece : history.pieces) {
+        pieces += "    {\n" + pointers(piece.begin, piece.from) + "        const size_t count = (size_t)(" + piece.end +
+                  " - x);\n" + body + "    }\n";
     }
-    return {
-        .summary = "newest first, four accumulators in turn" + rounded_once(fused),
-        .sum =
-            "    @accumulator@ sum;\n    @accumulator@ s0 = 0;\n    @accumulator@ s1 = 0;\n    @accumulator@ s2 = 0;\n"
-            "    @accumulator@ s3 = 0;\n" +
-            newest_first(history, body) + "    sum = @name@_start(newest) + ((s0 + s1) + (s2 + s3));\n",
-        .fused = fused};
+    return {.summary = "newest first, four accumulators in turn" + rounded_once(fused),
+            .sum =
+                "    @accumulator@ sum;\n    @accumulator@ s0 = 0;\n"
+                "    @accumulator@ s1 = 0;\n    @accumulator@ s2 = 0;\n    @accumulator@ s3 = 0;\n" +
+                pieces + "    sum = @name@_start(newest) + ((s0 + s1) + (s2 + s3));\n",
+            .fused = fused};
 }
 
 TechniqueText compensated_text(const HistoryText& history) {
     return {.summary = "newest first, with the sum of what the additions lost",
-            .sum = "    @accumulator@ sum = @name@_start(newest);\n    @accumulator@ lost = 0;\n" +
-                   newest_first(history,
-                                "        for (i = 0; i < count; ++i) {\n"
-                                "            const @accumulator@ term = @name@_multiply(a[i], x[i]);\n"
-                                "            const @accumulator@ next = sum + term;\n"
-                                "            const @accumulator@ term_part = next - sum;\n"
-                                "            lost += (sum - (next - term_part)) + (term - term_part);\n"
-                                "            sum = next;\n"
-                                "        }\n") +
-                   "    sum = sum + lost;\n"};
+            .sum =
+                "    @accumulator@ sum = @name@_start(newest);\n"
+                "    @accumulator@ lost = 0;\n" +
+                newest_first(history,
+                             "            const @accumulator@ term = @name@_multiply(*a, *x);\n"
+                             "            const @accumulator@ next = sum + term;\n"
+                             "            const @accumulator@ term_part = next - sum;\n"
+                             "            lost += (sum - (next - term_part)) + (term - term_part);\n"
+                             "            sum = next;\n") +
+                "    sum = sum + lost;\n"};
 }
 
 TechniqueText horner_text(const HistoryText& history, bool fused) {
     return {.summary = "nested, oldest first, with the factors (j-1-v)/j" + rounded_once(fused),
             .sum = "    @accumulator@ sum = 0;\n" +
-                   oldest_first(history,
-                                "        for (i = count; i > 0U; --i) {\n"
-                                "            sum = " +
-                                    nest(fused) +
-                                    "(x[i - 1U], a[i], sum);\n"
-                                    "        }\n") +
+                   oldest_first(history, "            sum = " + nest(fused) + "(*x, *a, sum);\n", " + 1U") +
                    "    sum = " + nest(fused) + "(newest, @name@_table[0], sum);\n",
             .fused = fused};
 }
@@ -119,7 +115,7 @@ TechniqueText horner_split_text(const HistoryText& history, bool fused) {
     }
     return {
         .summary = "nested in four chains, each of every fourth sample" + rounded_once(fused),
-        .sum = "    const @sample@ *x = " + history.pieces.front().samples +
+        .sum = "    const @sample@ *x = " + history.pieces.front().begin +
                ";\n"
                "    const @coefficient@ *a = @name@_table;\n"
                "    /* The oldest samples, fewer than a group, open their chains. */\n"

@@ -27,8 +27,12 @@ int main(int argc, char** argv) {
             const std::string prefix = fmt::format("g{}", number++);
             const std::string file = prefix + ".h";
             std::ofstream out(folder / file);
-            out << generate::make_header(
-                {.kernel = kernel, .order = test.order, .taps = test.taps, .step_s = 0.001, .prefix = prefix, .provenance = {}});
+            out << generate::make_header({.kernel = kernel,
+                                          .order = test.order,
+                                          .taps = test.taps,
+                                          .step_s = 0.001,
+                                          .prefix = prefix,
+                                          .provenance = {}});
             const std::string format = generate::format_word(kernel);
             includes += fmt::format("#include \"{}\"\n", file);
             calls += fmt::format(

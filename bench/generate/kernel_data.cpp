@@ -1,0 +1,183 @@
+#include "bench/generate/kernel_data.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <span>
+#include <type_traits>
+
+#include "bench/generate/header.hpp"
+#include "bench/host_line.hpp"
+#include "bench/row.hpp"
+#include "glsum/bound.hpp"
+#include "glsum/registry.hpp"
+#include "qemu/failure.hpp"
+#include "targets/firmware/output_hash.hpp"
+
+namespace generate {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+template <class T, class... Ts>
+constexpr bool one_of = (std::is_same_v<T, Ts> || ...);
+
+template <class Technique>
+constexpr bool is_paired = one_of<Technique, glsum::Smlald, glsum::Smlad, glsum::SmlaldShaped>;
+
+template <class K>
+constexpr bool can_generate = false;
+template <class H, class T, class F>
+constexpr bool can_generate<glsum::Sum<H, T, F>> =
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror> &&
+    (is_paired<T> ||
+     one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
+            glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
+            glsum::FirFma, glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15,
+                                                   glsum::Q15C31>;
+
+template <class Technique>
+TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
+    using namespace glsum;
+    if constexpr (one_of<Technique, Plain, PlainFma>) {
+        return plain_text(history, std::is_same_v<Technique, PlainFma>);
+    } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
+        return oldest_text(history, std::is_same_v<Technique, OldestFma>);
+    } else if constexpr (one_of<Technique, Multi, MultiFma>) {
+        return multi_text(history, std::is_same_v<Technique, MultiFma>);
+    } else if constexpr (one_of<Technique, Horner, HornerFma>) {
+        return horner_text(history, std::is_same_v<Technique, HornerFma>);
+    } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {
+        return horner_split_text(history, std::is_same_v<Technique, HornerSplitFma>);
+    } else if constexpr (one_of<Technique, Fir, FirFma>) {
+        return fir_text(std::is_same_v<Technique, FirFma>);
+    } else if constexpr (std::is_same_v<Technique, Compensated>) {
+        return compensated_text(history);
+    } else if constexpr (std::is_same_v<Technique, Scaled>) {
+        return scaled_text(past, shifts);
+    } else {
+        return paired_text(!std::is_same_v<Technique, Smlad>);
+    }
+}
+
+template <class T>
+const char* c_type() {
+    return std::is_same_v<T, double>         ? "double"
+           : std::is_same_v<T, float>        ? "float"
+           : std::is_same_v<T, std::int64_t> ? "int64_t"
+           : std::is_same_v<T, std::int32_t> ? "int32_t"
+                                             : "int16_t";
+}
+
+template <class T>
+Numbers numbers(std::span<const T> values) {
+    Numbers numbers{c_type<T>(), {}, {}};
+    for (const T value : values) {
+        if constexpr (std::is_floating_point_v<T>) {
+            numbers.reals.push_back(static_cast<double>(value));
+        } else {
+            numbers.integers.push_back(value);
+        }
+    }
+    return numbers;
+}
+
+template <class Output>
+std::uint64_t bits_of(Output output) {
+    if constexpr (sizeof(Output) == 4) {
+        return std::bit_cast<std::uint32_t>(output);
+    } else {
+        return std::bit_cast<std::uint64_t>(output);
+    }
+}
+
+template <class K>
+KernelData describe(double order, std::size_t taps, const std::vector<double>& reals, std::size_t calls) {
+    using Technique = typename K::TechniquePart;
+    using Format = typename K::FormatPart;
+    using Sample = typename K::Sample;
+    using Output = typename K::Output;
+    bench::HostLine<K> line({order, taps});
+    if (line.status() != glsum::Status::ok) {
+        throw Failure(Exit::bad_input, fmt::format("{} with {} taps at order {}: {}", K::name(), taps, order,
+                                                   bench::to_text(line.status())));
+    }
+    const auto& state = line.state();
+    const std::size_t past = taps - 1;
+    std::span<const typename K::Coefficient> table(state.table, K::table_count(taps));
+    std::vector<int> shifts;
+    if constexpr (std::is_same_v<Technique, glsum::Scaled>) {
+        shifts.assign(table.begin() + static_cast<std::ptrdiff_t>(past), table.end());
+        table = table.first(past);
+    }
+    KernelData data;
+    data.fixed = Format::fixed_point;
+    data.pairs = is_paired<Technique>;
+    data.nested = one_of<Technique, glsum::Horner, glsum::HornerFma>;
+    data.format = Format::word;
+    data.accumulator = c_type<typename Format::Accumulator>();
+    data.output = c_type<Output>();
+    data.samples_held = K::past_count(taps);
+    data.table = numbers(table);
+    data.aligned_words = (past + 1) / 2;
+    data.history_text = history_text(typename K::HistoryPart{});
+    data.technique_text = text_of<Technique>(data.history_text, past, shifts);
+    if constexpr (Format::fixed_point) {
+        data.scale = {Format::sample_bits, Format::coefficient_bits, state.scale.table_exponent,
+                      state.scale.output_exponent, state.scale.output_shift};
+        data.format_text = fixed_text(data.scale);
+    } else {
+        data.format_text =
+            floating_text(std::is_same_v<Sample, double>, std::is_same_v<typename Format::Accumulator, double>);
+    }
+    data.error_bound = glsum::error_bound<K>({order, taps}, state, 1.0);
+    std::vector<Sample> inputs;
+    for (const double real : reals) {
+        inputs.push_back(K::from_real(real));
+    }
+    data.inputs = numbers(std::span<const Sample>(inputs));
+    firmware::OutputHash hash;
+    for (std::size_t k = 0; k < calls; ++k) {
+        const Output output = line.step(inputs[k % inputs.size()]);
+        hash.add(output);
+        data.outputs.push_back(bits_of(output));
+    }
+    data.hash = hash.value();
+    return data;
+}
+
+}  // namespace
+
+std::vector<std::string> generatable() {
+    std::vector<std::string> kernels;
+    glsum::Registry::for_each([&]<class K>() {
+        if (can_generate<K>) {
+            kernels.emplace_back(K::name());
+        }
+    });
+    return kernels;
+}
+
+KernelData describe(const std::string& kernel, double order, std::size_t taps, const std::vector<double>& inputs,
+                    std::size_t calls) {
+    KernelData data;
+    std::string why = "no kernel is called " + kernel;
+    glsum::Registry::for_each([&]<class K>() {
+        if (K::name() == kernel) {
+            if constexpr (can_generate<K>) {
+                data = describe<K>(order, taps, inputs, calls);
+                why.clear();
+            } else {
+                why = kernel + " cannot be generated: " +
+                      (K::host_only ? "it needs the host's vector unit" : "its words have no text in bench/generate");
+            }
+        }
+    });
+    if (!why.empty()) {
+        throw Failure(Exit::bad_input, why);
+    }
+    return data;
+}
+
+}  // namespace generate

@@ -1,0 +1,46 @@
+// All that a header needs of a registered kernel, as plain data: its words, its table, its scale, its outputs.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "bench/generate/parts.hpp"
+
+namespace generate {
+
+/// A type of C with its values, each exactly a double or a 64-bit integer.
+struct Numbers {
+    std::string type;  ///< "float", "double", "int32_t", "int16_t"
+    std::vector<double> reals;
+    std::vector<std::int64_t> integers;
+};
+
+struct KernelData {
+    bool fixed = false;
+    bool pairs = false;   ///< a table of words of two coefficients
+    bool nested = false;  ///< sums have the units of samples, not of products
+    std::string format;   ///< its word
+    std::string accumulator;
+    std::string output;
+    std::size_t samples_held = 0;
+    Numbers table;
+    std::size_t aligned_words = 0;  ///< of a table of pairs: those of the first of the two tables
+    FixedScale scale{};
+    HistoryText history_text;
+    TechniqueText technique_text;
+    FormatText format_text;
+    double error_bound = 0.0;            ///< for |x| <= 1
+    Numbers inputs;                      ///< of the self-check
+    std::vector<std::uint64_t> outputs;  ///< their bits, for the inputs repeated
+    std::uint64_t hash = 0;              ///< of the outputs, as targets/firmware/output_hash.hpp has it
+};
+
+/// \param calls  outputs wanted
+/// \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, and for a design that the
+///         kernel refuses.
+[[nodiscard]] KernelData describe(const std::string& kernel, double order, std::size_t taps,
+                                  const std::vector<double>& inputs, std::size_t calls);
+
+}  // namespace generate

@@ -1,0 +1,226 @@
+#include "bench/generate/verify.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <memory>
+#include <set>
+#include <sstream>
+
+#include "bench/build_info.hpp"
+#include "bench/progress.hpp"
+#include "bench/row.hpp"
+#include "bench/signals.hpp"
+#include "qemu/elf.hpp"
+#include "qemu/failure.hpp"
+#include "qemu/scratch.hpp"
+
+namespace generate {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+constexpr std::size_t steady_calls = 32;
+
+// Runs a command; what it says is thrown when it fails.
+void run(const std::string& command) {
+    FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+    std::string said;
+    char part[512];
+    while (pipe != nullptr && std::fgets(part, sizeof part, pipe) != nullptr) {
+        said += said.size() < 4000 ? part : "";
+    }
+    const int status = pipe != nullptr ? pclose(pipe) : -1;
+    if (status != 0) {
+        throw Failure(Exit::check_failed, fmt::format("the target's compiler refuses: {}\n{}", command, said));
+    }
+}
+
+// The flags of the firmware that say for which core, and how hard to optimise. Not its -ffp-contract: the header must
+// hold without.
+std::string target_flags(const qemu::Board& board) {
+    const std::filesystem::path path = board.measure_elf.parent_path() / "build_info.json";
+    std::ifstream file(path);
+    const bench::Json info = bench::Json::parse(file, nullptr, false);
+    if (!info.is_object() || !info.contains("flags") || !info["flags"].is_string()) {
+        throw Failure(Exit::missing, fmt::format("{}: expected the flags of the firmware", path.string()));
+    }
+    std::istringstream words(info["flags"].get<std::string>());
+    std::string flags;
+    for (std::string word; words >> word;) {
+        flags += word.starts_with("-m") || word.starts_with("-O") ? " " + word : "";
+    }
+    return flags;
+}
+
+// One C file of all headers: for each a function to be counted and the calls of it.
+std::string counted_source(const std::vector<Spec>& specs) {
+    std::string text = "#include <stdint.h>\n";
+    std::string entries;
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+        const std::string format = format_word(specs[i].kernel);
+        const std::string name = specs[i].prefix + "_" + format;
+        text += fmt::format(R"(#include "{0}.h"
+typedef {4} sample_{0};
+typedef {5} output_{0};
+output_{0} count_{0}({1}_instance *S, sample_{0} x);
+__attribute__((noipa, flatten)) output_{0} count_{0}({1}_instance *S, sample_{0} x)
+{{
+    return {0}_step_{2}(S, x);
+}}
+static uint32_t verify_{0}(void)
+{{
+    static {1}_instance line;
+    const uint32_t wrong = {0}_self_check_{2}(&line);
+    uint32_t k;
+    for (k = 0U; k < {3}U; ++k) {{
+        (void)count_{0}(&line, {1}_check_input[k % (sizeof {1}_check_input / sizeof {1}_check_input[0])]);
+    }}
+    return wrong;
+}}
+)",
+                            specs[i].prefix, name, format, qemu::calls_to_measure(specs[i].taps),
+                            format == "f64"             ? "double"
+                            : format.starts_with("f32") ? "float"
+                            : format == "q31"           ? "int32_t"
+                                                        : "int16_t",
+                            format == "f64"             ? "double"
+                            : format.starts_with("f32") ? "float"
+                                                        : "int32_t");
+        entries += fmt::format("    verify_{},\n", specs[i].prefix);
+    }
+    return text + "static uint32_t (*const entries[])(void) = {\n" + entries +
+           "};\nextern const unsigned glsum_verified_count;\nunsigned glsum_verify(unsigned number);\n"
+           "const unsigned glsum_verified_count = sizeof entries / sizeof entries[0];\n"
+           "unsigned glsum_verify(unsigned number)\n{\n    return (unsigned)entries[number]();\n}\n";
+}
+
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream out(path, std::ios::binary);
+    out << text;
+    if (!out.flush()) {
+        throw Failure(Exit::bad_input, fmt::format("{}: cannot write", path.string()));
+    }
+}
+
+std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& board, const qemu::Scratch& scratch) {
+    const std::filesystem::path source = build_info::source_folder;
+    const std::filesystem::path targets = source / "targets";
+    const std::string flags = target_flags(board);
+    if (std::system("command -v arm-none-eabi-gcc >/dev/null 2>&1") != 0) {
+        throw Failure(Exit::missing, "arm-none-eabi-gcc: not found (Debian package gcc-arm-none-eabi)");
+    }
+    const std::filesystem::path c_file = scratch.file("counted.c");
+    const std::filesystem::path elf = scratch.file("verify.elf");
+    write(c_file, counted_source(specs));
+    run(
+        fmt::format("arm-none-eabi-gcc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -ffunction-sections{} -c "
+                    "'{}' -o '{}'",
+                    flags, c_file.string(), scratch.file("counted.o").string()));
+    run(fmt::format(
+        "arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti{} -I'{}' -nostartfiles -Wl,--gc-sections "
+        "-T '{}' -T '{}' '{}' '{}' '{}' -lm -o '{}'",
+        flags, (source).string() + "' -I'" + targets.string(), (targets / "mps2-an500" / "memory.ld").string(),
+        (targets / "cortex-m7" / "sections.ld").string(), (targets / "firmware" / "verify.cpp").string(),
+        scratch.file("counted.o").string(), (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
+    return elf;
+}
+
+struct Mean {
+    double instructions = 0.0;
+    double stores = 0.0;
+};
+
+// Of 32 calls once the past is full: the calls that `qemu::measure` takes the kernel's mean of.
+std::map<std::uint32_t, Mean> means(const qemu::CallLog& log, const std::map<std::uint32_t, std::size_t>& taps) {
+    std::map<std::uint32_t, Mean> result;
+    std::map<std::uint32_t, std::uint64_t> seen;
+    for (const qemu::CallRun& run : log.runs) {
+        const std::uint64_t from = 1 + taps.at(run.entry);
+        const std::uint64_t before = seen[run.entry];
+        seen[run.entry] += run.calls;
+        const std::uint64_t begin = std::max(before, from);
+        const std::uint64_t end = std::min(before + run.calls, from + steady_calls);
+        if (begin < end) {
+            const double share = static_cast<double>(end - begin) / static_cast<double>(steady_calls);
+            result[run.entry].instructions += share * static_cast<double>(run.counts.instructions);
+            result[run.entry].stores += share * static_cast<double>(run.counts.stores);
+        }
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qemu::Board& board) {
+    const qemu::Scratch scratch;
+    std::vector<Spec> specs = wanted;
+    std::vector<qemu::PlannedRow> plan;
+    for (std::size_t i = 0; i < specs.size(); ++i) {
+        specs[i].prefix = fmt::format("k{}", i);
+        write(scratch.file((specs[i].prefix + ".h").c_str()), make_header(specs[i]));
+        plan.push_back({specs[i].kernel, specs[i].order, specs[i].taps, 0, qemu::calls_to_measure(specs[i].taps)});
+    }
+    const std::filesystem::path path = link(specs, board, scratch);
+    bench::Progress progress("emulated Cortex-M7", 2 * specs.size());
+    const auto kernels = qemu::measure(board, plan, {check_signal()}, [&] { progress.advance(); });
+
+    const qemu::Elf elf(path);
+    std::map<std::uint32_t, std::size_t> taps;
+    std::vector<std::uint32_t> entries;
+    std::string watch;
+    for (const Spec& spec : specs) {
+        entries.push_back(elf.symbol("count_" + spec.prefix).value());
+        taps[entries.back()] = spec.taps;
+        watch += fmt::format("{}\n", entries.back());
+    }
+    write(scratch.file("watch"), watch);
+    std::vector<Verified> all;
+    qemu::emulate(
+        board.emulator, path, {},
+        fmt::format("{},watch={},out={},stream=off", board.plugin.string(), scratch.file("watch").string(),
+                    scratch.file("calls").string()),
+        [&](const std::string& line) {
+            std::istringstream words(line);
+            std::string kind;
+            std::size_t number = 0;
+            std::uint32_t wrong = 0;
+            if (words >> kind >> number >> wrong && kind == "row" && number == all.size() && number < specs.size()) {
+                all.push_back({specs[number].kernel, specs[number].taps, wrong, 0.0, 0.0, 0.0, 0.0});
+                progress.advance();
+            }
+        });
+    if (all.size() != specs.size()) {
+        throw Failure(Exit::check_failed,
+                      fmt::format("the firmware answered for {} headers of {} and stopped", all.size(), specs.size()));
+    }
+    std::ifstream log_file(scratch.file("calls"));
+    const auto counted = means(qemu::read_call_log(log_file), taps);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].kernel_instructions = kernels[i].instructions;
+        all[i].kernel_stores = kernels[i].stores;
+        all[i].header_instructions = counted.at(entries[i]).instructions;
+        all[i].header_stores = counted.at(entries[i]).stores;
+    }
+    return all;
+}
+
+std::string to_table(const std::vector<Verified>& all) {
+    std::string text = fmt::format("  {:<26} {:>5}  {:<14} {:>11} {:>11} {:>8}\n", "kernel", "taps", "bits", "kernel",
+                                   "header", "ratio");
+    for (const Verified& one : all) {
+        text += fmt::format("  {:<26} {:>5}  {:<14} {:>11.1f} {:>11.1f} {:>8.4f}{}\n", one.kernel, one.taps,
+                            one.first_wrong == 0 ? "the kernel's" : fmt::format("differ at {}", one.first_wrong),
+                            one.kernel_instructions, one.header_instructions,
+                            one.header_instructions / one.kernel_instructions, one.good() ? "" : "  FAILED");
+    }
+    return text +
+           "\n  instructions a sample on the emulated Cortex-M7, of the registered kernel and of the generated "
+           "header\n";
+}
+
+}  // namespace generate
