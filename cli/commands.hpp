@@ -13,22 +13,24 @@ using PassedOn = std::vector<std::string>;
 /// `bench`. \param passed_on  filled before the command runs
 void add_bench(CLI::App& app, const PassedOn& passed_on);
 
-/// `merge`.
+/// `merge`: the shards of a sweep into one file.
 void add_merge(CLI::App& app);
+
 /// `report`: a page, pictures and tables of result files.
 void add_report(CLI::App& app);
-/// `gate`.
-void add_gate(CLI::App& app);
-/// `choose`.
+
+/// `choose`: the cheapest kernel within a budget.
 void add_choose(CLI::App& app);
 
-/// `generate`.
-void add_generate(CLI::App& app);
-void add_indices(CLI::App& app);
-void add_resample(CLI::App& app);
+/// `generate`: that kernel as a C header. \param command_line  as it was typed, for the record
+void add_generate(CLI::App& app, const std::string& command_line);
+
+/// `gate` and `compare`.
+void add_gate(CLI::App& app);
+
 void add_simulate(CLI::App& app);
 void add_stability(CLI::App& app);
-/// `generate`. \param command_line  as it was typed, for the record; filled before the command runs
-void add_generate(CLI::App& app, const std::string& command_line);
+void add_indices(CLI::App& app);
+void add_resample(CLI::App& app);
 
 }  // namespace cli

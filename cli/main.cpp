@@ -39,22 +39,21 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", build_info::version);
     app.require_subcommand(1);
     cli::PassedOn passed_on;
-    cli::add_bench(app, passed_on);
-    cli::add_merge(app);
-    cli::add_report(app);
-    cli::add_gate(app);
-    cli::add_choose(app);
-    cli::add_generate(app);
-    cli::add_simulate(app);
-    cli::add_stability(app);
-    cli::add_indices(app);
-    cli::add_resample(app);
     std::string command_line = "glsum";
     for (int i = 1; i < argc; ++i) {
         command_line += ' ';
         command_line += argv[i];
     }
+    cli::add_bench(app, passed_on);
+    cli::add_merge(app);
+    cli::add_report(app);
+    cli::add_choose(app);
     cli::add_generate(app, command_line);
+    cli::add_gate(app);
+    cli::add_simulate(app);
+    cli::add_stability(app);
+    cli::add_indices(app);
+    cli::add_resample(app);
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {
