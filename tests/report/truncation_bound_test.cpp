@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "bench/accuracy.hpp"
 #include "bench/results.hpp"
+#include "bench/run.hpp"
 #include "bench/signals.hpp"
 
 namespace {
@@ -61,7 +61,9 @@ protected:
 };
 
 TEST_F(MeasuredTruncation, NeverExceedsTheBoundAndAStepReachesIt) {
-    const auto rows = bench::measure_accuracy(sweep());
+    bench::Sweep accuracy_alone = sweep();
+    accuracy_alone.targets.clear();
+    const auto rows = bench::measure(accuracy_alone, std::nullopt, nullptr, {}).rows;
     const auto bounds = bench::truncation_bounds(context(), rows, 1);
     EXPECT_EQ(bounds.missing, "");
     std::size_t held = 0;
