@@ -36,7 +36,7 @@ bool on_path(const std::string& program) {
 
 // "... successfully on port 12345." as soon as the driver has said it.
 std::string port_in(const std::filesystem::path& log) {
-    for (int attempt = 0; attempt < 200; ++attempt) {
+    for (int attempt = 0; attempt < 1200; ++attempt) {
         std::ifstream file(log);
         for (std::string line; std::getline(file, line);) {
             const std::string words = "successfully on port ";
@@ -47,7 +47,7 @@ std::string port_in(const std::filesystem::path& log) {
         }
         std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
-    throw std::runtime_error("chromedriver did not start within 10 s");
+    throw std::runtime_error("chromedriver did not start within 60 s");
 }
 
 }  // namespace
@@ -105,7 +105,7 @@ Browser::Json Browser::call(const std::string& method, const std::string& path, 
     namespace http = boost::beast::http;
     boost::asio::io_context context;
     boost::beast::tcp_stream stream(context);
-    stream.expires_after(std::chrono::seconds(30));
+    stream.expires_after(std::chrono::seconds(120));
     stream.connect(boost::asio::ip::tcp::resolver(context).resolve("127.0.0.1", port_));
     http::request<http::string_body> request(http::string_to_verb(method), path, 11);
     request.set(http::field::host, "127.0.0.1");
