@@ -214,7 +214,9 @@ function describe(point) {
   const other = twin && twin.get(found.kernel) && twin.get(found.kernel).get(found.taps);
   if (other && !other.fault) {
     const error = errorOf(other, state.error, state.signal);
-    if (error) add(point.file === files[0] ? "error in B" : "error in A", error.value);
+    const where = point.file === files[0] ? " in B" : " in A";
+    if (error) add(errors.find(one => one.id === state.error).title + where, error.value);
+    for (const axis of shownAxes().filter(axis => axis.aspect)) add(axis.title.split(",")[0] + where, axis.cost(other));
   }
   if (point.front) add("front", "no kernel shown here costs less at this error");
   return [found.kernel + (files.length > 1 ? point.file === files[0] ? " (A)" : " (B)" : ""), rows];

@@ -39,6 +39,7 @@ TEST(TruncationBound, LargestSumOfAStepIsKnown) {
     // For 0 < v < 1 the sums fall from the first, a_0 x_0; for v = -1 they grow to the sum of the record.
     EXPECT_EQ(bench::largest_sum(0.5, std::vector<double>(100, 0.9)), 0.9);
     EXPECT_NEAR(bench::largest_sum(-1.0, std::vector<double>(100, 0.9)), 90.0, 1e-9);
+    EXPECT_NEAR(bench::largest_sum(-1.0, std::vector<double>(100, -0.9)), 90.0, 1e-9);
 }
 
 class MeasuredTruncation : public testing::Test {
