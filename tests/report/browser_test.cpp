@@ -277,7 +277,7 @@ TEST_F(Page, TextsOfAFileStayTexts) {
     EXPECT_EQ(count("#tip img, main img, aside img, main b"), 0);
     EXPECT_EQ(run("return document.title"), "glsum: </title><script>window.stolen=1</script>.json");
     EXPECT_NE(text("#fault-table").find("<b onclick=alert(1)>wrong</b>"), std::string::npos);
-    EXPECT_NE(text("#kernels").find("x_<img src=x onerror=window.stolen=1>_"), std::string::npos);
+    EXPECT_EQ(text("#kernels").find("onerror"), std::string::npos);  // no name of a kernel: such rows are not read
     EXPECT_NE(text("#context-table").find("</title></script><script>"), std::string::npos);
 }
 
