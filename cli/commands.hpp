@@ -28,6 +28,9 @@ void add_generate(CLI::App& app, const std::string& command_line);
 /// `gate` and `compare`.
 void add_gate(CLI::App& app);
 
+void add_identify(CLI::App& app);
+void add_indices(CLI::App& app);
+void add_resample(CLI::App& app);
 void add_simulate(CLI::App& app);
 void add_stability(CLI::App& app);
 void add_indices(CLI::App& app);

@@ -39,7 +39,7 @@ void add_resample(CLI::App& app) {
         "ones "
         "are left out, gaps are bridged.\nExample: glsum resample log.csv --step-s 0.001 --method linear --out "
         "even.csv");
-    command->add_option("log", options->log, "Log, CSV with time_s and the output")->required();
+    command->add_option("log,--log", options->log, "Log, CSV with time_s and the output")->required();
     command->add_option("--step-s", options->step_s, "New sampling time")->capture_default_str();
     command->add_option("--method", options->method, "linear or zoh (zero-order hold); the input is always held")
         ->check(CLI::IsMember({"linear", "zoh"}))

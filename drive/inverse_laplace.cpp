@@ -12,38 +12,12 @@
 namespace drive {
 namespace {
 
-using Complex = std::complex<double>;
-
 constexpr double line = 25.0;       // the line lies at line / (2t): aliasing e^-25, rounding magnified by e^12.5
 constexpr int averaged_terms = 18;  // by binomial weights, behind the plain ones
 constexpr int fewest_terms = 12;
 constexpr int most_terms = 1024;
 constexpr double accepted = 2e-10;  // relative to the function's size: between two runs, and of the last coefficients
 constexpr std::size_t most_pieces = 128;
-
-struct Value {
-    double value;
-    double size;  // what the function would be if it were about constant
-};
-
-Value euler_sum(const InverseLaplace::Image& image, double abscissa, double t, int terms) {
-    const double real = abscissa + line / (2.0 * t);
-    const double first = 0.5 * image({real, 0.0}).real();
-    double sum = first;
-    double sign = -1.0;
-    double binomial = 1.0;
-    double average = 0.0;
-    for (int k = 1; k <= terms + averaged_terms; ++k) {
-        sum += sign * image({real, std::numbers::pi * k / t}).real();
-        sign = -sign;
-        if (const int j = k - terms; j >= 0) {
-            average += binomial * sum;
-            binomial *= static_cast<double>(averaged_terms - j) / (j + 1);
-        }
-    }
-    const double scale = std::exp(real * t) / t;
-    return {scale * average * std::exp2(-averaged_terms), std::exp(abscissa * t) * std::fabs(first) / t * line};
-}
 
 [[noreturn]] void refuse(double t) {
     throw glsum::Failure(glsum::Exit::check_failed,
@@ -52,38 +26,69 @@ Value euler_sum(const InverseLaplace::Image& image, double abscissa, double t, i
                                      t));
 }
 
-constexpr double checks[] = {1.0, 1.21, 1.47, 1.73, 2.0};
+constexpr double checks[] = {1.0, 1.41, 2.0};
 
 }  // namespace
 
-InverseLaplace::InverseLaplace(Image image, std::vector<Swing> swings)
-    : image_(std::move(image)), swings_(std::move(swings)) {}
+InverseLaplace::InverseLaplace(std::size_t count, Image image, std::vector<Swing> swings)
+    : count_(count), image_(std::move(image)), swings_(std::move(swings)) {}
 
-double InverseLaplace::operator()(double t) {
+void InverseLaplace::at(double t, std::span<double> values) {
     if (!(t > 0.0)) {
-        return 0.0;
+        std::fill(values.begin(), values.end(), 0.0);
+        return;
     }
     const int exponent = std::ilogb(t);
     if (last_ == nullptr || exponent != last_exponent_) {
         last_ = &octave(exponent);
         last_exponent_ = exponent;
     }
-    const auto count = static_cast<double>(last_->pieces.size());
-    const double place = (std::scalbn(t, -exponent) - 1.0) * count;
-    const auto index = std::min(static_cast<std::size_t>(place), last_->pieces.size() - 1);
-    const std::array<double, nodes>& c = last_->pieces[index];
+    const double place = (std::scalbn(t, -exponent) - 1.0) * static_cast<double>(last_->pieces);
+    const auto index = std::min(static_cast<std::size_t>(place), last_->pieces - 1);
     const double x = 2.0 * (place - static_cast<double>(index)) - 1.0;
-    double one = 0.0;  // Clenshaw's recurrence
-    double two = 0.0;
-    for (std::size_t k = nodes - 1; k > 0; --k) {
-        two = std::exchange(one, c[k] + 2.0 * x * one - two);
+    for (std::size_t f = 0; f < values.size(); ++f) {
+        const std::array<double, nodes>& c = last_->coefficients[index * count_ + f];
+        double one = 0.0;  // Clenshaw's recurrence
+        double two = 0.0;
+        for (std::size_t k = nodes - 1; k > 0; --k) {
+            two = std::exchange(one, c[k] + 2.0 * x * one - two);
+        }
+        values[f] = c[0] + x * one - two;
     }
-    return c[0] + x * one - two;
 }
 
 const InverseLaplace::Octave& InverseLaplace::octave(int exponent) {
     const auto found = octaves_.find(exponent);
     return found != octaves_.end() ? found->second : octaves_.emplace(exponent, make_octave(exponent)).first->second;
+}
+
+// `sizes`: what each function would be if it were about constant.
+void InverseLaplace::euler_sum(double abscissa, double t, int terms, std::span<double> values,
+                               std::span<double> sizes) const {
+    const double real = abscissa + line / (2.0 * t);
+    std::vector<Complex> at(count_);
+    std::vector<double> sum(count_);
+    image_({real, 0.0}, at);
+    for (std::size_t f = 0; f < count_; ++f) {
+        sum[f] = 0.5 * at[f].real();
+        sizes[f] = std::exp(abscissa * t) * std::fabs(sum[f]) / t * line;
+        values[f] = 0.0;
+    }
+    double sign = -1.0;
+    double binomial = std::exp(real * t) / t * std::exp2(-averaged_terms);
+    for (int k = 1; k <= terms + averaged_terms; ++k) {
+        image_({real, std::numbers::pi * k / t}, at);
+        for (std::size_t f = 0; f < count_; ++f) {
+            sum[f] += sign * at[f].real();
+        }
+        sign = -sign;
+        if (const int j = k - terms; j >= 0) {
+            for (std::size_t f = 0; f < count_; ++f) {
+                values[f] += binomial * sum[f];
+            }
+            binomial *= static_cast<double>(averaged_terms - j) / (j + 1);
+        }
+    }
 }
 
 InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
@@ -98,49 +103,60 @@ InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
     // A swing beyond the terms' frequencies would go unseen, by both runs alike.
     const double fastest = fastest_left(swings_, from, accepted);
     int terms = std::max(fewest_terms, static_cast<int>(std::min(1e6, 1.5 * fastest * 2.0 * from / std::numbers::pi)));
-    double size = 0.0;
-    for (;; terms = 3 * terms / 2) {
+    std::vector<double> rough(count_);
+    std::vector<double> fine(count_);
+    std::vector<double> now(count_);
+    std::vector<double> size(count_, 0.0);
+    for (bool good = false; !good; terms = good ? terms : 3 * terms / 2) {
         if (terms > most_terms) {
             refuse(from);
         }
-        double difference = 0.0;
+        std::vector<double> difference(count_, 0.0);
         for (const double check : checks) {
-            const Value rough = euler_sum(image_, abscissa, check * from, terms);
-            const Value fine = euler_sum(image_, abscissa, check * from, 3 * terms / 2);
-            size = std::max({size, std::fabs(fine.value), fine.size});
-            difference = std::max(difference, std::fabs(fine.value - rough.value));
-            if (!std::isfinite(fine.value)) {
-                refuse(check * from);
+            euler_sum(abscissa, check * from, terms, rough, now);
+            euler_sum(abscissa, check * from, 3 * terms / 2, fine, now);
+            for (std::size_t f = 0; f < count_; ++f) {
+                size[f] = std::max({size[f], std::fabs(fine[f]), now[f]});
+                difference[f] = std::max(difference[f], std::fabs(fine[f] - rough[f]));
+                if (!std::isfinite(fine[f])) {
+                    refuse(check * from);
+                }
             }
         }
-        if (difference <= accepted * size) {
-            break;
+        good = true;
+        for (std::size_t f = 0; f < count_; ++f) {
+            good = good && difference[f] <= accepted * size[f];
         }
     }
     Octave octave;
-    for (std::size_t pieces = 1; pieces <= most_pieces; pieces *= 2) {
-        octave.pieces.resize(pieces);
-        double difference = 0.0;
-        for (std::size_t p = 0; p < pieces; ++p) {
-            std::array<double, nodes> values;
+    std::vector<std::array<double, nodes>> values(count_);
+    for (; octave.pieces <= most_pieces; octave.pieces *= 2) {
+        octave.coefficients.assign(octave.pieces * count_, {});
+        bool good = true;
+        for (std::size_t p = 0; p < octave.pieces; ++p) {
             for (std::size_t i = 0; i < nodes; ++i) {
                 const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / nodes);
-                const double place = (static_cast<double>(p) + 0.5 * (x + 1.0)) / static_cast<double>(pieces);
-                values[i] = euler_sum(image_, abscissa, from * (1.0 + place), terms).value;
-            }
-            std::array<double, nodes>& c = octave.pieces[p];
-            for (std::size_t k = 0; k < nodes; ++k) {
-                double sum = 0.0;
-                for (std::size_t i = 0; i < nodes; ++i) {
-                    sum += values[i] *
-                           std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) / nodes);
+                const double place = (static_cast<double>(p) + 0.5 * (x + 1.0)) / static_cast<double>(octave.pieces);
+                euler_sum(abscissa, from * (1.0 + place), terms, fine, now);
+                for (std::size_t f = 0; f < count_; ++f) {
+                    values[f][i] = fine[f];
                 }
-                c[k] = sum * (k == 0 ? 1.0 : 2.0) / nodes;
             }
-            // The last coefficients bound what the polynomial leaves out.
-            difference = std::max({difference, std::fabs(c[nodes - 1]), std::fabs(c[nodes - 2])});
+            for (std::size_t f = 0; f < count_; ++f) {
+                std::array<double, nodes>& c = octave.coefficients[p * count_ + f];
+                for (std::size_t k = 0; k < nodes; ++k) {
+                    double sum = 0.0;
+                    for (std::size_t i = 0; i < nodes; ++i) {
+                        sum += values[f][i] * std::cos(std::numbers::pi * static_cast<double>(k) *
+                                                       (static_cast<double>(i) + 0.5) / nodes);
+                    }
+                    c[k] = sum * (k == 0 ? 1.0 : 2.0) / nodes;
+                }
+                // The last coefficients bound what the polynomial leaves out.
+                good = good && std::max(std::fabs(c[nodes - 1]), std::fabs(c[nodes - 2])) <= accepted * size[f];
+            }
         }
-        if (difference <= accepted * size) {
+        if (good) {
             return octave;
         }
     }

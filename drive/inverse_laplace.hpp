@@ -10,36 +10,50 @@
 #include <complex>
 #include <functional>
 #include <map>
+#include <span>
 #include <vector>
 
 #include "drive/swings.hpp"
 
 namespace drive {
 
-/// The inverse of one transform, smooth for t > 0. Values are kept: one octave of time [2^w, 2^(w+1)) costs some
-/// hundred evaluations of the transform when it is first asked for, and a polynomial of degree 15 afterwards.
+/// The inverses of one or several transforms that share their poles, smooth for t > 0. Values are kept: one octave of
+/// time [2^w, 2^(w+1)) costs some hundred evaluations of the transforms when it is first asked for, and a polynomial of
+/// degree 15 each afterwards.
 class InverseLaplace {
 public:
-    using Image = std::function<std::complex<double>(std::complex<double>)>;
+    using Complex = std::complex<double>;
+    /// Fills all transforms at s.
+    using Image = std::function<void(Complex s, std::span<Complex> values)>;
 
+    /// \param count  of transforms
     /// \param image  analytic right of the imaginary axis but for `swings`, real on the real axis, without a dead time
     ///               (which would have a kink)
-    /// \param swings  its lightly damped poles; growing ones too, as long as they do not grow beyond 10^3
-    explicit InverseLaplace(Image image, std::vector<Swing> swings = {});
+    /// \param swings  the lightly damped poles; growing ones too, as long as they do not grow beyond 10^3
+    InverseLaplace(std::size_t count, Image image, std::vector<Swing> swings);
 
-    /// f(t); 0 for t <= 0. Its error is about 1e-9 of the function's size around t.
+    /// f(t) of each; 0 for t <= 0. The errors are about 1e-9 of the functions' sizes around t.
     /// \throws glsum::Failure (check failed) where it does not converge: some hundred swings lie before t, or it grows.
     /// Not safe to call from several threads: it fills its tables.
-    double operator()(double t);
+    void at(double t, std::span<double> values);
+    /// The first.
+    double operator()(double t) {
+        double value = 0.0;
+        at(t, {&value, 1});
+        return value;
+    }
 
 private:
     static constexpr std::size_t nodes = 16;
     struct Octave {
-        std::vector<std::array<double, nodes>> pieces;  // Chebyshev coefficients
+        std::size_t pieces = 1;
+        std::vector<std::array<double, nodes>> coefficients;  // Chebyshev's: those of all functions, piece by piece
     };
     const Octave& octave(int exponent);
     [[nodiscard]] Octave make_octave(int exponent) const;
+    void euler_sum(double abscissa, double t, int terms, std::span<double> values, std::span<double> sizes) const;
 
+    std::size_t count_;
     Image image_;
     std::vector<Swing> swings_;
     std::map<int, Octave> octaves_;

@@ -15,8 +15,12 @@ std::vector<Change> changes_of(std::span<const double> times_s, std::span<const 
 }
 
 StepResponse::StepResponse(const Model& model)
-    : inverse_([model](std::complex<double> s) { return evaluate_without_delay(model, s) / s; },
-               swings_of(model.denominator)),
+    : inverse_(
+          1,
+          [model](std::complex<double> s, std::span<std::complex<double>> values) {
+              values[0] = evaluate_without_delay(model, s) / s;
+          },
+          swings_of(model.denominator)),
       delay_s_(model.delay_s) {}
 
 std::vector<double> respond(StepResponse& step, std::span<const Change> changes, std::span<const double> times_s) {

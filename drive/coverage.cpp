@@ -1,0 +1,117 @@
+#include "drive/coverage.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <numbers>
+#include <random>
+
+#include "bench/parallel.hpp"
+#include "qemu/failure.hpp"
+
+namespace drive {
+namespace {
+
+double uniform(std::mt19937_64& random) { return (static_cast<double>(random() >> 11) + 0.5) * 0x1p-53; }
+
+// Box and Muller's, not the library's: the same log everywhere.
+double normal(std::mt19937_64& random) {
+    const double radius = std::sqrt(-2.0 * std::log(uniform(random)));
+    return radius * std::cos(2.0 * std::numbers::pi * uniform(random));
+}
+
+}  // namespace
+
+Log take_log(const Model& model, const Acquisition& acquisition, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    Log log;
+    log.name = "seed " + std::to_string(seed);
+    log.input = make_input(acquisition.excitation, acquisition.interval_s, acquisition.until_s);
+    for (std::size_t k = 0; k < log.input.size(); ++k) {
+        const double even = static_cast<double>(k) * acquisition.interval_s;
+        log.time_s.push_back(k == 0 ? 0.0 : even + acquisition.jitter_s * (2.0 * uniform(random) - 1.0));
+        log.line.push_back(k + 2);
+    }
+    log.output = respond(model, changes_of(log.time_s, log.input), log.time_s);
+    for (double& value : log.output) {
+        value += acquisition.noise * normal(random);
+        if (acquisition.quantum > 0.0) {
+            value = std::round(value / acquisition.quantum) * acquisition.quantum;
+        }
+    }
+    return log;
+}
+
+Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOptions& options,
+                     const std::function<void(Form&)>& prepare) {
+    const auto last = [&](Form form) {
+        if (prepare) {
+            prepare(form);
+        }
+        return fit(form, records, options);
+    };
+    if (kind == Kind::fopdt || kind == Kind::sopdt) {
+        return last(Form(kind, search_start(kind, records)));
+    }
+    FitOptions first = options;
+    first.prediction_error = false;
+    first.accepted_error = 0.0;
+    return last(Form(kind, fit(Form(Kind::sopdt, search_start(Kind::sopdt, records)), records, first).model));
+}
+
+Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acquisition, std::size_t runs,
+                          unsigned jobs, const std::function<void()>& done) {
+    const Form form(kind, truth);
+    Coverage coverage;
+    coverage.runs = runs;
+    for (const Parameter& parameter : form.parameters()) {
+        if (!parameter.fixed) {
+            coverage.names.push_back(parameter.name);
+            coverage.truth.push_back(parameter.value);
+        }
+    }
+    const std::size_t free = coverage.names.size();
+    coverage.inside.assign(free, 0);
+    coverage.claimed.assign(free, 0.0);
+    std::vector<std::vector<double>> estimates(free);
+    std::mutex mutex;
+    bench::parallel_for(runs, jobs, [&](std::size_t run) {
+        try {
+            const Record record = to_record(take_log(truth, acquisition, run + 1));
+            const Fit found = fit_from_nothing(kind, {record}, {});
+            const std::lock_guard lock(mutex);
+            std::size_t at = 0;
+            for (const Estimate& estimate : found.parameters) {
+                if (!estimate.fixed) {
+                    coverage.inside[at] +=
+                        estimate.low <= coverage.truth[at] && coverage.truth[at] <= estimate.high ? 1 : 0;
+                    coverage.claimed[at] += estimate.deviation;
+                    estimates[at++].push_back(estimate.value);
+                }
+            }
+        } catch (const glsum::Failure&) {
+            const std::lock_guard lock(mutex);
+            ++coverage.failed;
+        }
+        if (done) {
+            done();
+        }
+    });
+    for (std::size_t i = 0; i < free; ++i) {
+        const auto count = static_cast<double>(std::max<std::size_t>(estimates[i].size(), 1));
+        double mean = 0.0;
+        for (const double value : estimates[i]) {
+            mean += value / count;
+        }
+        double square = 0.0;
+        for (const double value : estimates[i]) {
+            square += (value - mean) * (value - mean);
+        }
+        coverage.mean.push_back(mean);
+        coverage.spread.push_back(std::sqrt(square / std::max(1.0, count - 1.0)));
+        coverage.claimed[i] /= count;
+    }
+    return coverage;
+}
+
+}  // namespace drive

@@ -1,0 +1,117 @@
+// Identification: parameters of a model from logs, by least squares on the simulation error ([Matusiak2020] (9)), with
+// what the data say about how well they are known.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drive/log.hpp"
+#include "drive/model.hpp"
+#include "drive/response.hpp"
+
+namespace drive {
+
+/// One experiment, from rest: the held input and the stamps' outputs. Stamps need not be even.
+struct Record {
+    std::string name;
+    std::vector<Change> changes;
+    std::vector<double> time_s;  ///< from the first stamp
+    std::vector<double> output;
+};
+
+/// \throws glsum::Failure (bad input) where nothing can be identified: an input that never changes from 0, an output
+/// that never moves, fewer than 8 samples.
+[[nodiscard]] Record to_record(const Log& log);
+
+struct Parameter {
+    std::string name;
+    double value;  ///< the start; in a result, the estimate
+    double lower;
+    double upper;
+    bool fixed = false;
+};
+
+/// A family of models and its parameters:
+///   fopdt, sopdt  gain, time_constant_s, delay_s
+///   niopdt        a2 alpha2 a1 alpha1 a0 delay_s, with gain 1 and alpha0 0 fixed
+///   fotf          gain, b<i> beta<i> of each numerator term, a<i> alpha<i> of each denominator term, delay_s; those
+///   that are
+///                 superfluous (gain, a numerator of one term, orders of 0) are fixed
+/// and `offset`, of the output, fixed at 0. Indices count down with the order, to 0.
+class Form {
+public:
+    /// The parameters of `kind` that are nearest to a start of any kind: (11) as the start of (12) becomes
+    /// a2 = T^2, alpha2 = 2, a1 = 2 T, alpha1 = 1, a0 = 1 / gain. A fopdt start gives a niopdt without its highest
+    /// term's weight, T^2/4.
+    Form(Kind kind, const Model& start);
+
+    [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
+    [[nodiscard]] std::vector<Parameter>& parameters() { return parameters_; }
+    /// \throws glsum::Failure (bad input) naming those there are, if there is none of that name
+    [[nodiscard]] Parameter& parameter(const std::string& name);
+    [[nodiscard]] Model to_model(const std::vector<double>& values) const;
+
+private:
+    Kind kind_;
+    Model shape_;  // its terms and their order
+    std::vector<Parameter> parameters_;
+};
+
+struct FitOptions {
+    double accepted_error = 0.0;  ///< E_c of (9): stop when the sum of squares is at most this
+    int iterations = 200;         ///< or after so many
+    std::size_t starts = 1;       ///< the first from the parameters as they are, others from seeded random ones
+    std::uint64_t seed = 1;
+    /// Prediction-error method: the residuals are whitened by an autoregressive noise model of BIC's order, fitted in
+    /// turns.
+    bool prediction_error = false;
+    unsigned jobs = 1;
+};
+
+struct Estimate {
+    std::string name;
+    double value;
+    double deviation;  ///< standard deviation; 0 if fixed, infinite if the record does not tell
+    double low;        ///< 95 % interval, by Student's t
+    double high;
+    bool fixed;
+};
+
+struct Fit {
+    Model model;
+    double offset = 0.0;
+    std::vector<Estimate> parameters;
+    Eigen::MatrixXd correlation;  ///< of the free parameters, in their order
+    std::vector<std::string> free_names;
+    double sum_of_squares = 0.0;      ///< LSA of (9), of the simulation error, over all records
+    double noise_deviation = 0.0;     ///< of the (whitened) residuals
+    std::vector<double> noise_model;  ///< c_1, c_2, ... of e_k = r_k + sum c_i r_(k-i); empty: white
+    double lag_one = 0.0;             ///< autocorrelation of the (whitened) residuals at lag one
+    int iterations = 0;
+    std::string stopped;  ///< why
+    std::size_t starts = 1;
+    std::size_t starts_that_agree = 1;  ///< ended within 0.1 % of the smallest sum of squares
+    std::vector<std::string> warnings;
+};
+
+/// Trust-region (Levenberg-Marquardt) with bounds by Ceres; sensitivities are exact, by inverse Laplace. The simulated
+/// response is the exact one at the stamps. \throws glsum::Failure (bad input) if no parameter is free or there are
+/// more than samples, (check failed) if no start can be simulated.
+[[nodiscard]] Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& options);
+
+/// The simulated output of a fit on a record, its offset included.
+[[nodiscard]] std::vector<double> simulate_fit(const Fit& fit, const Record& record);
+
+/// A start without any: the time constant and the delay of a grid whose response, scaled, leaves the least sum of
+/// squares. \param kind  fopdt or sopdt
+[[nodiscard]] Model search_start(Kind kind, const std::vector<Record>& records);
+
+/// Kuepfmueller's tangent at the inflection of a step response. It meets the old level after a dead time and the new
+/// one after the rise: FOPDT takes both as they are; with two equal time constants the rise is e T and the dead time
+/// grows by (3 - e) T. \param kind  fopdt or sopdt \throws glsum::Failure (bad input) unless the record begins with one
+/// step that is held for long enough to settle.
+[[nodiscard]] Model tangent_construction(Kind kind, const Record& record);
+
+}  // namespace drive

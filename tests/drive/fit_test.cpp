@@ -1,0 +1,208 @@
+// Identification: known models come back from their own exact responses, by the tangent, from a search, and through
+// noise within what the fit says of itself.
+#include "drive/fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drive/coverage.hpp"
+#include "qemu/failure.hpp"
+#include "tests/drive/plants.hpp"
+
+namespace {
+
+using drive::Acquisition;
+using drive::Fit;
+using drive::Form;
+using drive::Kind;
+using drive::Model;
+using drive::Record;
+using testing::Contains;
+using testing::HasSubstr;
+
+constexpr Acquisition clean = {
+    .excitation = {.name = "step"}, .until_s = 6.0, .jitter_s = 0.001, .noise = 0.0, .quantum = 0.0};
+
+Record record_of(const Model& model, const Acquisition& acquisition = clean, std::uint64_t seed = 1) {
+    return drive::to_record(drive::take_log(model, acquisition, seed));
+}
+
+double value_of(const Fit& fit, const std::string& name) {
+    for (const drive::Estimate& estimate : fit.parameters) {
+        if (estimate.name == name) {
+            return estimate.value;
+        }
+    }
+    ADD_FAILURE() << "no parameter " << name;
+    return 0.0;
+}
+
+TEST(Tangent, FindsTheModelsThatItIsMadeFor) {
+    const Model first = drive::tangent_construction(Kind::fopdt, record_of(drive::make_fopdt(2.0, 0.4934, 1.2279)));
+    EXPECT_NEAR(first.gain, 2.0, 0.01);
+    EXPECT_NEAR(first.denominator[0].coefficient, 0.4934, 0.05);  // the steepest part is at the very start
+    EXPECT_NEAR(first.delay_s, 1.2279, 0.02);
+    const Model second = drive::tangent_construction(Kind::sopdt, record_of(plants::sopdt()));
+    EXPECT_NEAR(second.gain, 1.0, 0.005);
+    EXPECT_NEAR(second.denominator[1].coefficient / 2.0, 0.319, 0.005);
+    EXPECT_NEAR(second.delay_s, 1.064, 0.005);
+}
+
+TEST(Tangent, RefusesWhatHasNotSettled) {
+    Acquisition shorter = clean;
+    shorter.until_s = 1.8;
+    EXPECT_THROW((void)drive::tangent_construction(Kind::fopdt, record_of(plants::niopdt(), shorter)), glsum::Failure);
+}
+
+TEST(Fit, FindsEachFormFromNothing) {
+    const Fit first = drive::fit_from_nothing(Kind::fopdt, {record_of(plants::fopdt())}, {});
+    EXPECT_NEAR(value_of(first, "time_constant_s"), 0.4934, 1e-6);
+    EXPECT_NEAR(value_of(first, "delay_s"), 1.2279, 1e-6);
+    const Fit second = drive::fit_from_nothing(Kind::sopdt, {record_of(plants::sopdt())}, {});
+    EXPECT_NEAR(value_of(second, "time_constant_s"), 0.319, 1e-6);
+    EXPECT_NEAR(value_of(second, "gain"), 1.0, 1e-7);
+    const Fit third = drive::fit_from_nothing(Kind::niopdt, {record_of(plants::niopdt())}, {});
+    EXPECT_NEAR(value_of(third, "a2"), 0.18234, 1e-4);
+    EXPECT_NEAR(value_of(third, "alpha2"), 1.9909, 1e-4);
+    EXPECT_NEAR(value_of(third, "a1"), 0.65536, 1e-4);
+    EXPECT_NEAR(value_of(third, "alpha1"), 0.98319, 1e-4);
+    EXPECT_NEAR(value_of(third, "a0"), 0.9992, 1e-5);
+    EXPECT_NEAR(value_of(third, "delay_s"), 1.0, 1e-4);
+    EXPECT_LT(third.sum_of_squares, 1e-9);
+}
+
+TEST(Fit, FindsAFreeFormWithAZeroFromAnyStart) {
+    Model truth;
+    truth.numerator = {{0.4, 0.6}, {1.0, 0.0}};
+    truth.denominator = {{0.5, 1.5}, {1.0, 0.0}};
+    truth.delay_s = 0.2;
+    Model start = truth;
+    start.numerator[0] = {0.2, 0.5};
+    start.denominator[0] = {0.8, 1.3};
+    start.delay_s = 0.3;
+    Form form(Kind::fotf, start);
+    form.parameter("b0").fixed = true;  // it and a0 are the gain
+    const Fit found = drive::fit(form, {record_of(truth)}, {});
+    EXPECT_NEAR(value_of(found, "b1"), 0.4, 1e-4);
+    EXPECT_NEAR(value_of(found, "beta1"), 0.6, 1e-4);
+    EXPECT_NEAR(value_of(found, "alpha1"), 1.5, 1e-4);
+    EXPECT_NEAR(value_of(found, "delay_s"), 0.2, 1e-4);
+}
+
+TEST(Fit, HoldsBoundsAndFixedParameters) {
+    Form form(Kind::sopdt, drive::make_sopdt(1.0, 0.5, 1.0));
+    form.parameter("delay_s").fixed = true;
+    form.parameter("time_constant_s").upper = 0.55;
+    form.parameter("time_constant_s").lower = 0.45;
+    const Fit found = drive::fit(form, {record_of(plants::sopdt())}, {});
+    EXPECT_EQ(value_of(found, "delay_s"), 1.0);
+    EXPECT_NEAR(value_of(found, "time_constant_s"), 0.45, 1e-9);
+    EXPECT_THAT(found.warnings, Contains(HasSubstr("time_constant_s: ends at its bound")));
+    EXPECT_THROW((void)form.parameter("tau"), glsum::Failure);
+    form.parameter("time_constant_s").value = 7.0;
+    EXPECT_THROW((void)drive::fit(form, {record_of(plants::sopdt())}, {}), glsum::Failure);
+}
+
+TEST(Fit, StopsByBothRules) {
+    const std::vector<Record> records{record_of(plants::sopdt())};
+    const Form form(Kind::sopdt, drive::make_sopdt(1.2, 0.6, 0.7));
+    const Fit all = drive::fit(form, records, {});
+    const Fit accepted = drive::fit(form, records, {.accepted_error = 1e-3});
+    EXPECT_THAT(accepted.stopped, HasSubstr("E_c"));
+    EXPECT_LE(accepted.sum_of_squares, 1e-3);
+    EXPECT_GT(accepted.sum_of_squares, all.sum_of_squares);
+    const Fit once = drive::fit(form, records, {.iterations = 1});
+    EXPECT_THAT(once.stopped, HasSubstr("number of iterations"));
+    EXPECT_EQ(once.iterations, 1);
+}
+
+TEST(Fit, TakesSeveralRecordsAtOnce) {
+    Acquisition staircase = clean;
+    staircase.excitation = {.name = "staircase", .amplitude = 2.0, .stairs = 2};
+    const Fit found = drive::fit_from_nothing(
+        Kind::sopdt, {record_of(plants::sopdt()), record_of(plants::sopdt(), staircase, 2)}, {});
+    EXPECT_NEAR(value_of(found, "time_constant_s"), 0.319, 1e-6);
+    EXPECT_NEAR(value_of(found, "delay_s"), 1.064, 1e-6);
+}
+
+TEST(Fit, FreesAnOffset) {
+    Record record = record_of(plants::sopdt());
+    for (double& value : record.output) {
+        value += 0.25;
+    }
+    Form form(Kind::sopdt, drive::make_sopdt(1.1, 0.4, 0.9));
+    form.parameter("offset").fixed = false;
+    const Fit found = drive::fit(form, {record}, {});
+    EXPECT_NEAR(found.offset, 0.25, 1e-7);
+    EXPECT_NEAR(drive::simulate_fit(found, record).front(), 0.25, 1e-7);
+}
+
+TEST(Fit, StartsInManyPlacesAndSaysHowManyAgree) {
+    const Form form(Kind::fopdt, drive::make_fopdt(3.0, 3.0, 0.1));
+    const Fit found = drive::fit(form, {record_of(plants::fopdt())}, {.starts = 6, .jobs = 2});
+    EXPECT_NEAR(value_of(found, "time_constant_s"), 0.4934, 1e-5);
+    EXPECT_EQ(found.starts, 6U);
+    EXPECT_GE(found.starts_that_agree, 1U);
+}
+
+// Of 40 logs, as many intervals hold the truth as 95 % of them: 33 to 40 with probability 0.998 for one parameter.
+TEST(Fit, IntervalsHoldTheTruth) {
+    const auto found = drive::measure_coverage(plants::sopdt(), Kind::sopdt, {}, 40, 1);
+    EXPECT_EQ(found.failed, 0U);
+    ASSERT_EQ(found.names.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_GE(found.inside[i], 33U) << found.names[i];
+        EXPECT_NEAR(found.claimed[i] / found.spread[i], 1.0, 0.35) << found.names[i];
+    }
+}
+
+TEST(Fit, WarnsWhereTheRecordDoesNotTell) {
+    // A record that ends in the dead time of a second order: gain and time constant only as a ratio.
+    Acquisition brief = clean;
+    brief.until_s = 1.3;
+    brief.noise = 1e-3;
+    const Fit found = drive::fit(Form(Kind::sopdt, plants::sopdt()), {record_of(plants::sopdt(), brief)}, {});
+    EXPECT_FALSE(found.warnings.empty());
+    Record flat = record_of(plants::sopdt());
+    Form late(Kind::sopdt, drive::make_sopdt(1.0, 0.3, 50.0));
+    late.parameter("delay_s").lower = 40.0;
+    EXPECT_THAT(drive::fit(late, {flat}, {}).warnings, Contains(HasSubstr("nothing in the record depends on it")));
+}
+
+// Noise that remembers: white intervals are too narrow, and the fit says so; whitened ones are not.
+TEST(Fit, ThePredictionErrorMethodWhitensColouredNoise) {
+    Record record = record_of(plants::sopdt(), {.excitation = {.name = "step"}, .noise = 0.01, .quantum = 0.0});
+    const std::vector<double> exact = drive::respond(plants::sopdt(), record.changes, record.time_s);
+    double coloured = 0.0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        coloured = 0.9 * coloured + (record.output[i] - exact[i]);
+        record.output[i] = exact[i] + coloured;
+    }
+    const Form form(Kind::sopdt, plants::sopdt());
+    const Fit white = drive::fit(form, {record}, {});
+    EXPECT_THAT(white.warnings, Contains(HasSubstr("not white")));
+    const Fit whitened = drive::fit(form, {record}, {.prediction_error = true});
+    ASSERT_FALSE(whitened.noise_model.empty());
+    EXPECT_NEAR(whitened.noise_model[0], -0.9, 0.08);
+    EXPECT_NEAR(whitened.noise_deviation, 0.01, 0.001);
+    EXPECT_LT(std::fabs(whitened.lag_one), 0.1);
+    EXPECT_GT(whitened.parameters[0].deviation, 2.0 * white.parameters[0].deviation);
+}
+
+TEST(Record, RefusesWhatCannotBeIdentifiedFrom) {
+    drive::Log log = drive::take_log(plants::sopdt(), clean, 1);
+    drive::Log still = log;
+    still.output.assign(log.output.size(), 3.0);
+    EXPECT_THROW((void)drive::to_record(still), glsum::Failure);
+    drive::Log off = log;
+    off.input.assign(log.input.size(), 0.0);
+    EXPECT_THROW((void)drive::to_record(off), glsum::Failure);
+    log.time_s.resize(5);
+    log.output.resize(5);
+    log.input.resize(5);
+    EXPECT_THROW((void)drive::to_record(log), glsum::Failure);
+}
+
+}  // namespace
