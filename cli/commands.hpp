@@ -35,5 +35,10 @@ void add_simulate(CLI::App& app);
 void add_stability(CLI::App& app);
 void add_indices(CLI::App& app);
 void add_resample(CLI::App& app);
+/// `silicon`.
+void add_silicon(CLI::App& app);
+
+/// `time`.
+void add_time(CLI::App& app);
 
 }  // namespace cli

@@ -61,6 +61,8 @@ int main(int argc, char** argv) {
             command->add_option_function<unsigned>("--jobs", [](unsigned) {})->group("");
         }
     }
+    cli::add_silicon(app);
+    cli::add_time(app);
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {

@@ -1,5 +1,6 @@
 #include "qemu/elf.hpp"
 
+#include <cxxabi.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <gelf.h>
@@ -7,6 +8,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 
@@ -34,6 +37,73 @@ struct Descriptor {
     }
 };
 
+// Numbers of the public build attributes that one byte or two hold. [Arm IHI 0045, 2.2]
+struct Attributes {
+    unsigned architecture = 0;
+    unsigned profile = 0;
+};
+Attributes parse(const std::vector<unsigned char>& bytes) {
+    Attributes found;
+    // 'A', then a section: its length, "aeabi", then of the whole file: tag 1, a length, and pairs of tag and value.
+    std::size_t at = 1 + 4 + 6 + 1 + 4;
+    const auto number = [&] {
+        unsigned value = 0;
+        for (unsigned shift = 0; at < bytes.size(); shift += 7) {
+            const unsigned char byte = bytes[at++];
+            value |= (byte & 0x7FU) << (shift & 31U);
+            if ((byte & 0x80U) == 0) {
+                break;
+            }
+        }
+        return value;
+    };
+    const auto skip_text = [&] {
+        while (at < bytes.size() && bytes[at++] != 0) {
+        }
+    };
+    while (at < bytes.size()) {
+        const unsigned tag = number();
+        if (tag == 4 || tag == 5 || (tag > 32 && tag % 2 == 1)) {
+            skip_text();
+            continue;
+        }
+        const unsigned value = number();
+        if (tag == 32) {
+            skip_text();
+        } else if (tag == 6) {
+            found.architecture = value;
+        } else if (tag == 7) {
+            found.profile = value;
+        }
+    }
+    return found;
+}
+
+std::string readable(const std::string& name) {
+    int status = 0;
+    const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
+                                                      std::free);
+    return status == 0 && text ? text.get() : name;
+}
+
+// Single-letter changes from one word to the other.
+std::size_t distance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) {
+        row[j] = j;
+    }
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t corner = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, corner + (a[i - 1] == b[j - 1] ? 0 : 1)});
+            corner = above;
+        }
+    }
+    return row[b.size()];
+}
+
 }  // namespace
 
 Elf::Elf(const std::filesystem::path& path) : path_(path) {
@@ -60,6 +130,7 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
     }
     std::size_t bytes_left = most_section_bytes;
     std::size_t symbols_left = most_symbols;
+    entry_ = static_cast<std::uint32_t>(header.e_entry);
     for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section)) != nullptr;) {
         GElf_Shdr info;
         Elf_Data* data = elf_getdata(section, nullptr);
@@ -73,6 +144,10 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
             bytes_left -= data->d_size;
             const auto* bytes = static_cast<const unsigned char*>(data->d_buf);
             sections_.push_back({static_cast<std::uint32_t>(info.sh_addr), {bytes, bytes + data->d_size}});
+        }
+        if (info.sh_type == SHT_ARM_ATTRIBUTES && data->d_buf != nullptr) {
+            const auto* bytes = static_cast<const unsigned char*>(data->d_buf);
+            attributes_.assign(bytes, bytes + data->d_size);
         }
         if (info.sh_type == SHT_SYMTAB && info.sh_entsize != 0) {
             const std::size_t symbols = info.sh_size / info.sh_entsize;
@@ -109,6 +184,68 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
 std::optional<std::uint32_t> Elf::symbol(const std::string& name) const {
     const auto found = symbols_.find(name);
     return found == symbols_.end() ? std::nullopt : std::optional(found->second);
+}
+
+Function Elf::function(const std::string& name) const {
+    std::vector<Function> found;
+    std::vector<std::pair<std::size_t, std::string>> close;
+    for (const auto& [address, function] : functions_) {
+        const std::string text = readable(function.name);
+        const std::string without_parameters = text.substr(0, text.find('('));
+        if (function.name == name || text == name || without_parameters == name) {
+            found.push_back(function);
+        }
+        close.emplace_back(distance(without_parameters, name), text);
+    }
+    if (found.size() == 1) {
+        return found[0];
+    }
+    if (found.empty() && symbols_.contains(name)) {
+        const std::uint32_t address = symbols_.at(name) & ~1U;
+        if (at(address, 2) != nullptr && address < 0x20000000U) {
+            return {name, address, 2};
+        }
+    }
+    std::string names;
+    if (found.empty()) {
+        std::sort(close.begin(), close.end());
+        for (std::size_t i = 0; i < std::min<std::size_t>(3, close.size()); ++i) {
+            names += (i > 0 ? ", " : "") + close[i].second;
+        }
+        throw Failure(Exit::bad_input,
+                      fmt::format("{}: no function {}; the compiler may have inlined it (noinline keeps it) or the linker "
+                                  "dropped it; the closest names are {}",
+                                  path_.string(), name, names));
+    }
+    for (const Function& function : found) {
+        names += fmt::format(" {} at {:#x}", function.name, function.address);
+    }
+    throw Failure(Exit::bad_input, fmt::format("{}: {} is the name of {} functions:{}", path_.string(), name,
+                                               found.size(), names));
+}
+
+void Elf::check_runs_on_cortex_m7() const {
+    const auto refuse = [&](const std::string& found) {
+        throw Failure(Exit::bad_input,
+                      fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found {}", path_.string(), found));
+    };
+    if ((entry_ & 1U) == 0) {
+        refuse("an entry in Arm state");
+    }
+    if (attributes_.empty()) {
+        return;  // written in assembly; its encodings will tell
+    }
+    constexpr unsigned v7 = 10;
+    constexpr unsigned v6_m = 11;
+    constexpr unsigned v6s_m = 12;
+    constexpr unsigned v7e_m = 13;
+    const Attributes attributes = parse(attributes_);
+    const bool small = attributes.architecture == v6_m || attributes.architecture == v6s_m;
+    const bool right = attributes.architecture == v7e_m || (attributes.architecture == v7 && attributes.profile == 'M');
+    if (!small && !right) {
+        refuse(fmt::format("one for architecture {} of profile {}", attributes.architecture,
+                           attributes.profile != 0 ? std::string(1, static_cast<char>(attributes.profile)) : "none"));
+    }
 }
 
 const Function* Elf::function_at(std::uint32_t address) const {

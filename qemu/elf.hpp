@@ -23,6 +23,11 @@ public:
 
     /// Address of a symbol, without the Thumb bit.
     [[nodiscard]] std::optional<std::uint32_t> symbol(const std::string& name) const;
+    /// The one function that a name means: as in the symbol table, or as C++ has it, with or without parameters.
+    /// \throws glsum::Failure (bad input) when there is none, with the closest names, or when several are called so.
+    [[nodiscard]] Function function(const std::string& name) const;
+    /// \throws glsum::Failure (bad input) when it was built for another core than an M-profile one up to ARMv7E-M.
+    void check_runs_on_cortex_m7() const;
     /// The function that holds an address.
     [[nodiscard]] const Function* function_at(std::uint32_t address) const;
     /// The word at an address of a loaded section. \throws glsum::Failure when there is none.
@@ -41,6 +46,8 @@ private:
     std::filesystem::path path_;
     std::vector<Section> sections_;
     std::map<std::string, std::uint32_t> symbols_;
+    std::vector<unsigned char> attributes_;  // .ARM.attributes
+    std::uint32_t entry_ = 0;
     std::map<std::uint32_t, Function> functions_;  // by address
 };
 

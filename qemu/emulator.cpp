@@ -27,7 +27,9 @@ constexpr std::size_t longest_line = 64U << 10;
 // A child with one pipe for its output and errors. It is killed when this object goes, and when this process dies.
 class Child {
 public:
-    Child(const std::filesystem::path& command, const std::vector<std::string>& arguments, const std::string& plugin) {
+    Child(const std::filesystem::path& command, const std::vector<std::string>& arguments, const std::string& plugin,
+          std::chrono::seconds grace)
+        : grace_(grace) {
         std::vector<std::string> words{command.string()};
         words.insert(words.end(), arguments.begin(), arguments.end());
         std::vector<char*> argv;
@@ -57,6 +59,11 @@ public:
     Child& operator=(const Child&) = delete;
     ~Child() {
         if (id_ > 0) {
+            kill(id_, SIGTERM);
+            const auto until = std::chrono::steady_clock::now() + grace_;
+            while (std::chrono::steady_clock::now() < until && waitpid(id_, nullptr, WNOHANG) == 0) {
+                usleep(20'000);
+            }
             kill(id_, SIGKILL);
             waitpid(id_, nullptr, 0);
         }
@@ -94,6 +101,7 @@ public:
     }
 
 private:
+    std::chrono::seconds grace_;
     pid_t id_ = -1;
     int output_ = -1;
 };
@@ -119,7 +127,7 @@ void emulate(const Emulator& emulator, const std::filesystem::path& elf, const s
              const std::string& plugin, const std::function<void(const std::string&)>& line) {
     std::vector<std::string> words{elf.string()};
     words.insert(words.end(), arguments.begin(), arguments.end());
-    Child child(emulator.command, words, plugin);
+    Child child(emulator.command, words, plugin, emulator.grace);
     std::string text;
     std::string tail;  // the last lines, for the message when it fails
     for (bool more = true; more;) {

@@ -12,6 +12,8 @@ namespace qemu {
 struct Emulator {
     std::filesystem::path command;  ///< the board's `emulate` script
     std::chrono::seconds silence_limit{120};
+    /// How long it may take to end by itself, its plugin included, before it is killed.
+    std::chrono::seconds grace{0};
 };
 
 /// The emulator's own version, for the record of a run.

@@ -1,7 +1,7 @@
 // QEMU glue: turns the emulator's callbacks into the blocks, or the stream, of stream.hpp. Nothing is decided here.
 // Options: watch=FILE (entry addresses, decimal, one a line), out=FILE (the call log), stream=on (tell every
 // instruction and access, as a timing model needs it; off, the default: tell blocks, and count accesses without a
-// call).
+// call), timing=FILE (a timing request: the stream goes to the timing model, and the log is its own).
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -17,13 +17,24 @@
 #include "qemu/call_counter.hpp"
 #include "qemu/plugin/api.h"
 #include "qemu/thumb.hpp"
+#include "qemu/timing/timing_log.hpp"
 
 int qemu_plugin_version = 1;
 
 namespace {
 
+// The timing model at work, and its log.
+struct Timing {
+    std::ofstream log;
+    timing::TimingLogWriter writer;
+    timing::CallTimer timer;
+    Timing(const std::set<std::uint32_t>& entries, const std::vector<timing::CoreFile>& cores, const std::string& path)
+        : log(path), writer(log), timer(entries, cores, [this](const timing::TimedCall& call) { writer.add(call); }) {}
+};
+
 struct Session {
     qemu::CallCounter counter;
+    std::unique_ptr<Timing> timing;  // or none: the counter counts
     std::string out_path;
     // One per address for the whole run: translations come and go.
     std::unordered_map<std::uint32_t, std::unique_ptr<qemu::Instruction>> instructions = {};
@@ -63,14 +74,22 @@ qemu::Block* block_at(const qemu_plugin_tb* translated) {
     return slot.get();
 }
 
+qemu::Access to_access(qemu_plugin_meminfo_t info, std::uint64_t address) {
+    return {static_cast<std::uint32_t>(address), static_cast<std::uint8_t>(1U << qemu_plugin_mem_size_shift(info)),
+            qemu_plugin_mem_is_store(info)};
+}
+
 void executes(unsigned int, void* instruction) {
     session->counter.executes(*static_cast<qemu::Instruction*>(instruction));
 }
-
 void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
-    session->counter.accesses({static_cast<std::uint32_t>(address),
-                               static_cast<std::uint8_t>(1U << qemu_plugin_mem_size_shift(info)),
-                               qemu_plugin_mem_is_store(info)});
+    session->counter.accesses(to_access(info, address));
+}
+void times(unsigned int, void* instruction) {
+    session->timing->timer.executes(*static_cast<qemu::Instruction*>(instruction));
+}
+void times_access(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
+    session->timing->timer.accesses(to_access(info, address));
 }
 
 void executes_block(unsigned int, void* block) { session->counter.executes_block(*static_cast<qemu::Block*>(block)); }
@@ -78,9 +97,11 @@ void executes_block(unsigned int, void* block) { session->counter.executes_block
 void translates_to_stream(qemu_plugin_id_t, qemu_plugin_tb* block) {
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
         qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
-        qemu_plugin_register_vcpu_insn_exec_cb(translated, executes, QEMU_PLUGIN_CB_NO_REGS,
+        const bool timing = session->timing != nullptr;
+        qemu_plugin_register_vcpu_insn_exec_cb(translated, timing ? times : executes, QEMU_PLUGIN_CB_NO_REGS,
                                                instruction_at(translated));
-        qemu_plugin_register_vcpu_mem_cb(translated, accesses, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
+        qemu_plugin_register_vcpu_mem_cb(translated, timing ? times_access : accesses, QEMU_PLUGIN_CB_NO_REGS,
+                                         QEMU_PLUGIN_MEM_RW, nullptr);
     }
 }
 
@@ -96,6 +117,15 @@ void translates_to_blocks(qemu_plugin_id_t, qemu_plugin_tb* block) {
 }
 
 void ends(qemu_plugin_id_t, void*) {
+    if (session->timing) {
+        Timing& timing = *session->timing;
+        timing.timer.finish();
+        timing.writer.finish(timing.timer);
+        if (!timing.log.flush()) {
+            std::fprintf(stderr, "plugin: cannot write %s\n", session->out_path.c_str());
+        }
+        return;
+    }
     std::ofstream out(session->out_path);
     session->counter.write(out);
     if (!out.flush()) {
@@ -112,6 +142,7 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
     }
     std::set<std::uint32_t> entries;
     std::string out_path;
+    std::string request_path;
     bool stream = false;
     for (int i = 0; i < argc; ++i) {
         const std::string_view argument = argv[i];
@@ -122,10 +153,13 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
             }
         } else if (argument.starts_with("out=")) {
             out_path = argument.substr(4);
+        } else if (argument.starts_with("timing=")) {
+            request_path = argument.substr(7);
+            stream = true;
         } else if (argument == "stream=on" || argument == "stream=off") {
             stream = argument == "stream=on";
         } else {
-            std::fprintf(stderr, "plugin: expected watch=FILE, out=FILE or stream=on, found %s\n", argv[i]);
+            std::fprintf(stderr, "plugin: expected watch=FILE, out=FILE, timing=FILE or stream=on, found %s\n", argv[i]);
             return 1;
         }
     }
@@ -133,7 +167,17 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
         std::fprintf(stderr, "plugin: expected watch=FILE with at least one address, and out=FILE\n");
         return 1;
     }
-    session = new Session{qemu::CallCounter(std::move(entries)), std::move(out_path)};
+    std::unique_ptr<Timing> timing;
+    if (!request_path.empty()) {
+        try {
+            std::ifstream request(request_path);
+            timing = std::make_unique<Timing>(entries, timing::cores_of(timing::read_timing_request(request)), out_path);
+        } catch (const std::exception& error) {
+            std::fprintf(stderr, "plugin: %s\n", error.what());
+            return 1;
+        }
+    }
+    session = new Session{qemu::CallCounter(std::move(entries)), std::move(timing), std::move(out_path)};
     qemu_plugin_register_vcpu_tb_trans_cb(id, stream ? translates_to_stream : translates_to_blocks);
     qemu_plugin_register_atexit_cb(id, ends, nullptr);
     return 0;

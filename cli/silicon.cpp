@@ -1,0 +1,103 @@
+// glsum silicon: the timing model held against cycles that were measured on silicon.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "bench/build_info.hpp"
+#include "cli/commands.hpp"
+#include "qemu/failure.hpp"
+#include "qemu/firmware.hpp"
+#include "qemu/silicon.hpp"
+
+namespace cli {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+constexpr double allowed_share = 0.05;
+constexpr double allowed_cycles = 8.0;
+
+struct Options {
+    std::filesystem::path file =
+        std::filesystem::path(build_info::source_folder) / "results" / "silicon" / "h747_per_sample_fir.csv";
+    std::string core = "stm32h747-dtcm";
+    std::vector<std::string> without;
+};
+
+void run(const Options& options) {
+    const std::vector<qemu::MeasuredCycles> rows = qemu::read_measured_cycles(options.file);
+    const std::filesystem::path source = build_info::source_folder;
+    const std::filesystem::path built = build_info::build_folder;
+    const qemu::Board board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
+                                               source / "targets" / "mps2-an500" / "emulate");
+    const qemu::SiliconProgram program{board.measure_elf.parent_path() / "silicon.elf", board.plugin,
+                                       source / "qemu" / "cores", board.emulator};
+    const std::vector<qemu::PredictedCycles> predicted =
+        qemu::predict(program, options.file, rows, options.core, options.without);
+
+    fmt::print("{}: {} rows, predicted with the core file {}\n\n", options.file.filename().string(), rows.size(),
+               options.core);
+    fmt::print("{:<20} {:<13} {:<5} {:>5} {:>9} {:>9} {:>17} {:>8} {:>8}\n", "kernel", "code", "data", "taps",
+               "measured", "predicted", "band", "error", "cycles");
+    struct Group {
+        std::vector<double> taps;
+        std::vector<double> measured;
+        std::vector<double> predicted;
+    };
+    std::map<std::string, Group> groups;
+    std::vector<double> errors;
+    std::size_t missed = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const qemu::MeasuredCycles& row = rows[i];
+        const qemu::PredictedCycles& p = predicted[i];
+        const double error = p.nominal / row.cycles - 1.0;
+        const bool misses = std::abs(error) > allowed_share && std::abs(p.nominal - row.cycles) > allowed_cycles;
+        missed += misses ? 1 : 0;
+        errors.push_back(std::abs(error));
+        fmt::print("{:<20} {:<13} {:<5} {:>5} {:>9} {:>9.1f} {:>17} {:>+7.1f}% {:>+8.1f}{}\n", row.kernel, row.code,
+                   row.data, row.taps, row.cycles, p.nominal, fmt::format("{:.1f} to {:.1f}", p.low, p.high),
+                   100 * error, p.nominal - row.cycles, misses ? "  MISSED" : "");
+        Group& group = groups[fmt::format("{:<20} {:<13} {:<5}", row.kernel, row.code, row.data)];
+        group.taps.push_back(row.taps);
+        group.measured.push_back(row.cycles);
+        group.predicted.push_back(p.nominal);
+    }
+    fmt::print("\n{:<40} {:>10} {:>10} {:>10} {:>10}\n", "cycles a tap and beside them", "measured", "predicted",
+               "measured", "predicted");
+    for (const auto& [name, group] : groups) {
+        const qemu::Line measured = qemu::fit_line(group.taps, group.measured);
+        const qemu::Line model = qemu::fit_line(group.taps, group.predicted);
+        fmt::print("{:<40} {:>10.3f} {:>10.3f} {:>10.1f} {:>10.1f}\n", name, measured.slope, model.slope,
+                   measured.constant, model.constant);
+    }
+    std::sort(errors.begin(), errors.end());
+    fmt::print("\nmedian error {:.1f} %, worst {:.1f} %; {} of {} rows within {:.0f} % or {:.0f} cycles\n",
+               100 * errors[errors.size() / 2], 100 * errors.back(), rows.size() - missed, rows.size(),
+               100 * allowed_share, allowed_cycles);
+    if (missed > 0) {
+        throw Failure(Exit::check_failed, fmt::format("{} of {} rows are missed by more than {:.0f} % and {:.0f} cycles",
+                                                      missed, rows.size(), 100 * allowed_share, allowed_cycles));
+    }
+}
+
+}  // namespace
+
+void add_silicon(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command =
+        app.add_subcommand("silicon", "Hold the Cortex-M7 timing model against cycles measured on silicon");
+    command->footer("Exit status 1 when a row is missed by more than 5 % and 8 cycles.\n"
+                    "Example: glsum silicon results/silicon/h747_per_sample_fir.csv");
+    command->add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
+    command->add_option("--core", options->core, "Core file; each row's placement beats its own")->capture_default_str();
+    command->add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
+        ->delimiter(',');
+    command->add_option("--jobs")->group("");  // the launcher hands it to every command
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

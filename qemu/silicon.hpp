@@ -1,0 +1,56 @@
+// Measured cycle counts, and what the timing model predicts for them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "qemu/emulator.hpp"
+#include "qemu/timing/timing_log.hpp"
+
+namespace qemu {
+
+/// One row of a measured file: kernel,code,data,maintenance,taps,cycles; further columns are allowed.
+struct MeasuredCycles {
+    std::string kernel;
+    std::string code;  ///< flash_cached, flash or itcm
+    std::string data;  ///< dtcm or axi
+    bool maintenance;  ///< a cache clean and invalidate lies inside the timing
+    std::uint32_t taps;
+    double cycles;
+    unsigned line;
+};
+
+/// \throws glsum::Failure (bad input) with file and line for a column that is missing, a ragged row, a word or number that
+///         is none, and a file without rows
+[[nodiscard]] std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& file);
+
+struct PredictedCycles {
+    double nominal;
+    double low;  ///< of the core file's rule sets, the nominal one included
+    double high;
+};
+
+struct SiliconProgram {
+    std::filesystem::path elf;
+    std::filesystem::path plugin;
+    std::filesystem::path cores_folder;
+    Emulator emulator;
+};
+
+/// Predictions, row by row, on a core of the folder with each row's placement.
+/// \throws glsum::Failure (bad input) naming file and line for a kernel whose loop the program does not have, and for more
+///         taps than its memory holds
+[[nodiscard]] std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::filesystem::path& file,
+                                                   const std::vector<MeasuredCycles>& rows, const std::string& core,
+                                                   const std::vector<std::string>& without);
+
+/// Least-squares line through (taps, cycles).
+struct Line {
+    double slope;
+    double constant;
+};
+[[nodiscard]] Line fit_line(const std::vector<double>& taps, const std::vector<double>& cycles);
+
+}  // namespace qemu

@@ -1,0 +1,67 @@
+#include "qemu/timed_program.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+
+#include "qemu/failure.hpp"
+#include "qemu/scratch.hpp"
+
+namespace qemu {
+
+timing::TimingLog time_program(const Emulator& emulator, const std::filesystem::path& plugin,
+                               const std::filesystem::path& elf, const std::vector<std::string>& arguments,
+                               const std::vector<std::uint32_t>& entries, const timing::TimingRequest& request,
+                               const std::function<void(const std::string&)>& line) {
+    const Scratch scratch;
+    {
+        std::ofstream watch(scratch.file("watch"));
+        for (const std::uint32_t entry : entries) {
+            watch << entry << '\n';
+        }
+        std::ofstream out(scratch.file("request"));
+        timing::write_timing_request(out, request);
+        if (!watch.flush() || !out.flush()) {
+            throw glsum::Failure(glsum::Exit::check_failed,
+                                 fmt::format("{}: cannot write", scratch.file("").string()));
+        }
+    }
+    const std::string value =
+        fmt::format("{},watch={},out={},timing={}", plugin.string(), scratch.file("watch").string(),
+                    scratch.file("log").string(), scratch.file("request").string());
+    std::string failure;
+    glsum::Exit status = glsum::Exit::good;
+    try {
+        emulate(emulator, elf, arguments, value, [&](const std::string& text) {
+            if (line) {
+                line(text);
+            }
+        });
+    } catch (const glsum::Failure& failed) {
+        failure = failed.what();
+        status = failed.status();
+    }
+    std::ifstream in(scratch.file("log"));
+    timing::TimingLog log;
+    try {
+        log = timing::read_timing_log(in);
+    } catch (const std::runtime_error& damaged) {
+        throw glsum::Failure(status == glsum::Exit::good ? glsum::Exit::check_failed : status,
+                             failure.empty() ? damaged.what() : failure);
+    }
+    if (log.unfinished) {
+        throw glsum::Failure(glsum::Exit::check_failed,
+                             fmt::format("{}: a call of the timed function did not return{}", elf.string(),
+                                         failure.empty() ? " before the program ended" : "; " + failure));
+    }
+    if (!failure.empty()) {
+        throw glsum::Failure(status, failure);
+    }
+    if (log.runs.empty()) {
+        throw glsum::Failure(glsum::Exit::check_failed,
+                             fmt::format("{}: the timed function was never called", elf.string()));
+    }
+    return log;
+}
+
+}  // namespace qemu

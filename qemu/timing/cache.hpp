@@ -1,0 +1,33 @@
+// Tags of a set-associative cache: hit or miss, least recently used line replaced.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+namespace timing {
+
+class Cache {
+public:
+    /// \param bytes  0: no cache, every touch misses
+    Cache(std::int64_t bytes, std::int64_t ways, std::int64_t line_bytes);
+
+    struct Touch {
+        bool hit;
+        bool writes_back;  ///< a modified line leaves
+    };
+    /// Looks the line up, and brings it in if it is not there.
+    Touch touch(std::uint32_t address, bool store);
+    [[nodiscard]] bool on() const { return !lines_.empty(); }
+
+private:
+    struct Line {
+        std::uint32_t tag = 0xFFFFFFFFU;
+        bool modified = false;
+    };
+    std::uint32_t line_shift_ = 0;
+    std::uint32_t sets_ = 1;
+    std::uint32_t ways_ = 1;
+    std::vector<Line> lines_;  // of each set together, the most recently used first
+};
+
+}  // namespace timing

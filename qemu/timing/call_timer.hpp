@@ -1,0 +1,88 @@
+// Times each call of watched functions in a stream, on several cores and under each of their rule sets at once.
+//
+// A call lasts from the issue of the function's first instruction to the issue of the first one behind its return.
+// Callees count; so does a function that it ends in by a jump (a tail call), up to where control returns to the caller.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "qemu/stream.hpp"
+#include "qemu/timing/decode.hpp"
+#include "qemu/timing/model.hpp"
+
+namespace timing {
+
+/// What one core takes for one call.
+struct CoreTime {
+    std::vector<std::int64_t> half_cycles;  ///< under each rule set, the nominal one first
+    Losses losses{};                        ///< half cycles, of the nominal set
+};
+
+struct TimedCall {
+    std::uint32_t entry = 0;
+    std::uint64_t instructions = 0;
+    std::vector<CoreTime> cores;  ///< as the timer was given them
+};
+
+class CallTimer : public qemu::StreamConsumer {
+public:
+    /// \param entries  addresses of the watched functions' first instructions (no Thumb bit)
+    /// \param done     called at the end of each call
+    CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
+              std::function<void(const TimedCall&)> done);
+
+    void executes(const qemu::Instruction& instruction) override;
+    void accesses(const qemu::Access& access) override;
+    /// The stream has ended.
+    void finish();
+
+    /// Half cycles before each instruction's issue within calls, by address: one table a core, of its nominal set.
+    [[nodiscard]] std::vector<std::map<std::uint32_t, std::int64_t>> hot() const;
+    /// Addresses of encodings that the decoder does not know, and how often each was executed.
+    [[nodiscard]] const std::map<std::uint32_t, std::uint64_t>& unknown() const { return unknown_; }
+    /// A watched function was entered anew before it had returned.
+    [[nodiscard]] bool recursive() const { return recursive_; }
+    /// A watched call has not returned.
+    [[nodiscard]] bool inside() const { return inside_; }
+
+private:
+    struct Site {
+        std::unique_ptr<Prepared> prepared;
+        std::uint32_t address = 0;
+        bool entry = false;
+        std::vector<std::int64_t> half_cycles;  // by core
+    };
+    Site& site_of(const qemu::Instruction& instruction);
+    void flush(std::uint32_t next);
+    void follow_calls(const Site& site);
+
+    std::set<std::uint32_t> entries_;
+    std::vector<std::vector<std::unique_ptr<Model>>> models_;  // by core and rule set
+    std::function<void(const TimedCall&)> done_;
+    std::vector<Site> sites_;
+    ItBlock it_block_;
+
+    std::size_t pending_ = 0;  // index into sites_
+    bool has_pending_ = false;
+    std::vector<qemu::Access> accesses_;
+
+    // Return addresses of the calls under way.
+    std::vector<std::uint32_t> returns_;
+    std::uint32_t sequential_ = 0;  // behind the last instruction
+    bool last_called_ = false;
+    std::size_t last_ = 0;
+
+    bool inside_ = false;
+    std::size_t depth_ = 0;  // of returns_ at the entry
+    TimedCall call_;
+    std::vector<std::int64_t> positions_;  // of each core's nominal set, of the last instruction
+    std::map<std::uint32_t, std::uint64_t> unknown_;
+    bool recursive_ = false;
+};
+
+}  // namespace timing

@@ -1,0 +1,276 @@
+#include "qemu/timing/core_file.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <set>
+#include <sstream>
+
+#include <toml++/toml.h>
+
+#include "qemu/failure.hpp"
+
+namespace timing {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+struct Key {
+    const char* name;
+    std::int64_t Figures::*figure;
+};
+constexpr Key keys[] = {
+#define ROW(section, name) {#section "." #name, &Figures::section##_##name},
+#include "qemu/timing/rows.def"
+#undef ROW
+};
+
+const Key* find_key(const std::string& name) {
+    const auto* found = std::find_if(std::begin(keys), std::end(keys), [&](const Key& key) { return key.name == name; });
+    return found == std::end(keys) ? nullptr : found;
+}
+
+std::string place(const toml::node& node) {
+    return *node.source().path + ":" + std::to_string(node.source().begin.line);
+}
+[[noreturn]] void reject(const toml::node& node, const std::string& what) {
+    throw Failure(Exit::bad_input, place(node) + ": " + what);
+}
+
+Mark mark_named(const toml::node& node, const std::string& name) {
+    static const std::map<std::string, Mark> marks{{"measured", Mark::measured},
+                                                   {"documented", Mark::documented},
+                                                   {"fitted", Mark::fitted},
+                                                   {"assumed", Mark::assumed}};
+    const auto mark = marks.find(name);
+    if (mark == marks.end()) {
+        reject(node, "expected a mark, measured, documented, fitted or assumed; found " + name);
+    }
+    return mark->second;
+}
+
+std::string text_of(const toml::table& table, const char* key) {
+    const toml::node* node = table.get(key);
+    const auto text = node != nullptr ? node->value<std::string>() : std::nullopt;
+    if (!text || text->empty()) {
+        reject(table, std::string("expected ") + key + " = \"...\"");
+    }
+    return *text;
+}
+
+Origin read_row(const std::string& key, const toml::node& node) {
+    const toml::table* row = node.as_table();
+    if (row == nullptr) {
+        reject(node, key + ": expected { value = N, mark = \"...\", source = \"...\" }");
+    }
+    for (const auto& [word, part] : *row) {
+        if (word != "value" && word != "mark" && word != "source") {
+            reject(part, key + ": expected value, mark and source, found " + std::string(word.str()));
+        }
+    }
+    const toml::node* value = row->get("value");
+    if (value == nullptr || !value->is_integer()) {
+        reject(value != nullptr ? *value : node, key + ": expected value = a whole number");
+    }
+    const auto number = value->as_integer()->get();
+    if (number < 0 || number > 1'000'000'000'000) {
+        reject(*value, key + ": expected a number of at least 0, found " + std::to_string(number));
+    }
+    const std::string mark = text_of(*row, "mark");
+    return {key, number, mark_named(*row, mark), text_of(*row, "source"), *node.source().path, node.source().begin.line};
+}
+
+// Rows of all sections of a table: "issue" = { two_loads_pair = {..} } becomes "issue.two_loads_pair".
+void read_sections(const toml::table& sections, std::map<std::string, Origin>& rows) {
+    for (const auto& [section, node] : sections) {
+        if (section == "note") {
+            continue;  // of a rival set
+        }
+        const toml::table* table = node.as_table();
+        if (table == nullptr) {
+            reject(node, "expected a section of rows, found " + std::string(section.str()));
+        }
+        for (const auto& [name, row] : *table) {
+            const std::string key = std::string(section.str()) + "." + std::string(name.str());
+            if (find_key(key) == nullptr) {
+                reject(row, key + ": no such row");
+            }
+            rows.insert_or_assign(key, read_row(key, row));
+        }
+    }
+}
+
+struct Rival {
+    std::string note;
+    std::map<std::string, Origin> rows;
+};
+
+struct Collected {
+    std::map<std::string, Origin> rows;
+    std::map<std::string, Rival> rivals;
+    std::optional<Placement> placement;
+    Effects off;
+    std::string note;
+    std::string text;
+};
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+void read_rivals(const toml::node& node, Collected& into) {
+    const toml::table* sets = node.as_table();
+    if (sets == nullptr) {
+        reject(node, "expected [set.NAME]");
+    }
+    for (const auto& [name, entry] : *sets) {
+        const toml::table* set = entry.as_table();
+        if (set == nullptr) {
+            reject(entry, "expected [set.NAME]");
+        }
+        Rival rival;
+        rival.note = text_of(*set, "note");
+        read_sections(*set, rival.rows);
+        into.rivals.insert_or_assign(std::string(name.str()), std::move(rival));
+    }
+}
+
+void collect(const std::filesystem::path& folder, const std::string& name, std::set<std::string>& seen,
+             Collected& into) {
+    const std::filesystem::path file = folder / (name + ".toml");
+    if (!seen.insert(name).second) {
+        throw Failure(Exit::bad_input, file.string() + ": is based on itself");
+    }
+    const std::string text = read_text(file);
+    toml::table table;
+    try {
+        table = toml::parse(text, file.string());
+    } catch (const toml::parse_error& error) {
+        throw Failure(Exit::bad_input, file.string() + ":" + std::to_string(error.source().begin.line) + ": " +
+                                           std::string(error.description()));
+    }
+    into.text += text;
+    if (const toml::node* base = table.get("base")) {
+        const auto base_name = base->value<std::string>();
+        if (!base_name || !std::filesystem::exists(folder / (*base_name + ".toml"))) {
+            reject(*base, "base: no such core file in " + folder.string());
+        }
+        collect(folder, *base_name, seen, into);
+    }
+    for (const auto& [key, node] : table) {
+        const std::string word(key.str());
+        if (word == "base") {
+            continue;
+        }
+        if (word == "note") {
+            into.note = text_of(table, "note");
+        } else if (word == "placement") {
+            const toml::table* placement = node.as_table();
+            if (placement == nullptr) {
+                reject(node, "expected placement = { code = \"..\", data = \"..\" }");
+            }
+            into.placement = {code_place_named(text_of(*placement, "code")),
+                              data_place_named(text_of(*placement, "data"))};
+        } else if (word == "effects_off") {
+            const toml::array* names = node.as_array();
+            if (names == nullptr) {
+                reject(node, "expected effects_off = [\"..\"]");
+            }
+            for (const toml::node& one : *names) {
+                const auto effect = effect_named(one.value_or(std::string()));
+                if (!effect) {
+                    reject(one, "effects_off: no such effect: " + one.value_or(std::string("?")));
+                }
+                into.off.set(index(*effect));
+            }
+        } else if (word == "rows") {
+            if (node.as_table() == nullptr) {
+                reject(node, "expected [rows.SECTION]");
+            }
+            read_sections(*node.as_table(), into.rows);
+        } else if (word == "set") {
+            read_rivals(node, into);
+        } else {
+            reject(node, word + ": no such key; expected base, note, placement, effects_off, rows, set");
+        }
+    }
+}
+
+}  // namespace
+
+CodePlace code_place_named(const std::string& name) {
+    if (name == "itcm" || name == "flash" || name == "axi") {
+        return name == "itcm" ? CodePlace::itcm : name == "flash" ? CodePlace::flash : CodePlace::axi;
+    }
+    throw Failure(Exit::bad_input, "code: expected itcm, flash or axi, found " + name);
+}
+DataPlace data_place_named(const std::string& name) {
+    if (name == "dtcm" || name == "axi") {
+        return name == "dtcm" ? DataPlace::dtcm : DataPlace::axi;
+    }
+    throw Failure(Exit::bad_input, "data: expected dtcm or axi, found " + name);
+}
+std::string name_of(CodePlace place) {
+    return place == CodePlace::itcm ? "itcm" : place == CodePlace::flash ? "flash" : "axi";
+}
+std::string name_of(DataPlace place) { return place == DataPlace::dtcm ? "dtcm" : "axi"; }
+
+std::vector<std::string> core_names(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    std::error_code none;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, none)) {
+        const std::string stem = entry.path().stem().string();
+        if (entry.path().extension() == ".toml" && !stem.starts_with("_")) {
+            names.push_back(stem);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+CoreFile read_core(const std::filesystem::path& folder, const std::string& name) {
+    const std::filesystem::path file = folder / (name + ".toml");
+    if (!std::filesystem::exists(file) || name.starts_with("_")) {
+        std::string known;
+        for (const std::string& one : core_names(folder)) {
+            known += " " + one;
+        }
+        throw Failure(Exit::bad_input, name + ": no such core in " + folder.string() + "; expected one of" + known);
+    }
+    Collected collected;
+    std::set<std::string> seen;
+    collect(folder, name, seen, collected);
+    CoreFile core;
+    core.name = name;
+    core.note = collected.note;
+    core.off = collected.off;
+    core.text = collected.text;
+    if (!collected.placement) {
+        throw Failure(Exit::bad_input, file.string() + ": expected placement = { code = \"..\", data = \"..\" }");
+    }
+    core.placement = *collected.placement;
+    core.sets.push_back({"nominal", "", {}});
+    for (const Key& key : keys) {
+        const auto row = collected.rows.find(key.name);
+        if (row == collected.rows.end()) {
+            throw Failure(Exit::bad_input, file.string() + ": expected the row " + key.name);
+        }
+        core.sets[0].figures.*key.figure = row->second.value;
+        core.origins.push_back(row->second);
+    }
+    for (const auto& [rival_name, rival] : collected.rivals) {
+        RuleSet set{rival_name, rival.note, core.sets[0].figures};
+        for (const auto& [key, row] : rival.rows) {
+            set.figures.*find_key(key)->figure = row.value;
+        }
+        core.sets.push_back(set);
+    }
+    return core;
+}
+
+}  // namespace timing

@@ -1,0 +1,80 @@
+// Core files: every figure of a modelled core, with its source and how far it may be trusted.
+#pragma once
+
+#include <array>
+#include <bitset>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "qemu/timing/effects.hpp"
+
+namespace timing {
+
+/// The figures, named <section>_<name> as in rows.def.
+struct Figures {
+#define ROW(section, name) std::int64_t section##_##name = 0;
+#include "qemu/timing/rows.def"
+#undef ROW
+};
+
+/// How a figure is known.
+enum class Mark : std::uint8_t {
+    measured,    ///< read on silicon by the named author
+    documented,  ///< in a manual or in another's model of the core
+    fitted,      ///< chosen so that the model meets the named measured rows
+    assumed,     ///< nothing says so; chosen as plausible
+};
+
+/// A figure's origin.
+struct Origin {
+    std::string key;  ///< "section.name"
+    std::int64_t value;
+    Mark mark;
+    std::string source;
+    std::string file;
+    unsigned line;
+};
+
+enum class CodePlace : std::uint8_t { itcm, flash, axi };
+enum class DataPlace : std::uint8_t { dtcm, axi };
+
+struct Placement {
+    CodePlace code = CodePlace::itcm;
+    DataPlace data = DataPlace::dtcm;
+};
+/// \throws glsum::Failure (bad input) for other words than the contract's
+[[nodiscard]] CodePlace code_place_named(const std::string& name);
+[[nodiscard]] DataPlace data_place_named(const std::string& name);
+[[nodiscard]] std::string name_of(CodePlace place);
+[[nodiscard]] std::string name_of(DataPlace place);
+
+using Effects = std::bitset<effect_count>;
+
+/// One set of rules: the nominal one, or a rival that fits silicon as well.
+struct RuleSet {
+    std::string name;  ///< "nominal", or the rival's
+    std::string note;
+    Figures figures;
+};
+
+struct CoreFile {
+    std::string name;
+    std::string note;
+    Placement placement;
+    Effects off;                 ///< effects that cost nothing in this core
+    std::vector<RuleSet> sets;   ///< the nominal one first
+    std::vector<Origin> origins; ///< of the nominal set, in the order of rows.def
+    std::string text;            ///< of all files that it was read from, for its hash
+};
+
+/// Reads `<folder>/<name>.toml`, and what it is based on.
+/// \throws glsum::Failure: bad input, with file and line, for a damaged file, a missing or unknown key, an effect that
+///         does not exist; missing (with the names that exist) when there is no such core
+[[nodiscard]] CoreFile read_core(const std::filesystem::path& folder, const std::string& name);
+
+/// The cores that a folder holds, sorted. Files that begin with an underscore are only for others to be based on.
+[[nodiscard]] std::vector<std::string> core_names(const std::filesystem::path& folder);
+
+}  // namespace timing

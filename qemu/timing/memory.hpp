@@ -1,0 +1,54 @@
+// Where an address lies in the modelled chip, and how long its memory takes.
+#pragma once
+
+#include <cstdint>
+
+#include "qemu/timing/cache.hpp"
+#include "qemu/timing/core_file.hpp"
+#include "qemu/timing/effects.hpp"
+
+namespace timing {
+
+/// Extra cycles of one access, and why.
+struct Delay {
+    std::int64_t cycles = 0;
+    Effect effect = Effect::dcache_misses;
+};
+
+class Memory {
+public:
+    Memory(const Figures& figures, Placement placement);
+
+    /// Extra cycles before the bytes of one fetch are there. \param address of its first byte
+    Delay fetch(std::uint32_t address);
+    /// Extra cycles of a load, from the line that holds its first byte.
+    Delay load(std::uint32_t address);
+    /// Extra cycles that a store takes to leave the store buffer.
+    Delay store(std::uint32_t address);
+
+    /// Whether loads of this address come from two banks of 32 bits: DTCM and the data cache.
+    [[nodiscard]] bool has_banks(std::uint32_t address) const;
+    [[nodiscard]] bool in_dtcm(std::uint32_t address) const {
+        return is_data(address) && placement_.data == DataPlace::dtcm;
+    }
+
+    /// A read of the flash, in core cycles, the bus included. Exposed for the README's tables.
+    [[nodiscard]] std::int64_t flash_wait_states() const { return wait_states_; }
+
+private:
+    static bool is_data(std::uint32_t address) { return address >= 0x20000000U; }
+    [[nodiscard]] Delay read_flash(std::uint32_t address, bool fetch);
+    [[nodiscard]] std::int64_t sram_line() const;
+
+    const Figures& figures_;
+    Placement placement_;
+    Cache instructions_;
+    Cache data_;
+    Cache accelerator_;
+    std::int64_t wait_states_;
+    std::uint32_t open_fetch_line_ = 0xFFFFFFFFU;  // what the flash read last
+    std::uint32_t open_data_line_ = 0xFFFFFFFFU;
+    std::uint32_t prefetched_line_ = 0xFFFFFFFFU;
+};
+
+}  // namespace timing

@@ -1,0 +1,49 @@
+#include "qemu/timing/predictor.hpp"
+
+#include <algorithm>
+
+namespace timing {
+
+Predictor::Predictor(std::int64_t entries)
+    : entries_(static_cast<std::size_t>(std::max<std::int64_t>(1, entries / static_cast<std::int64_t>(ways))) * ways) {}
+
+Prediction Predictor::meet(const Decoded& branch, std::uint32_t address, std::uint32_t next) {
+    const bool taken = next != address + branch.bytes;
+    Entry* const first = &entries_[(address >> 1) % (entries_.size() / ways) * ways];
+    Entry* const found = std::find_if(first, first + ways, [&](const Entry& one) { return one.address == address; });
+    const bool known = found != first + ways;
+    if (known || taken) {
+        std::rotate(first, known ? found : first + ways - 1, (known ? found : first + ways - 1) + 1);
+    }
+    Entry& entry = *first;
+    const bool conditional = branch.branch == Branch::conditional || branch.in_it_block;
+    const bool indirect = branch.branch == Branch::indirect || branch.branch == Branch::back;
+
+    Prediction prediction = Prediction::right;
+    if (known) {
+        const bool says_taken = !conditional || entry.confidence >= 2;
+        if (says_taken != taken || (taken && entry.target != next)) {
+            prediction = Prediction::wrong;
+        }
+    } else if (indirect && taken) {
+        prediction = Prediction::wrong;
+    } else if (taken) {
+        // The static rule: backward branches are taken, forward ones are not.
+        const bool guessed = !conditional || next < address;
+        prediction = guessed ? Prediction::right_without_entry : Prediction::wrong;
+    } else if (conditional && !taken) {
+        prediction = Prediction::right;
+    }
+
+    if (known) {
+        entry.confidence = std::clamp(entry.confidence + (taken ? 1 : -1), 0, 3);
+        if (taken) {
+            entry.target = next;
+        }
+    } else if (taken) {
+        entry = {address, next, 2};
+    }
+    return prediction;
+}
+
+}  // namespace timing

@@ -1,0 +1,191 @@
+#include "qemu/timing/timing_log.hpp"
+
+#include <istream>
+#include <ostream>
+#include <sstream>
+#include <stdexcept>
+
+#include "qemu/failure.hpp"
+
+namespace timing {
+namespace {
+
+bool same(const TimedCall& a, const TimedCall& b) {
+    if (a.entry != b.entry || a.instructions != b.instructions || a.cores.size() != b.cores.size()) {
+        return false;
+    }
+    for (std::size_t c = 0; c < a.cores.size(); ++c) {
+        if (a.cores[c].half_cycles != b.cores[c].half_cycles || a.cores[c].losses != b.cores[c].losses) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
+void TimingLogWriter::add(const TimedCall& call) {
+    if (run_.calls > 0 && !same(run_.call, call)) {
+        write_run();
+    }
+    if (run_.calls == 0) {
+        run_.call = call;
+    }
+    ++run_.calls;
+}
+
+void TimingLogWriter::write_run() {
+    out_ << "calls " << run_.calls << ' ' << run_.call.entry << ' ' << run_.call.instructions;
+    for (const CoreTime& core : run_.call.cores) {
+        out_ << " core " << core.half_cycles.size();
+        for (const std::int64_t half_cycles : core.half_cycles) {
+            out_ << ' ' << half_cycles;
+        }
+        for (const std::int64_t loss : core.losses) {
+            out_ << ' ' << loss;
+        }
+    }
+    out_ << '\n';
+    run_ = {};
+}
+
+void TimingLogWriter::finish(const CallTimer& timer) {
+    if (run_.calls > 0) {
+        write_run();
+    }
+    const auto hot = timer.hot();
+    for (std::size_t c = 0; c < hot.size(); ++c) {
+        for (const auto& [address, half_cycles] : hot[c]) {
+            out_ << "hot " << c << ' ' << address << ' ' << half_cycles << '\n';
+        }
+    }
+    for (const auto& [address, times] : timer.unknown()) {
+        out_ << "unknown " << address << ' ' << times << '\n';
+    }
+    if (timer.recursive()) {
+        out_ << "recursive\n";
+    }
+    if (timer.inside()) {
+        out_ << "unfinished\n";
+    }
+    out_ << "end\n";
+}
+
+TimingLog read_timing_log(std::istream& in) {
+    TimingLog log;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        words >> kind;
+        if (kind == "calls") {
+            TimedRun run;
+            words >> run.calls >> run.call.entry >> run.call.instructions;
+            std::size_t sets = 0;
+            for (std::string word; words >> word >> sets;) {
+                CoreTime core;
+                core.half_cycles.resize(std::min<std::size_t>(sets, 1000));
+                for (std::int64_t& half_cycles : core.half_cycles) {
+                    words >> half_cycles;
+                }
+                for (std::int64_t& loss : core.losses) {
+                    words >> loss;
+                }
+                if (!words || word != "core") {
+                    throw std::runtime_error("timing log: damaged line: " + line);
+                }
+                run.call.cores.push_back(std::move(core));
+            }
+            log.runs.push_back(std::move(run));
+        } else if (kind == "hot") {
+            std::size_t core = 0;
+            std::uint32_t address = 0;
+            std::int64_t half_cycles = 0;
+            if (!(words >> core >> address >> half_cycles) || core > 1000) {
+                throw std::runtime_error("timing log: damaged line: " + line);
+            }
+            log.hot.resize(std::max(log.hot.size(), core + 1));
+            log.hot[core][address] = half_cycles;
+        } else if (kind == "unknown") {
+            std::uint32_t address = 0;
+            words >> address;
+            words >> log.unknown[address];
+        } else if (kind == "recursive") {
+            log.recursive = true;
+        } else if (kind == "unfinished") {
+            log.unfinished = true;
+        } else if (kind == "end") {
+            return log;
+        } else {
+            throw std::runtime_error("timing log: " + line);
+        }
+    }
+    throw std::runtime_error("timing log: cut short: the emulator ended before it was written");
+}
+
+void write_timing_request(std::ostream& out, const TimingRequest& request) {
+    out << "folder " << request.cores_folder << '\n';
+    for (const auto& core : request.cores) {
+        out << "core " << core.name << ' ' << (core.code.empty() ? "-" : core.code) << ' '
+            << (core.data.empty() ? "-" : core.data) << ' ' << core.instruction_cache << '\n';
+    }
+    for (const std::string& effect : request.without) {
+        out << "without " << effect << '\n';
+    }
+}
+
+TimingRequest read_timing_request(std::istream& in) {
+    TimingRequest request;
+    for (std::string line; std::getline(in, line);) {
+        std::istringstream words(line);
+        std::string kind;
+        words >> kind;
+        if (kind == "folder") {
+            std::getline(words >> std::ws, request.cores_folder);
+        } else if (kind == "core") {
+            TimingRequest::Core core;
+            words >> core.name >> core.code >> core.data >> core.instruction_cache;
+            core.code = core.code == "-" ? "" : core.code;
+            core.data = core.data == "-" ? "" : core.data;
+            request.cores.push_back(core);
+        } else if (kind == "without") {
+            words >> request.without.emplace_back();
+        }
+    }
+    return request;
+}
+
+std::vector<CoreFile> cores_of(const TimingRequest& request) {
+    Effects off;
+    for (const std::string& name : request.without) {
+        const auto effect = effect_named(name);
+        if (!effect) {
+            std::string known;
+            for (const std::string_view one : effect_names) {
+                known += " " + std::string(one);
+            }
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 name + ": no such effect of the model; expected one of" + known);
+        }
+        off.set(index(*effect));
+    }
+    std::vector<CoreFile> cores;
+    for (const auto& wanted : request.cores) {
+        CoreFile core = read_core(request.cores_folder, wanted.name);
+        core.off |= off;
+        if (!wanted.code.empty()) {
+            core.placement.code = code_place_named(wanted.code);
+        }
+        if (!wanted.data.empty()) {
+            core.placement.data = data_place_named(wanted.data);
+        }
+        if (!wanted.instruction_cache) {
+            for (RuleSet& set : core.sets) {
+                set.figures.cache_instruction_bytes = 0;
+            }
+        }
+        cores.push_back(std::move(core));
+    }
+    return cores;
+}
+
+}  // namespace timing

@@ -1,0 +1,178 @@
+// Where a call begins and ends, and what it is made of.
+#include "qemu/timing/call_timer.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <sstream>
+
+#include "probe.hpp"
+#include "qemu/timing/timing_log.hpp"
+
+namespace {
+
+// Executes instructions at fixed places, on the ideal core: half a cycle each.
+class Program {
+public:
+    explicit Program(const char* core = "m7-ideal", std::set<std::uint32_t> entries = {0x100})
+        : timer_(std::move(entries), {timing::read_core(TEST_CORES, core)},
+                 [this](const timing::TimedCall& call) { calls.push_back(call); }) {}
+    void run(std::uint32_t address, std::uint32_t encoding, std::uint8_t bytes) {
+        const auto index = static_cast<std::uint32_t>(known_.size());
+        timer_.executes(known_.try_emplace(address, qemu::Instruction{address, encoding, bytes, index}).first->second);
+    }
+    void call(std::uint32_t from) { run(from, 0xF000F876, 4); }
+    void add(std::uint32_t address) { run(address, 0x3001, 2); }
+    void jump(std::uint32_t address) { run(address, 0xE07E, 2); }
+    void give_back(std::uint32_t address) { run(address, 0x4770, 2); }
+    timing::CallTimer& finish() {
+        timer_.finish();
+        return timer_;
+    }
+    std::vector<timing::TimedCall> calls;
+
+private:
+    timing::CallTimer timer_;
+    std::map<std::uint32_t, qemu::Instruction> known_;
+};
+
+TEST(CallTimer, ACallLastsFromItsFirstInstructionToTheFirstOneBehindIt) {
+    Program p;
+    p.add(0xE);
+    p.call(0x10);
+    p.add(0x100);
+    p.add(0x102);
+    p.give_back(0x104);
+    p.add(0x14);
+    p.add(0x16);
+    p.finish();
+    ASSERT_EQ(p.calls.size(), 1U);
+    EXPECT_EQ(p.calls[0].instructions, 3U);
+    EXPECT_EQ(p.calls[0].cores[0].half_cycles[0], 3);
+}
+
+TEST(CallTimer, CalleesCountAndTailCallsEndWhereControlReturnsToTheCaller) {
+    Program p;
+    p.call(0x10);
+    p.add(0x100);
+    p.call(0x102);  // a callee
+    p.add(0x200);
+    p.give_back(0x202);
+    p.jump(0x106);  // a tail call
+    p.add(0x300);
+    p.add(0x302);
+    p.give_back(0x304);
+    p.add(0x14);
+    p.finish();
+    ASSERT_EQ(p.calls.size(), 1U);
+    EXPECT_EQ(p.calls[0].instructions, 8U);
+}
+
+TEST(CallTimer, AFunctionThatIsEnteredByATailCallEndsInTheCallersCaller) {
+    Program p;
+    p.call(0x10);
+    p.add(0x200);
+    p.jump(0x202);
+    p.add(0x100);
+    p.give_back(0x102);
+    p.add(0x14);
+    p.finish();
+    ASSERT_EQ(p.calls.size(), 1U);
+    EXPECT_EQ(p.calls[0].instructions, 2U);
+}
+
+TEST(CallTimer, ALoopToTheEntryIsNoCallAndRecursionIsToldAndCountsOnce) {
+    Program p;
+    p.call(0x10);
+    p.add(0x100);
+    p.jump(0x102);
+    p.add(0x100);  // a loop
+    p.jump(0x102);
+    EXPECT_FALSE(p.finish().recursive());
+    Program r;
+    r.call(0x10);
+    r.add(0x100);
+    r.call(0x102);
+    r.add(0x100);
+    r.give_back(0x106);
+    r.give_back(0x106);
+    r.add(0x14);
+    EXPECT_TRUE(r.finish().recursive());
+    ASSERT_EQ(r.calls.size(), 1U);
+    EXPECT_EQ(r.calls[0].instructions, 5U);
+}
+
+TEST(CallTimer, ACallThatDoesNotReturnIsTold) {
+    Program p;
+    p.call(0x10);
+    p.add(0x100);
+    EXPECT_TRUE(p.finish().inside());
+    EXPECT_TRUE(p.calls.empty());
+}
+
+TEST(CallTimer, AnUnknownEncodingIsCountedWithItsAddress) {
+    Program p("stm32f746-itcm");
+    p.call(0x10);
+    p.run(0x100, 0xFFFFFFFF, 4);
+    p.run(0x100, 0xFFFFFFFF, 4);
+    p.give_back(0x104);
+    p.add(0x14);
+    EXPECT_EQ(p.finish().unknown(), (std::map<std::uint32_t, std::uint64_t>{{0x100, 2}}));
+}
+
+TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
+    Program p("stm32f746-flash");
+    for (int i = 0; i < 3; ++i) {
+        p.call(0x10);
+        p.run(0x100, 0x4348, 2);      // muls r0, r1
+        p.run(0x102, 0x4348, 2);      // again: waits
+        p.run(0x104, 0xFBB0F0F1, 4);  // udiv r0, r0, r1
+        p.give_back(0x108);
+        p.add(0x14);
+    }
+    const auto hot = p.finish().hot();
+    ASSERT_EQ(p.calls.size(), 3U);
+    std::int64_t total = 0;
+    for (const timing::TimedCall& call : p.calls) {
+        const auto& losses = call.cores[0].losses;
+        EXPECT_EQ(call.cores[0].half_cycles[0],
+                  4 + std::accumulate(losses.begin(), losses.end(), std::int64_t{0}));
+        total += call.cores[0].half_cycles[0];
+    }
+    EXPECT_GT(p.calls[0].cores[0].losses[timing::index(timing::Effect::mac_latency)], 0);
+    EXPECT_EQ(std::accumulate(hot[0].begin(), hot[0].end(), std::int64_t{0},
+                              [](std::int64_t sum, const auto& row) { return sum + row.second; }),
+              total);
+}
+
+TEST(TimingLog, IsReadAsItWasWrittenAndACutIsSeen) {
+    Program p("stm32f746-flash");
+    for (int i = 0; i < 3; ++i) {
+        p.call(0x10);
+        p.run(0x100, 0xFFFFFFFF, 4);
+        p.give_back(0x104);
+        p.add(0x14);
+    }
+    const timing::CallTimer& timer = p.finish();
+    std::stringstream text;
+    timing::TimingLogWriter writer(text);
+    for (const auto& call : p.calls) {
+        writer.add(call);
+    }
+    writer.finish(timer);
+    const timing::TimingLog log = timing::read_timing_log(text);
+    std::uint64_t calls = 0;
+    for (const auto& run : log.runs) {
+        calls += run.calls;
+    }
+    EXPECT_EQ(calls, 3U);
+    EXPECT_EQ(log.runs[0].call.cores[0].half_cycles, p.calls[0].cores[0].half_cycles);
+    EXPECT_EQ(log.runs[0].call.cores[0].losses, p.calls[0].cores[0].losses);
+    EXPECT_EQ(log.unknown.at(0x100), 3U);
+    EXPECT_FALSE(log.recursive);
+    const std::string whole = text.str();
+    std::istringstream cut(whole.substr(0, whole.size() - 4));
+    EXPECT_THROW((void)timing::read_timing_log(cut), std::runtime_error);
+}
+
+}  // namespace

@@ -1,0 +1,122 @@
+// Core files: those of the repository are whole, and damaged ones are told apart with file and line.
+#include "qemu/timing/core_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "qemu/failure.hpp"
+#include "qemu/scratch.hpp"
+#include "qemu/timing/timing_log.hpp"
+
+namespace {
+
+const std::filesystem::path cores(TEST_CORES);
+
+TEST(CoreFile, TheNamedCoresAreThere) {
+    EXPECT_EQ(timing::core_names(cores),
+              (std::vector<std::string>{"m7-ideal", "stm32f746-flash", "stm32f746-flash-nocache", "stm32f746-itcm",
+                                        "stm32h747-axi", "stm32h747-dtcm"}));
+    for (const std::string& name : timing::core_names(cores)) {
+        const timing::CoreFile core = timing::read_core(cores, name);
+        EXPECT_GE(core.sets.size(), 2U) << name;
+        EXPECT_EQ(core.sets[0].name, "nominal");
+        for (const timing::Origin& origin : core.origins) {
+            EXPECT_FALSE(origin.source.empty()) << origin.key;
+            if (origin.mark == timing::Mark::fitted) {  // on which rows?
+                EXPECT_NE(origin.source.find("H747 rows"), std::string::npos) << origin.key;
+            }
+        }
+    }
+}
+
+TEST(CoreFile, OnlyTheIdealCoreHasEverythingOff) {
+    EXPECT_TRUE(timing::read_core(cores, "m7-ideal").off.all());
+    EXPECT_TRUE(timing::read_core(cores, "stm32f746-itcm").off.none());
+}
+
+// Changes the text of a copy of the cores and reads one of them.
+std::string message_after(const std::string& file, const std::string& from, const std::string& to) {
+    const qemu::Scratch scratch;
+    const auto folder = scratch.file("cores");
+    std::filesystem::copy(cores, folder);
+    std::ostringstream text;
+    text << std::ifstream(folder / file).rdbuf();
+    std::string changed = text.str();
+    const auto at = changed.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    changed.replace(at, from.size(), to);
+    std::ofstream(folder / file) << changed;
+    try {
+        (void)timing::read_core(folder, "stm32f746-itcm");
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        return failure.what();
+    }
+    return "";
+}
+
+TEST(CoreFile, DamageIsNamedWithFileAndLine) {
+    const std::string base = "_cortex-m7.toml";
+    EXPECT_EQ(message_after(base, "# ", "# "), "");
+    EXPECT_NE(message_after(base, "two_loads_pair", "three_loads_pair").find("issue.three_loads_pair: no such row"),
+              std::string::npos);
+    EXPECT_NE(message_after(base, "two_loads_pair = { value = 1", "two_loads_pair = { value = true")
+                  .find("issue.two_loads_pair: expected value = a whole number"),
+              std::string::npos);
+    EXPECT_NE(message_after(base, "two_loads_pair = { value = 1", "two_loads_pair = { value = -1").find("at least 0"),
+              std::string::npos);
+    EXPECT_NE(message_after(base, "mark = \"measured\"", "mark = \"guessed\"").find("expected a mark"),
+              std::string::npos);
+    EXPECT_NE(message_after(base, "[rows.read]", "[rows.reads]").find("reads.accumulator: no such row"),
+              std::string::npos);
+    EXPECT_NE(message_after(base, "[rows.read]", "[rows.read").find("_cortex-m7.toml:"), std::string::npos);
+    EXPECT_NE(message_after(base, "store_data = ", "# ").find("expected the row read.store_data"), std::string::npos);
+    EXPECT_NE(message_after("stm32f746-itcm.toml", "base = \"_stm32f746\"", "base = \"_none\"").find(":1: base"),
+              std::string::npos);
+    EXPECT_NE(message_after("stm32f746-itcm.toml", "\"dtcm\"", "\"tcm\"").find("expected dtcm or axi, found tcm"),
+              std::string::npos);
+    EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "notes").find("notes: no such key"), std::string::npos);
+    EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "effects_off = [\"friction\"]\nnote").find("no such effect: friction"),
+              std::string::npos);
+}
+
+TEST(CoreFile, ACoreOrEffectThatDoesNotExistIsNamedWithThoseThatDo) {
+    try {
+        (void)timing::read_core(cores, "m8");
+        FAIL();
+    } catch (const glsum::Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("m7-ideal"), std::string::npos);
+    }
+    timing::TimingRequest request;
+    request.cores_folder = cores.string();
+    request.cores = {{"m7-ideal", "", ""}};
+    request.without = {"backlash"};
+    EXPECT_THROW((void)timing::cores_of(request), glsum::Failure);
+    request.without = {"load_use"};
+    request.cores = {{"stm32f746-itcm", "flash", "axi"}};
+    const auto changed = timing::cores_of(request);
+    EXPECT_TRUE(changed[0].off[timing::index(timing::Effect::load_use)]);
+    EXPECT_EQ(changed[0].placement.code, timing::CodePlace::flash);
+    EXPECT_EQ(changed[0].placement.data, timing::DataPlace::axi);
+}
+
+TEST(TimingRequest, IsReadAsItWasWritten) {
+    timing::TimingRequest request;
+    request.cores_folder = "/a folder/cores";
+    request.cores = {{"one", "itcm", ""}, {"two", "", "axi", false}};
+    request.without = {"load_use", "single_issue"};
+    std::stringstream text;
+    timing::write_timing_request(text, request);
+    const timing::TimingRequest read = timing::read_timing_request(text);
+    EXPECT_EQ(read.cores_folder, request.cores_folder);
+    ASSERT_EQ(read.cores.size(), 2U);
+    EXPECT_EQ(read.cores[0].code, "itcm");
+    EXPECT_EQ(read.cores[0].data, "");
+    EXPECT_TRUE(read.cores[0].instruction_cache);
+    EXPECT_FALSE(read.cores[1].instruction_cache);
+    EXPECT_EQ(read.without, request.without);
+}
+
+}  // namespace

@@ -1,0 +1,226 @@
+// What the decoder says of single instructions: written by hand, one a row. The assembler encodes them.
+#include "qemu/timing/decode.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "listing.hpp"
+
+namespace {
+
+using timing::Kind;
+
+std::string name_of(unsigned reg) {
+    if (reg >= timing::registers::flags) {
+        return reg == timing::registers::flags ? "nzcv" : reg == timing::registers::ge ? "ge" : "fpscr";
+    }
+    return reg >= timing::registers::s0 ? "s" + std::to_string(reg - timing::registers::s0)
+           : reg == 13                  ? "sp"
+           : reg == 14                  ? "lr"
+           : reg == 15                  ? "pc"
+                                        : "r" + std::to_string(reg);
+}
+
+// "=r0" is a result, "<r0" a loaded value, "!r0" a written-back base; o operand, s shifted, @ address, * multiplicand,
+// + accumulator, d store data, ? condition.
+std::set<std::string> words_of(const timing::Decoded& d) {
+    std::set<std::string> words;
+    for (int i = 0; i < d.write_count; ++i) {
+        words.insert(std::string(1, "=<!="[static_cast<int>(d.writes[i].source)]) + name_of(d.writes[i].reg));
+    }
+    for (int i = 0; i < d.read_count; ++i) {
+        words.insert(std::string(1, "os@*+d?"[static_cast<int>(d.reads[i].role)]) + name_of(d.reads[i].reg));
+    }
+    return words;
+}
+std::set<std::string> split(const std::string& text) {
+    std::set<std::string> words;
+    std::size_t at = 0;
+    while (at < text.size()) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        words.insert(text.substr(at, end - at));
+        at = end + 1;
+    }
+    return words;
+}
+
+struct Row {
+    const char* text;
+    Kind kind;
+    const char* words;
+};
+
+constexpr Row rows[] = {
+    // 16 bits
+    {"adds r0, r1, r2", Kind::add, "=r0 =nzcv or1 or2"},
+    {"adds r0, #1", Kind::add, "=r0 =nzcv or0"},
+    {"movs r0, #1", Kind::add, "=r0 =nzcv"},
+    {"mov r8, r1", Kind::add, "=r8 or1"},
+    {"cmp r0, #1", Kind::add, "=nzcv or0"},
+    {"lsls r0, r1, #2", Kind::shift, "=r0 =nzcv or1"},
+    {"ands r0, r1", Kind::logic, "=r0 =nzcv or0 or1"},
+    {"adcs r0, r1", Kind::logic, "=r0 =nzcv or0 or1 ?nzcv"},
+    {"muls r0, r1, r0", Kind::multiply, "=r0 =nzcv *r0 *r1"},
+    {"uxtb r0, r1", Kind::bitfield, "=r0 or1"},
+    {"rev r0, r1", Kind::bitfield, "=r0 sr1"},
+    {"ldr r0, [r1, #4]", Kind::load, "<r0 @r1"},
+    {"ldrb r0, [r1, r2]", Kind::load, "<r0 @r1 @r2"},
+    {"str r0, [r1, r2]", Kind::store, "dr0 @r1 @r2"},
+    {"strh r0, [r1, #2]", Kind::store, "dr0 @r1"},
+    {"push {r4, lr}", Kind::store_multiple, "dr4 dlr @sp !sp"},
+    {"pop {r4, pc}", Kind::load_multiple, "<r4 <pc @sp !sp"},
+    {"stmia r0!, {r1, r2}", Kind::store_multiple, "dr1 dr2 @r0 !r0"},
+    {"ldmia r0!, {r1, r2}", Kind::load_multiple, "<r1 <r2 @r0 !r0"},
+    {"ldmia r0, {r0, r1}", Kind::load_multiple, "<r0 <r1 @r0"},
+    {"bx lr", Kind::branch, "@lr"},
+    {"blx r3", Kind::branch, "=lr @r3"},
+    {"cbz r0, .+8", Kind::branch, "or0"},
+    {"nop", Kind::hint, ""},
+    {"bkpt 0xab", Kind::system, ""},
+    {"sub sp, #8", Kind::add, "=sp osp"},
+    // 32 bits
+    {"add.w r8, r1, r2", Kind::add, "=r8 or1 or2"},
+    {"add.w r8, r1, r2, lsl #3", Kind::logic, "=r8 or1 sr2"},
+    {"adds.w r8, r1, #255", Kind::add, "=r8 =nzcv or1"},
+    {"eor.w r0, r1, r2", Kind::logic, "=r0 or1 or2"},
+    {"lsl.w r0, r1, #3", Kind::shift, "=r0 or1"},
+    {"lsl.w r0, r1, r2", Kind::shift, "=r0 or1 or2"},
+    {"rrx r0, r1", Kind::shift, "=r0 or1 ?nzcv"},
+    {"mvn.w r0, r1", Kind::logic, "=r0 or1"},
+    {"tst.w r0, r1", Kind::logic, "=nzcv or0 or1"},
+    {"movw r0, #1234", Kind::add, "=r0"},
+    {"movt r0, #1234", Kind::logic, "=r0 or0"},
+    {"ubfx r0, r1, #2, #3", Kind::bitfield, "=r0 sr1"},
+    {"bfi r0, r1, #2, #3", Kind::bitfield, "=r0 or0 sr1"},
+    {"bfc r0, #2, #3", Kind::bitfield, "=r0 or0"},
+    {"ssat r0, #31, r1", Kind::bitfield, "=r0 sr1"},
+    {"usat16 r0, #7, r1", Kind::bitfield, "=r0 sr1"},
+    {"pkhbt r0, r1, r2, lsl #16", Kind::bitfield, "=r0 or1 sr2"},
+    {"sxtah r0, r1, r2", Kind::bitfield, "=r0 or1 sr2"},
+    {"sadd16 r0, r1, r2", Kind::bitfield, "=r0 =ge or1 or2"},
+    {"uqadd8 r0, r1, r2", Kind::bitfield, "=r0 or1 or2"},
+    {"sel r0, r1, r2", Kind::bitfield, "=r0 or1 or2 ?ge"},
+    {"qadd r0, r1, r2", Kind::bitfield, "=r0 or1 or2"},
+    {"clz r0, r1", Kind::bitfield, "=r0 or1"},
+    {"mla r0, r1, r2, r3", Kind::multiply, "=r0 *r1 *r2 +r3"},
+    {"smmlar r0, r1, r2, r3", Kind::multiply, "=r0 *r1 *r2 +r3"},
+    {"smlad r0, r1, r2, r3", Kind::multiply, "=r0 *r1 *r2 +r3"},
+    {"smuad r0, r1, r2", Kind::multiply, "=r0 *r1 *r2"},
+    {"smlatb r0, r1, r2, r3", Kind::multiply, "=r0 *r1 *r2 +r3"},
+    {"smull r0, r1, r2, r3", Kind::multiply, "=r0 =r1 *r2 *r3"},
+    {"smlal r0, r1, r2, r3", Kind::multiply, "=r0 =r1 *r2 *r3 +r0 +r1"},
+    {"smlaldx r0, r1, r2, r3", Kind::multiply, "=r0 =r1 *r2 *r3 +r0 +r1"},
+    {"umaal r0, r1, r2, r3", Kind::multiply, "=r0 =r1 *r2 *r3 +r0 +r1"},
+    {"usada8 r0, r1, r2, r3", Kind::multiply, "=r0 *r1 *r2 +r3"},
+    {"udiv r0, r1, r2", Kind::divide, "=r0 *r1 *r2"},
+    {"ldr.w r0, [r1, #1024]", Kind::load, "<r0 @r1"},
+    {"ldr r0, [r1], #4", Kind::load, "<r0 @r1 !r1"},
+    {"ldr r0, [r1, #-4]!", Kind::load, "<r0 @r1 !r1"},
+    {"ldr.w r0, [r1, r2, lsl #2]", Kind::load, "<r0 @r1 @r2"},
+    {"ldrsb.w r0, [r1, #9]", Kind::load, "<r0 @r1"},
+    {"str r0, [r1], #4", Kind::store, "dr0 @r1 !r1"},
+    {"ldrd r0, r1, [r2, #8]!", Kind::load_multiple, "<r0 <r1 @r2 !r2"},
+    {"strd r0, r1, [r2]", Kind::store_multiple, "dr0 dr1 @r2"},
+    {"ldmdb r0!, {r1, r2, r8}", Kind::load_multiple, "<r1 <r2 <r8 @r0 !r0"},
+    {"strex r0, r1, [r2]", Kind::store, "=r0 dr1 @r2"},
+    {"tbb [pc, r0]", Kind::branch, "@pc @r0"},
+    {"pld [r0]", Kind::hint, "@r0"},
+    {"dsb", Kind::barrier, ""},
+    {"mrs r0, primask", Kind::system, "=r0"},
+    // The FPU
+    {"vadd.f32 s0, s1, s2", Kind::fp_add, "=s0 os1 os2"},
+    {"vmul.f32 s0, s1, s2", Kind::fp_mul, "=s0 *s1 *s2"},
+    {"vfma.f32 s0, s1, s2", Kind::fp_mac, "=s0 +s0 *s1 *s2"},
+    {"vfnms.f32 s0, s1, s2", Kind::fp_mac, "=s0 +s0 *s1 *s2"},
+    {"vmls.f32 s30, s31, s1", Kind::fp_mac, "=s30 +s30 *s31 *s1"},
+    {"vfma.f64 d1, d2, d15", Kind::fp_mac, "=s2 =s3 +s2 +s3 *s4 *s5 *s30 *s31"},
+    {"vdiv.f32 s0, s1, s2", Kind::fp_divide, "=s0 os1 os2"},
+    {"vsqrt.f64 d0, d1", Kind::fp_sqrt, "=s0 =s1 os2 os3"},
+    {"vcmp.f32 s0, s1", Kind::fp_add, "=fpscr os0 os1"},
+    {"vcmpe.f32 s0, #0", Kind::fp_add, "=fpscr os0"},
+    {"vmrs apsr_nzcv, fpscr", Kind::fp_to_core, "=nzcv ?fpscr"},
+    {"vcvt.f64.f32 d0, s3", Kind::fp_convert, "=s0 =s1 os3"},
+    {"vcvt.f32.f64 s3, d0", Kind::fp_convert, "=s3 os0 os1"},
+    {"vcvt.s32.f64 s3, d1", Kind::fp_convert, "=s3 os2 os3"},
+    {"vcvt.f32.s32 s3, s4", Kind::fp_convert, "=s3 os4"},
+    {"vcvt.s32.f32 s3, s3, #15", Kind::fp_convert, "=s3 os3"},
+    {"vrinta.f32 s0, s1", Kind::fp_convert, "=s0 os1"},
+    {"vselge.f32 s0, s1, s2", Kind::fp_add, "=s0 os1 os2 ?nzcv"},
+    {"vmaxnm.f32 s0, s1, s2", Kind::fp_add, "=s0 os1 os2"},
+    {"vmov.f32 s0, s1", Kind::fp_move, "=s0 os1"},
+    {"vmov.f32 s0, #1.0", Kind::fp_move_immediate, "=s0"},
+    {"vmov s0, r1", Kind::fp_from_core, "=s0 or1"},
+    {"vmov r1, s0", Kind::fp_to_core, "=r1 os0"},
+    {"vmov s4, s5, r0, r1", Kind::fp_from_core, "=s4 =s5 or0 or1"},
+    {"vmov r0, r1, d3", Kind::fp_to_core, "=r0 =r1 os6 os7"},
+    {"vldr s5, [r0, #8]", Kind::load, "<s5 @r0"},
+    {"vldr d5, [r0, #8]", Kind::load_multiple, "<s10 <s11 @r0"},
+    {"vstr s5, [r0]", Kind::store, "ds5 @r0"},
+    {"vldmia r0!, {s4-s6}", Kind::load_multiple, "<s4 <s5 <s6 @r0 !r0"},
+    {"vstmdb r0!, {d1}", Kind::store_multiple, "ds2 ds3 @r0 !r0"},
+    {"vpush {d8}", Kind::store_multiple, "ds16 ds17 @sp !sp"},
+    {"vpop {s16}", Kind::load_multiple, "<s16 @sp !sp"},
+};
+
+TEST(Decode, KnowsKindsRegistersAndRoles) {
+    std::string text;
+    for (const Row& row : rows) {
+        text += std::string(row.text) + "\n";
+    }
+    const auto lines = listing::assemble(text);
+    ASSERT_EQ(lines.size(), std::size(rows));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        const timing::Decoded d = timing::decode(lines[i].encoding, lines[i].bytes);
+        EXPECT_EQ(static_cast<int>(d.kind), static_cast<int>(rows[i].kind)) << rows[i].text;
+        EXPECT_EQ(words_of(d), split(rows[i].words)) << rows[i].text;
+    }
+}
+
+timing::Decoded of(const std::string& text) {
+    const auto lines = listing::assemble(text);
+    return timing::decode(lines.at(0).encoding, lines.at(0).bytes);
+}
+
+TEST(Decode, TellsBranchesApart) {
+    EXPECT_EQ(of("b .").branch, timing::Branch::direct);
+    EXPECT_EQ(of("bne .").branch, timing::Branch::conditional);
+    EXPECT_EQ(of("bne.w .").branch, timing::Branch::conditional);
+    EXPECT_EQ(of("cbnz r0, .+4").branch, timing::Branch::conditional);
+    EXPECT_EQ(of("bl .").branch, timing::Branch::call);
+    EXPECT_EQ(of("blx r0").branch, timing::Branch::indirect);
+    EXPECT_EQ(of("bx r0").branch, timing::Branch::indirect);
+    EXPECT_EQ(of("bx lr").branch, timing::Branch::back);
+    EXPECT_EQ(of("pop {r4, pc}").branch, timing::Branch::back);
+    EXPECT_EQ(of("pop.w {r4, r8, pc}").branch, timing::Branch::back);
+    EXPECT_EQ(of("ldr pc, [sp], #4").branch, timing::Branch::back);
+    EXPECT_EQ(of("ldr.w pc, [r0]").branch, timing::Branch::indirect);
+    EXPECT_EQ(of("mov pc, r1").branch, timing::Branch::indirect);
+    EXPECT_EQ(of("add r0, r1").branch, timing::Branch::none);
+}
+
+TEST(Decode, TheShifterIsUsedByShiftedOperandsAndShiftedConstants) {
+    EXPECT_TRUE(of("add.w r0, r1, r2, lsl #2").uses_shifter);
+    EXPECT_TRUE(of("add.w r0, r1, #0xff00").uses_shifter);
+    EXPECT_FALSE(of("add.w r0, r1, #0xff").uses_shifter);
+    EXPECT_FALSE(of("add.w r0, r1, #0x00ff00ff").uses_shifter);
+    EXPECT_FALSE(of("lsl.w r0, r1, #2").uses_shifter);
+    EXPECT_FALSE(of("add.w r0, r1, r2").uses_shifter);
+}
+
+TEST(Decode, InAnItBlockNarrowArithmeticSetsNoFlagsAndReadsThem) {
+    const auto lines = listing::assemble("it eq\naddeq r0, r1, r2\n");
+    const timing::Decoded d = timing::decode(lines[1].encoding, 2, 0x0, true);
+    EXPECT_EQ(words_of(d), split("=r0 or1 or2 ?nzcv"));
+}
+
+TEST(Decode, WhatNoRowMatchesIsUnknown) {
+    for (const std::uint32_t e : {0xFFFFFFFFU, 0xEE000000U /* coprocessor 0 */, 0xEC000A00U, 0xFE800000U,
+                                  0xEEB03B40U | 0x20U /* vmov d3, d16 */, 0xFBF00000U}) {
+        EXPECT_EQ(timing::decode(e, 4).kind, Kind::unknown) << std::hex << e;
+    }
+    EXPECT_EQ(timing::decode(0xB100U | 0x0F00U | 0x00C0U, 2).kind, Kind::unknown);  // a hint that is none
+    EXPECT_EQ(timing::decode(0xB680U, 2).kind, Kind::unknown);
+}
+
+}  // namespace

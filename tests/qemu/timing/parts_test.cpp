@@ -1,0 +1,136 @@
+// The parts of the model that can be judged alone: cache, predictor, store buffer, IT blocks.
+#include <gtest/gtest.h>
+
+#include "probe.hpp"
+#include "qemu/timing/cache.hpp"
+#include "qemu/timing/decode.hpp"
+#include "qemu/timing/memory.hpp"
+#include "qemu/timing/predictor.hpp"
+#include "qemu/timing/store_buffer.hpp"
+
+namespace {
+
+TEST(Cache, KeepsTheLinesUsedLast) {
+    timing::Cache cache(4096, 4, 32);  // 32 sets of 4
+    for (const std::uint32_t way : {0U, 1U, 2U, 3U}) {
+        EXPECT_FALSE(cache.touch(way * 1024, false).hit);
+        EXPECT_TRUE(cache.touch(way * 1024 + 31, false).hit);
+    }
+    EXPECT_TRUE(cache.touch(0, false).hit);  // now line 1 is the oldest
+    EXPECT_FALSE(cache.touch(4 * 1024, false).hit);
+    EXPECT_TRUE(cache.touch(0, false).hit);
+    EXPECT_FALSE(cache.touch(1 * 1024, false).hit);
+    EXPECT_FALSE(cache.touch(32, false).hit);  // another set
+}
+
+TEST(Cache, AModifiedLineIsWrittenBackWhenItLeaves) {
+    timing::Cache cache(64, 1, 32);
+    EXPECT_FALSE(cache.touch(0, true).writes_back);
+    EXPECT_TRUE(cache.touch(64, false).writes_back);
+    EXPECT_FALSE(cache.touch(128, false).writes_back);
+}
+
+TEST(Cache, OfNoBytesIsOff) {
+    timing::Cache cache(0, 4, 32);
+    EXPECT_FALSE(cache.on());
+    EXPECT_FALSE(cache.touch(0, false).hit);
+    EXPECT_FALSE(cache.touch(0, false).hit);
+}
+
+timing::Decoded branch(timing::Branch kind) {
+    timing::Decoded d;
+    d.kind = timing::Kind::branch;
+    d.branch = kind;
+    return d;
+}
+
+TEST(Predictor, ALoopIsMissedOnceAtItsEnd) {
+    timing::Predictor predictor(64);
+    const auto bne = branch(timing::Branch::conditional);
+    EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right_without_entry);  // backward: taken
+    for (int turn = 0; turn < 8; ++turn) {
+        EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right);
+    }
+    EXPECT_EQ(predictor.meet(bne, 0x110, 0x112), timing::Prediction::wrong);
+    EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right);  // still strongly taken
+}
+
+TEST(Predictor, AForwardBranchIsNotTakenAtFirst) {
+    timing::Predictor predictor(64);
+    const auto beq = branch(timing::Branch::conditional);
+    EXPECT_EQ(predictor.meet(beq, 0x110, 0x112), timing::Prediction::right);
+    EXPECT_EQ(predictor.meet(beq, 0x110, 0x120), timing::Prediction::wrong);
+}
+
+TEST(Predictor, AReturnGoesWhereItWentLast) {
+    timing::Predictor predictor(64);
+    const auto bx = branch(timing::Branch::back);
+    EXPECT_EQ(predictor.meet(bx, 0x110, 0x200), timing::Prediction::wrong);
+    EXPECT_EQ(predictor.meet(bx, 0x110, 0x200), timing::Prediction::right);
+    EXPECT_EQ(predictor.meet(bx, 0x110, 0x300), timing::Prediction::wrong);
+}
+
+TEST(StoreBuffer, IsFullWhenItsBankFallsBehind) {
+    timing::Figures figures = probe::core("stm32f746-itcm").figures;
+    figures.store_entries = 4;
+    timing::StoreBuffer buffer(figures);
+    for (int cycle = 0; cycle < 4; ++cycle) {
+        EXPECT_LE(buffer.free_from(), cycle);
+        buffer.add(cycle, 0x20000000, 1, 0);  // 4 cycles each, all on one bank: done at 4, 8, 12, 16
+    }
+    EXPECT_EQ(buffer.free_from(), 4);
+    buffer.add(4, 0x20000000, 1, 0);
+    EXPECT_EQ(buffer.free_from(), 8);
+}
+
+TEST(ItBlock, GivesEachMemberItsCondition) {
+    timing::ItBlock it;
+    EXPECT_FALSE(it.inside());
+    it.begin(0xBF06);  // itte eq
+    EXPECT_TRUE(it.inside());
+    EXPECT_EQ(it.condition(), 0x0);
+    it.advance();
+    EXPECT_EQ(it.condition(), 0x0);
+    it.advance();
+    EXPECT_EQ(it.condition(), 0x1);
+    it.advance();
+    EXPECT_FALSE(it.inside());
+}
+
+// 216 MHz, one wait state for each 30 MHz: 7. [stm32f7xx_ll_utils.c, scale 1]
+TEST(Memory, WaitStatesFollowFromTheClock) {
+    timing::Figures figures = probe::core("stm32f746-flash").figures;
+    const struct {
+        std::int64_t mhz;
+        std::int64_t wait_states;
+    } rows[] = {{30, 0}, {31, 1}, {60, 1}, {90, 2}, {120, 3}, {150, 4}, {180, 5}, {210, 6}, {211, 7}, {216, 7}};
+    for (const auto& row : rows) {
+        figures.memory_clock_hz = row.mhz * 1'000'000;
+        EXPECT_EQ(timing::Memory(figures, {}).flash_wait_states(), row.wait_states) << row.mhz;
+    }
+}
+
+TEST(Memory, PlacesDecideWhatAnAccessCosts) {
+    const timing::Figures figures = probe::core("stm32f746-flash").figures;
+    timing::Memory tcm(figures, {timing::CodePlace::itcm, timing::DataPlace::dtcm});
+    EXPECT_EQ(tcm.fetch(0x100).cycles, 0);
+    EXPECT_EQ(tcm.load(0x20000000).cycles, 0);
+    timing::Memory flash(figures, {timing::CodePlace::flash, timing::DataPlace::axi});
+    const timing::Delay miss = flash.fetch(0x100);
+    EXPECT_EQ(miss.cycles, 8 + 4);  // 7 wait states and the read itself, and the bus
+    EXPECT_EQ(miss.effect, timing::Effect::icache_misses);
+    EXPECT_EQ(flash.fetch(0x11F).cycles, 0);
+    EXPECT_EQ(flash.load(0x20000000).cycles, 4 + 2);  // the bus, two beats of 32 bits
+    EXPECT_EQ(flash.load(0x2000001C).cycles, 0);
+    timing::Figures accelerated = figures;
+    accelerated.memory_art_lines = 64;
+    accelerated.memory_art_prefetch = 1;
+    timing::Memory art(accelerated, {timing::CodePlace::flash, timing::DataPlace::dtcm});
+    const timing::Delay read = art.fetch(0x100);
+    EXPECT_EQ(read.cycles, 8);
+    EXPECT_EQ(read.effect, timing::Effect::flash_wait_states);
+    EXPECT_EQ(art.fetch(0x120).cycles, 8 - 4);  // read ahead while four words of the line before ran
+    EXPECT_EQ(art.fetch(0x100).cycles, 0);
+}
+
+}  // namespace

@@ -1,0 +1,64 @@
+// The reading of measured files, and the line through them.
+#include "qemu/silicon.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "qemu/failure.hpp"
+#include "qemu/scratch.hpp"
+
+namespace {
+
+std::string message_of(const std::string& text) {
+    const qemu::Scratch scratch;
+    std::ofstream(scratch.file("m.csv")) << text;
+    try {
+        (void)qemu::read_measured_cycles(scratch.file("m.csv"));
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        return failure.what();
+    }
+    return "";
+}
+
+constexpr const char* header = "# measured by hand\nkernel,code,data,maintenance,taps,cycles,board\n";
+
+TEST(MeasuredCycles, ReadsRowsCommentsAndFurtherColumns) {
+    const qemu::Scratch scratch;
+    std::ofstream(scratch.file("m.csv")) << header << "a_b_f32,flash_cached,dtcm,0,5,59.5,mine\n\n"
+                                         << "a_b_f32,itcm,axi,1,100,914,mine\n";
+    const auto rows = qemu::read_measured_cycles(scratch.file("m.csv"));
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].kernel, "a_b_f32");
+    EXPECT_EQ(rows[0].cycles, 59.5);
+    EXPECT_FALSE(rows[0].maintenance);
+    EXPECT_TRUE(rows[1].maintenance);
+    EXPECT_EQ(rows[1].data, "axi");
+    EXPECT_EQ(rows[1].taps, 100U);
+    EXPECT_EQ(rows[1].line, 5U);
+}
+
+TEST(MeasuredCycles, SaysFileLineExpectedAndFound) {
+    EXPECT_NE(message_of(std::string(header) + "a,flash_cached,dtcm,0,5\n").find("m.csv:3: expected 7 cells, found 5"),
+              std::string::npos);
+    EXPECT_NE(message_of(std::string(header) + "a,ram,dtcm,0,5,59,x\n").find("m.csv:3: code: expected"), std::string::npos);
+    EXPECT_NE(message_of(std::string(header) + "a,itcm,dtcm,2,5,59,x\n").find("maintenance"), std::string::npos);
+    EXPECT_NE(message_of(std::string(header) + "a,itcm,dtcm,0,0,59,x\n").find("taps"), std::string::npos);
+    for (const char* cycles : {"nan", "-4", "", "1e", "inf"}) {
+        EXPECT_NE(message_of(std::string(header) + "a,itcm,dtcm,0,5," + cycles + ",x\n").find("m.csv:3: cycles"),
+                  std::string::npos)
+            << cycles;
+    }
+    EXPECT_NE(message_of("kernel,code,data,taps,cycles\n").find("m.csv:1: expected the column maintenance"),
+              std::string::npos);
+    EXPECT_NE(message_of(header).find("found none"), std::string::npos);
+}
+
+TEST(MeasuredCycles, TheLineGoesThroughPointsThatLieOnOne) {
+    const qemu::Line line = qemu::fit_line({5, 10, 128}, {59, 104, 1166});
+    EXPECT_NEAR(line.slope, 9.0, 1e-12);
+    EXPECT_NEAR(line.constant, 14.0, 1e-9);
+}
+
+}  // namespace
