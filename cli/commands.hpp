@@ -25,20 +25,19 @@ void add_choose(CLI::App& app);
 /// `generate`: that kernel as a C header. \param command_line  as it was typed, for the record
 void add_generate(CLI::App& app, const std::string& command_line);
 
-/// `gate` and `compare`.
+/// `gate`.
 void add_gate(CLI::App& app);
 
-void add_identify(CLI::App& app);
-void add_indices(CLI::App& app);
-void add_resample(CLI::App& app);
+/// `time`: the modelled cycles of a function of any program.
+void add_time(CLI::App& app);
+
+/// `silicon`: what the timing model says of measured rows.
+void add_silicon(CLI::App& app);
+
 void add_simulate(CLI::App& app);
+void add_identify(CLI::App& app);
 void add_stability(CLI::App& app);
 void add_indices(CLI::App& app);
 void add_resample(CLI::App& app);
-/// `silicon`.
-void add_silicon(CLI::App& app);
-
-/// `time`.
-void add_time(CLI::App& app);
 
 }  // namespace cli

@@ -50,19 +50,13 @@ int main(int argc, char** argv) {
     cli::add_choose(app);
     cli::add_generate(app, command_line);
     cli::add_gate(app);
+    cli::add_time(app);
+    cli::add_silicon(app);
     cli::add_simulate(app);
-    cli::add_stability(app);
     cli::add_identify(app);
+    cli::add_stability(app);
     cli::add_indices(app);
     cli::add_resample(app);
-    // The launcher hands --jobs to every command.
-    for (CLI::App* command : app.get_subcommands(nullptr)) {
-        if (command->get_option_no_throw("--jobs") == nullptr) {
-            command->add_option_function<unsigned>("--jobs", [](unsigned) {})->group("");
-        }
-    }
-    cli::add_silicon(app);
-    cli::add_time(app);
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {

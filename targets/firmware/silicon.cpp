@@ -27,8 +27,8 @@ int firmware_main() {
     std::string_view plan{reinterpret_cast<const char*>(file.data()), file.size()};
     while (!plan.empty()) {
         const std::string_view kernel = firmware::take_word(plan);
-        const auto taps = static_cast<std::uint32_t>(firmware::to_number(firmware::take_word(plan)));
-        if (taps == 0 || taps > most_taps) {
+        std::uint32_t taps = 0;
+        if (!firmware::to_number(firmware::take_word(plan), taps) || taps == 0 || taps > most_taps) {
             port::write("error: the loops take 1 to 128 taps\n");
             return 2;
         }
