@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <new>
 #include <random>
+#include <regex>
 #include <sstream>
 #include <utility>
 
@@ -81,15 +83,30 @@ private:
 
 // Runs `step` on the stream for as long as Google Benchmark wants, then checks the output that follows.
 // step: sample index -> output, as a real; expected_error: its bound.
+// Without a state, only an estimate of the time per sample in ns is returned: the shortest of some short tries.
 template <class Sample, class Step, class ToReal>
-void time_line(benchmark::State& state, const std::vector<Sample>& samples, const std::vector<reference::Real>& weights,
-               double bound, Step step, ToReal to_real) {
+double time_line(benchmark::State* state, const std::vector<Sample>& samples,
+                 const std::vector<reference::Real>& weights, double bound, Step step, ToReal to_real) {
     std::size_t k = 0;
     for (; k < weights.size() + 1; ++k) {  // into the steady state: the whole window holds samples
         benchmark::DoNotOptimize(step(samples[k % stream_samples]));
     }
+    if (state == nullptr) {
+        constexpr int tries = 50;
+        constexpr int steps = 64;
+        double shortest = 1e9;
+        for (int i = 0; i < tries; ++i) {
+            const auto begin = std::chrono::steady_clock::now();
+            for (int j = 0; j < steps; ++j) {
+                benchmark::DoNotOptimize(step(samples[k++ % stream_samples]));
+            }
+            const std::chrono::duration<double, std::nano> took = std::chrono::steady_clock::now() - begin;
+            shortest = std::min(shortest, took.count() / steps);
+        }
+        return shortest;
+    }
     const std::uint64_t begin = cycle_counter().read();
-    for ([[maybe_unused]] auto _ : state) {
+    for ([[maybe_unused]] auto _ : *state) {
         benchmark::DoNotOptimize(step(samples[k++ % stream_samples]));
     }
     const std::uint64_t cycles = cycle_counter().read() - begin;
@@ -100,22 +117,34 @@ void time_line(benchmark::State& state, const std::vector<Sample>& samples, cons
     const double found = to_real(step(samples[k % stream_samples]));
     const double error = std::fabs(reference::Exact(reference::sum(weights, newest_first)).error_of(found));
     if (!(error <= bound)) {
-        state.SkipWithError(fmt::format("wrong answer: error {} beyond its bound {}", error, bound).c_str());
-        return;
+        state->SkipWithError(fmt::format("wrong answer: error {} beyond its bound {}", error, bound).c_str());
+        return 0.0;
     }
-    const auto iterations = static_cast<double>(state.iterations());
-    state.counters["cycles_per_sample"] = static_cast<double>(cycles) / iterations;
-    state.counters["ns_per_sample"] =
+    const auto iterations = static_cast<double>(state->iterations());
+    state->counters["cycles_per_sample"] = static_cast<double>(cycles) / iterations;
+    state->counters["ns_per_sample"] =
         benchmark::Counter(1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    return 0.0;
+}
+
+void set_sizes(benchmark::State* state, std::size_t macs, std::size_t coefficient_bytes, std::size_t state_bytes) {
+    if (state != nullptr) {
+        state->counters["macs_per_sample"] = static_cast<double>(macs);
+        state->counters["coefficient_bytes"] = static_cast<double>(coefficient_bytes);
+        state->counters["state_bytes"] = static_cast<double>(state_bytes);
+    }
 }
 
 template <class K>
-void time_kernel(benchmark::State& state, double order, std::size_t taps, const std::vector<reference::Real>& weights) {
+double time_kernel(benchmark::State* state, double order, std::size_t taps,
+                   const std::vector<reference::Real>& weights) {
     Placed<HostLine<K>> placed(glsum::Design{order, taps}, places().placement());
     HostLine<K>& line = *placed;
     if (line.status() != glsum::Status::ok) {
-        state.SkipWithError(to_text(line.status()).c_str());
-        return;
+        if (state != nullptr) {
+            state->SkipWithError(to_text(line.status()).c_str());
+        }
+        return 0.0;
     }
     std::vector<typename K::Sample> samples;
     for (const double x : stream()) {
@@ -124,18 +153,17 @@ void time_kernel(benchmark::State& state, double order, std::size_t taps, const 
     const auto step = [&](typename K::Sample x) { return line.step(x); };
     const auto to_real = [&](typename K::Output y) { return K::to_real(line.state(), y); };
     if constexpr (std::is_same_v<K, glsum::Null>) {
-        time_line(state, samples, {reference::Real(1)}, 1e-7, step, to_real);
+        return time_line(state, samples, {reference::Real(1)}, 1e-7, step, to_real);
     } else {
-        time_line(state, samples, weights, glsum::error_bound<K>({order, taps}, line.state(), signal_peak), step,
-                  to_real);
-        state.counters["macs_per_sample"] = static_cast<double>(K::multiplications(taps));
-        state.counters["coefficient_bytes"] = static_cast<double>(line.coefficient_bytes());
-        state.counters["state_bytes"] = static_cast<double>(line.state_bytes());
+        const double ns = time_line(state, samples, weights,
+                                    glsum::error_bound<K>({order, taps}, line.state(), signal_peak), step, to_real);
+        set_sizes(state, K::multiplications(taps), line.coefficient_bytes(), line.state_bytes());
+        return ns;
     }
 }
 
-void time_peer(benchmark::State& state, const Peer& peer, double order, std::size_t taps,
-               const std::vector<reference::Real>& weights) {
+double time_peer(benchmark::State* state, const Peer& peer, double order, std::size_t taps,
+                 const std::vector<reference::Real>& weights) {
     std::vector<float> coefficients;
     for (const auto& weight : weights) {
         coefficients.push_back(static_cast<float>(weight));
@@ -146,12 +174,28 @@ void time_peer(benchmark::State& state, const Peer& peer, double order, std::siz
     // Any order of summation: every term may pass every addition.
     const double bound = 1.01 * static_cast<double>(taps + 2) * glsum::F32::sum_roundoff * signal_peak *
                          glsum::absolute_sum(order, taps);
-    time_line(
+    const double ns = time_line(
         state, samples, weights, bound, [&](float x) { return line.step(x); },
         [](float y) { return static_cast<double>(y); });
-    state.counters["macs_per_sample"] = static_cast<double>(taps);
-    state.counters["coefficient_bytes"] = static_cast<double>(taps * sizeof(float));
-    state.counters["state_bytes"] = static_cast<double>(2 * taps * sizeof(float));
+    set_sizes(state, taps, taps * sizeof(float), 2 * taps * sizeof(float));
+    return ns;
+}
+
+// Google Benchmark looks for a number of iterations by wall time: on a busy machine it may stop at one. For repetitions
+// we fix it: some 2 ms, and whole turns of a ring of that many taps, where a sample's time depends on the place of the
+// head.
+std::int64_t iterations_for(double ns, std::size_t taps) {
+    constexpr double wanted_ns = 2e6;
+    const double turns = std::ceil(wanted_ns / (std::max(ns, 0.1) * static_cast<double>(taps)));
+    return static_cast<std::int64_t>(std::min(turns, 1e6)) * static_cast<std::int64_t>(taps);
+}
+
+// Google Benchmark says in the name that the iterations were fixed; the name is what later runs are joined by.
+void drop_iterations(Json& row, const char* key) {
+    static const std::regex suffix("/iterations:[0-9]+");
+    if (row.contains(key)) {
+        row[key] = std::regex_replace(row[key].get<std::string>(), suffix, "");
+    }
 }
 
 // Writes what Google Benchmark's own JSON reporter writes, and shows the progress.
@@ -196,11 +240,21 @@ void initialise(const std::vector<std::string>& flags, bool quick_default) {
 
 }  // namespace
 
-HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs, double order,
+HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs, double order, unsigned repetitions,
                         const std::vector<std::string>& flags) {
-    initialise(flags, true);
+    std::vector<std::string> words;
+    if (repetitions > 1) {
+        // Random turns: what disturbs the machine for a while meets all kernels alike.
+        words = {fmt::format("--benchmark_repetitions={}", repetitions), "--benchmark_enable_random_interleaving=true"};
+    }
+    words.insert(words.end(), flags.begin(), flags.end());  // the later ones count
+    initialise(words, true);
     const auto add = [&](const std::string& name, const Length& length, auto work) {
-        benchmark::RegisterBenchmark(row_name(name, order, length, "host").c_str(), work);
+        auto* registered = benchmark::RegisterBenchmark(row_name(name, order, length, "host").c_str(),
+                                                        [work](benchmark::State& state) { work(&state); });
+        if (repetitions > 1) {
+            registered->Iterations(iterations_for(work(nullptr), length.taps));
+        }
     };
     std::map<std::size_t, std::shared_ptr<const std::vector<reference::Real>>> weights_of;
     for (const auto& [name, length] : pairs) {
@@ -212,14 +266,15 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
         const std::size_t taps = length.taps;
         glsum::Registry::for_each([&, &name = name, &length = length]<class K>() {
             if (K::name() == name) {
-                add(name, length,
-                    [order, taps, weights](benchmark::State& state) { time_kernel<K>(state, order, taps, *weights); });
+                add(name, length, [order, taps, weights](benchmark::State* state) {
+                    return time_kernel<K>(state, order, taps, *weights);
+                });
             }
         });
         for (const Peer& peer : peers()) {
             if (peer.name == name) {
-                add(name, length, [&peer, order, taps, weights](benchmark::State& state) {
-                    time_peer(state, peer, order, taps, *weights);
+                add(name, length, [&peer, order, taps, weights](benchmark::State* state) {
+                    return time_peer(state, peer, order, taps, *weights);
                 });
             }
         }
@@ -236,6 +291,8 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
     timing.context["cycle_counter"] = cycle_counter().name();
     timing.context["host_timing_order"] = fmt::format("{}", order);
     for (auto& row : json["benchmarks"]) {
+        drop_iterations(row, "name");
+        drop_iterations(row, "run_name");
         timing.rows.push_back(std::move(row));
     }
     // As they were registered: repetitions that take turns end in any order.
@@ -254,7 +311,7 @@ HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flag
             }
         }
     }
-    return time_on_host(pairs, sweep.orders.front(), flags);
+    return time_on_host(pairs, sweep.orders.front(), sweep.repetitions, flags);
 }
 
 }  // namespace bench

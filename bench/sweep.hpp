@@ -25,6 +25,7 @@ struct Sweep {
     std::vector<std::string> targets{"host", "m7"};  ///< where the cost is measured
     std::size_t samples = 5000;
     std::uint64_t seed = 2020;
+    unsigned repetitions = 1;  ///< of each host timing
     unsigned jobs = 1;
     [[nodiscard]] bool wants(const char* target) const {
         return std::find(targets.begin(), targets.end(), target) != targets.end();

@@ -73,6 +73,7 @@ std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std
 bench::Sweep to_sweep(const Options& options) {
     bench::Sweep sweep;
     sweep.jobs = options.jobs;
+    sweep.repetitions = options.repetitions;
     sweep.samples = options.quick ? 1000 : 5000;
     sweep.orders = options.orders;
     if (sweep.orders.empty()) {
@@ -131,18 +132,7 @@ std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
     return results / (shard ? fmt::format("shard-{}-of-{}.json", shard->index, shard->count) : "latest.json");
 }
 
-// Many short repetitions of all kernels in random turns: what disturbs the machine for a while meets all alike.
-std::vector<std::string> timing_flags(const Options& options, const PassedOn& passed_on) {
-    std::vector<std::string> flags;
-    if (options.repetitions > 1) {
-        flags = {fmt::format("--benchmark_repetitions={}", options.repetitions),
-                 "--benchmark_enable_random_interleaving=true", "--benchmark_min_time=0.002"};
-    }
-    flags.insert(flags.end(), passed_on.begin(), passed_on.end());  // the later ones count
-    return flags;
-}
-
-void run(const Options& options, const PassedOn& passed_on) {
+void run(const Options& options, const PassedOn& flags) {
     const bench::Sweep sweep = to_sweep(options);
     const std::optional<bench::Shard> shard =
         options.shard ? std::optional(bench::parse_shard(*options.shard)) : std::nullopt;
@@ -152,8 +142,7 @@ void run(const Options& options, const PassedOn& passed_on) {
     if (sweep.wants("m7")) {
         board = built_board();
     }
-    const bench::Results results =
-        bench::measure(sweep, shard, board ? &*board : nullptr, timing_flags(options, passed_on));
+    const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
     if (!shard) {
         finish_run(out, results, sweep.jobs);
         return;

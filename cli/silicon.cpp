@@ -79,8 +79,9 @@ void run(const Options& options) {
                100 * errors[errors.size() / 2], 100 * errors.back(), rows.size() - missed, rows.size(),
                100 * allowed_share, allowed_cycles);
     if (missed > 0) {
-        throw Failure(Exit::check_failed, fmt::format("{} of {} rows are missed by more than {:.0f} % and {:.0f} cycles",
-                                                      missed, rows.size(), 100 * allowed_share, allowed_cycles));
+        throw Failure(Exit::check_failed,
+                      fmt::format("{} of {} rows are missed by more than {:.0f} % and {:.0f} cycles", missed,
+                                  rows.size(), 100 * allowed_share, allowed_cycles));
     }
 }
 
@@ -90,10 +91,12 @@ void add_silicon(CLI::App& app) {
     auto options = std::make_shared<Options>();
     CLI::App* command =
         app.add_subcommand("silicon", "Hold the Cortex-M7 timing model against cycles measured on silicon");
-    command->footer("Exit status 1 when a row is missed by more than 5 % and 8 cycles.\n"
-                    "Example: glsum silicon results/silicon/h747_per_sample_fir.csv");
+    command->footer(
+        "Exit status 1 when a row is missed by more than 5 % and 8 cycles.\n"
+        "Example: glsum silicon results/silicon/h747_per_sample_fir.csv");
     command->add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
-    command->add_option("--core", options->core, "Core file; each row's placement beats its own")->capture_default_str();
+    command->add_option("--core", options->core, "Core file; each row's placement beats its own")
+        ->capture_default_str();
     command->add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
         ->delimiter(',');
     command->add_option("--jobs")->group("");  // the launcher hands it to every command

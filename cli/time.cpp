@@ -46,8 +46,8 @@ std::string output_of(const std::string& command) {
 // The text of one instruction, as objdump has it; empty without objdump.
 std::string disassemble(const std::filesystem::path& elf, std::uint32_t address) {
     const std::string text = output_of(fmt::format(
-        "arm-none-eabi-objdump -d --no-show-raw-insn --start-address={:#x} --stop-address={:#x} '{}' 2>/dev/null", address,
-        address + 4, elf.string()));
+        "arm-none-eabi-objdump -d --no-show-raw-insn --start-address={:#x} --stop-address={:#x} '{}' 2>/dev/null",
+        address, address + 4, elf.string()));
     const std::string mark = fmt::format("\n{:8x}:\t", address);
     const std::size_t at = text.find(mark);
     if (at == std::string::npos) {
@@ -148,7 +148,8 @@ void run(const Options& options) {
     json["elf_sha256"] = output_of(fmt::format("sha256sum '{}'", options.elf.string())).substr(0, 64);
     json["function"] = function.name;
     json["core"] = core.name;
-    json["placement"] = {{"code", timing::name_of(core.placement.code)}, {"data", timing::name_of(core.placement.data)}};
+    json["placement"] = {{"code", timing::name_of(core.placement.code)},
+                         {"data", timing::name_of(core.placement.data)}};
     json["calls"] = calls;
     json["instructions"] = {
         {"min", instructions.min()}, {"median", instructions.median()}, {"max", instructions.max()}};
@@ -165,8 +166,9 @@ void run(const Options& options) {
     for (const auto& [address, half] : log.hot.empty() ? std::map<std::uint32_t, std::int64_t>{} : log.hot[0]) {
         hot.emplace_back(half, address);
     }
-    std::sort(hot.begin(), hot.end(),
-              [](const auto& a, const auto& b) { return a.first != b.first ? a.first > b.first : a.second < b.second; });
+    std::sort(hot.begin(), hot.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
     json["hot"] = Json::array();
     for (std::size_t i = 0; i < std::min(hot_rows, hot.size()); ++i) {
         const qemu::Function* holder = elf.function_at(hot[i].second);
@@ -199,7 +201,8 @@ void run(const Options& options) {
                    row["symbol"].get<std::string>().substr(0, 24), row["disassembly"].get<std::string>());
     }
     for (const auto& [address, times] : log.unknown) {
-        fmt::print("unknown encoding at {:#010x}, executed {} times: modelled as one that issues alone\n", address, times);
+        fmt::print("unknown encoding at {:#010x}, executed {} times: modelled as one that issues alone\n", address,
+                   times);
     }
     if (log.recursive) {
         fmt::print("{} calls itself: the inner calls count as part of the outer\n", function.name);

@@ -128,9 +128,7 @@ std::vector<Cost> HostTimes::costs(const std::vector<Case>& cases) {
     for (const auto& [kernel, taps] : cases) {
         pairs.emplace_back(kernel, bench::Length{taps});
     }
-    const bench::HostTiming timing = bench::time_on_host(
-        pairs, order_,
-        {"--benchmark_min_time=0.005", "--benchmark_repetitions=9", "--benchmark_enable_random_interleaving=true"});
+    const bench::HostTiming timing = bench::time_on_host(pairs, order_, 9, {});
     cycle_counter_ = timing.context.value("cycle_counter", "unknown");
     std::vector<Cost> costs(cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <unordered_map>
 #include <unordered_set>
@@ -280,7 +281,11 @@ private:
         const bool better =
             (main.better == Better::lower && *now < then) || (main.better == Better::higher && *now > then);
         // What may get worse by so much without a word must get better by more to be worth one.
-        if (better && std::fabs(*now - then) > std::max(main.absolute, main.relative * std::fabs(then))) {
+        double allowed = std::numeric_limits<double>::infinity();
+        for (const Rule* rule : {fails, warns}) {
+            allowed = rule != nullptr ? std::min(allowed, rule->allowed(then)) : allowed;
+        }
+        if (better && std::fabs(*now - then) > allowed) {
             finding.level = Level::improvement;
             add(std::move(finding));
         }

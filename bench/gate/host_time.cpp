@@ -8,7 +8,7 @@
 namespace bench::gate {
 namespace {
 
-constexpr std::size_t resamples = 4000;
+constexpr std::size_t resamples = 2000;
 
 // The mean of the fastest hundredth, two at least. What disturbs a time only makes it longer, and on a busy machine may
 // do so to nine repetitions of ten: a neighbour on the same core that multiplies costs some kernels two thirds and

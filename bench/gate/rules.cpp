@@ -181,16 +181,17 @@ bool Rule::wants_row(const std::string& name) const { return matches_any(rows, n
 
 bool Rule::wants_counter(const std::string& name) const { return matches_any(counters, name); }
 
+double Rule::allowed(double baseline) const { return std::max(absolute, relative * std::fabs(baseline)); }
+
 double Rule::excess(double baseline, double current) const {
-    const double allowed = std::max(absolute, relative * std::fabs(baseline));
     const double change = current - baseline;
     switch (better) {
         case Better::lower:
-            return change - allowed;
+            return change - allowed(baseline);
         case Better::higher:
-            return -change - allowed;
+            return -change - allowed(baseline);
         case Better::equal:
-            return std::fabs(change) - allowed;
+            return std::fabs(change) - allowed(baseline);
     }
     return 0.0;
 }

@@ -36,6 +36,8 @@ struct Rule {
 
     [[nodiscard]] bool wants_row(const std::string& name) const;
     [[nodiscard]] bool wants_counter(const std::string& name) const;
+    /// The change for the worse that is allowed from `baseline`, in the counter's unit.
+    [[nodiscard]] double allowed(double baseline) const;
     /// How far `current` lies beyond what is allowed; at most 0 where it is allowed.
     [[nodiscard]] double excess(double baseline, double current) const;
 };

@@ -45,15 +45,15 @@ TEST(GateTime, SameFilesSameVerdict) {
 TEST(GateTime, NeighboursRaiseNoAlarmAndHideNoTenth) {
     int alarms = 0;
     int caught = 0;
-    for (unsigned seed = 0; seed < 100; ++seed) {
+    for (unsigned seed = 0; seed < 50; ++seed) {
         const double before = 0.9 * (seed % 10) / 9.0;
-        const double after = 0.9 * (seed / 10) / 9.0;
+        const double after = 0.9 * (seed / 10) / 4.0;
         const Timing baseline = run(2 * seed, 200, before);
         alarms += bench::gate::time_change(baseline, run(2 * seed + 1, 200, after), 0.99).low > 0.05 ? 1 : 0;
         caught += bench::gate::time_change(baseline, run(2 * seed + 1, 200, after, 1.1), 0.99).low > 0.05 ? 1 : 0;
     }
     EXPECT_EQ(alarms, 0);
-    EXPECT_GE(caught, 95);
+    EXPECT_GE(caught, 48);
 }
 
 // Where no moment is quiet, the interval says that nothing can be said.
