@@ -25,8 +25,11 @@ void add_choose(CLI::App& app);
 /// `generate`: that kernel as a C header. \param command_line  as it was typed, for the record
 void add_generate(CLI::App& app, const std::string& command_line);
 
-/// `gate`.
+/// `gate`: a run against a baseline.
 void add_gate(CLI::App& app);
+
+/// `compare`: two runs side by side.
+void add_compare(CLI::App& app);
 
 /// `time`: the modelled cycles of a function of any program.
 void add_time(CLI::App& app);

@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     cli::add_choose(app);
     cli::add_generate(app, command_line);
     cli::add_gate(app);
+    cli::add_compare(app);
     cli::add_time(app);
     cli::add_silicon(app);
     cli::add_simulate(app);

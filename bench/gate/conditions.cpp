@@ -96,12 +96,14 @@ std::vector<Difference> differences(const Json& baseline, const Json& current, c
     return found;
 }
 
-std::string incomparable(const std::vector<Difference>& differences) {
+std::string incomparable(const std::vector<Difference>& differences, const std::string& first,
+                         const std::string& second) {
     std::string text;
     for (const Difference& difference : differences) {
         if (difference.effect == Effect::incomparable) {
-            text += fmt::format("{}{}: {} in the baseline, {} now", text.empty() ? "" : "; ", difference.field,
-                                difference.baseline, difference.current);
+            text +=
+                fmt::format("{}{}: {} in {}, {} {}", text.empty() ? "" : "; ", difference.field, difference.baseline,
+                            first, difference.current, second == "now" ? second : "in " + second);
         }
     }
     return text;

@@ -27,8 +27,9 @@ struct Difference {
                                                   const std::vector<Kind>& kinds);
 
 /// "compiler: GNU 12.2.0 in the baseline, Clang 14.0.6 now", of each field that makes the runs incomparable, by
-/// semicolons; empty where none does.
-[[nodiscard]] std::string incomparable(const std::vector<Difference>& differences);
+/// semicolons; empty where none does. \param first, second  what the two runs are called
+[[nodiscard]] std::string incomparable(const std::vector<Difference>& differences,
+                                       const std::string& first = "the baseline", const std::string& second = "now");
 
 [[nodiscard]] bool has_effect(const std::vector<Difference>& differences, Effect effect);
 

@@ -362,7 +362,8 @@ private:
             add(std::move(finding));
         } else if (change.high > rule.relative) {
             finding.level = Level::note;
-            finding.what += fmt::format("; whether it is beyond {:.3g} % cannot be told; more --repetitions can", 100.0 * rule.relative);
+            finding.what += fmt::format("; whether it is beyond {:.3g} % cannot be told; more --repetitions can",
+                                        100.0 * rule.relative);
             add(std::move(finding));
         }
     }

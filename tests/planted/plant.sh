@@ -48,6 +48,7 @@ library_of() {
         kernels/*) echo kernels/libglsum.a ;;
         bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
         bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
+        bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
         qemu/*) echo qemu/libglsum_stream.a ;;
