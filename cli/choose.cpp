@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "bench/choose/brute_force.hpp"
 #include "bench/choose/report.hpp"
 #include "bench/files.hpp"
 #include "cli/board.hpp"
@@ -15,7 +16,37 @@
 namespace cli {
 namespace {
 
+struct Check {
+    std::size_t budgets = 0;
+    std::uint64_t seed = 1;
+};
+
+// Every length is counted: a short record unless another was asked for.
+void check(Budget budget, const Check& check) {
+    if (budget.target != "m7") {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             "--check-against-brute-force: only with --target m7, whose counts repeat");
+    }
+    budget.samples = budget.samples != 0 ? budget.samples : 100;
+    budget.max_error = 1.0;
+    const choose::Question question = to_question(budget);
+    const choose::Agreement found =
+        choose::check_against_brute_force(question, built_board(), check.budgets, check.seed);
+    fmt::print(
+        "{}{} of {} random budgets: the same choice as a plain loop over {} measured candidates ({} kernels, every "
+        "length to {})\n{} of them fit nothing; in {} of these no limit need be relaxed less than the nearest miss "
+        "says\n",
+        found.differences, found.same, found.budgets, found.candidates, question.kernels.size(),
+        question.conditions.samples, found.nothing, found.same_miss);
+    if (found.same != found.budgets) {
+        throw glsum::Failure(glsum::Exit::check_failed, "the search and the loop differ");
+    }
+}
+
 void run(const Budget& budget, const std::string& json) {
+    if (budget.max_error == 0.0) {
+        throw glsum::Failure(glsum::Exit::bad_input, "--max-error is required");
+    }
     const choose::Question question = to_question(budget);
     if (!json.empty()) {
         bench::check_writable(json);
@@ -36,10 +67,14 @@ void add_choose(CLI::App& app) {
     CLI::App* command = app.add_subcommand("choose", "The cheapest kernel, length and format within a budget");
     auto budget = add_budget(*command);
     auto json = std::make_shared<std::string>();
-    for (const char* needed : {"--step-s", "--max-error", "--target"}) {
+    for (const char* needed : {"--step-s", "--target"}) {
         command->get_option(needed)->required();
     }
     command->add_option("--json", *json, "Writes the answer there too");
+    auto against = std::make_shared<Check>();
+    command->add_option("--check-against-brute-force", against->budgets,
+                        "Draws so many budgets and compares the search with a plain loop over every kernel and length");
+    command->add_option("--seed", against->seed, "Of the budgets drawn")->capture_default_str();
     command->footer(
         "Records are sampled at --step-s: sines and the drive's response are the same signals at other instants; "
         "step,\n"
@@ -49,7 +84,13 @@ void add_choose(CLI::App& app) {
         "Exit status: 0 something fits; 1 nothing does, with the nearest miss; 2 wrong use; 3 something is missing.\n"
         "Example: glsum choose --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --clock-hz 216e6 --rate-hz "
         "1000");
-    command->callback([budget, json] { run(*budget, *json); });
+    command->callback([budget, json, against] {
+        if (against->budgets > 0) {
+            check(*budget, *against);
+        } else {
+            run(*budget, *json);
+        }
+    });
 }
 
 }  // namespace cli

@@ -136,8 +136,8 @@ public:
         }
     }
 
-    Choice run() {
-        find_lengths();
+    Choice run(bool progress) {
+        find_lengths(progress);
         find_costs();
         judge();
         if (!choice_.chosen) {
@@ -147,11 +147,16 @@ public:
     }
 
 private:
-    void find_lengths() {
-        bench::Progress progress("shortest lengths", choice_.kernels.size());
+    void find_lengths(bool shown) {
+        std::optional<bench::Progress> progress;
+        if (shown) {
+            progress.emplace("shortest lengths", choice_.kernels.size());
+        }
         bench::parallel_for(choice_.kernels.size(), jobs_, [&](std::size_t i) {
             find_length(choice_.kernels[i]);
-            progress.advance();
+            if (progress) {
+                progress->advance();
+            }
         });
     }
 
@@ -530,8 +535,8 @@ Reach reach(ErrorSource& errors, const std::string& kernel, double limit) {
 }
 
 Choice choose(ErrorSource& errors, CostSource& costs, const std::vector<std::string>& kernels, const Limits& limits,
-              unsigned jobs) {
-    return Search(errors, costs, kernels, limits, jobs).run();
+              unsigned jobs, bool progress) {
+    return Search(errors, costs, kernels, limits, jobs).run(progress);
 }
 
 }  // namespace choose

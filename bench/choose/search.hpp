@@ -81,8 +81,8 @@ struct Reach {
 /// full memory) by more than a quarter is given up.
 [[nodiscard]] Reach reach(ErrorSource& errors, const std::string& kernel, double limit);
 
-/// Chooses among `kernels`. \param jobs  threads for the errors
+/// Chooses among `kernels`. \param jobs  threads for the errors \param progress  whether to show it
 [[nodiscard]] Choice choose(ErrorSource& errors, CostSource& costs, const std::vector<std::string>& kernels,
-                            const Limits& limits, unsigned jobs);
+                            const Limits& limits, unsigned jobs, bool progress = true);
 
 }  // namespace choose

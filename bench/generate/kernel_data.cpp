@@ -45,7 +45,7 @@ TechniqueText text_of(const HistoryText& history, std::size_t past, const std::v
     } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
         return oldest_text(history, std::is_same_v<Technique, OldestFma>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {
-        return multi_text(history, std::is_same_v<Technique, MultiFma>);
+        return multi_text(history, past, std::is_same_v<Technique, MultiFma>);
     } else if constexpr (one_of<Technique, Horner, HornerFma>) {
         return horner_text(history, std::is_same_v<Technique, HornerFma>);
     } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {

@@ -55,7 +55,7 @@ struct FormatText {
 
 [[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
-[[nodiscard]] TechniqueText multi_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused);
 [[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText fir_text(bool fused);

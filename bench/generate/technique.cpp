@@ -62,18 +62,27 @@ TechniqueText oldest_text(const HistoryText& history, bool fused) {
             .fused = fused};
 }
 
-TechniqueText multi_text(const HistoryText& history, bool fused) {
-    const auto add = [&](int chain, const char* at, int indent) {
-        return fmt::format("{3:{4}}s{0} = {1}(s{0}, a[{2}], x[{2}]);\n", chain, accumulate(fused),
-                           fmt::format("{}{}", at, chain == 0 ? "" : fmt::format(" + {}U", chain)), "", indent);
+TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused) {
+    // A past of fewer than four has no groups: loops over them would only make compilers warn.
+    const bool groups = past >= 4;
+    const auto add = [&](int chain, int indent) {
+        const std::string at = groups ? (chain == 0 ? "i" : fmt::format("i + {}U", chain)) : fmt::format("{}U", chain);
+        return fmt::format("{3:{4}}s{0} = {1}(s{0}, a[{2}], x[{2}]);\n", chain, accumulate(fused), at, "", indent);
     };
-    std::string body = "        const size_t rest = count % 4U;\n        for (i = 0; i != count - rest; i += 4U) {\n";
-    for (int chain = 0; chain < 4; ++chain) {
-        body += add(chain, "i", 12);
+    std::string body = "        const size_t rest = count % 4U;\n";
+    if (groups) {
+        body += "        for (i = 0; i != count - rest; i += 4U) {\n";
+        for (int chain = 0; chain < 4; ++chain) {
+            body += add(chain, 12);
+        }
+        body += "        }\n";
     }
-    body += "        }\n        if (rest > 0U) {\n" + add(0, "i", 12) + "            if (rest > 1U) {\n" +
-            add(1, "i", 16) + "                if (rest > 2U) {\n" + add(2, "i", 20) +
-            "                }\n            }\n        }\n";
+    std::string closing;
+    for (int chain = 0; chain < 3 && static_cast<std::size_t>(chain) < past; ++chain) {
+        body += fmt::format("{:{}}if (rest > {}U) {{\n", "", 8 + 4 * chain, chain) + add(chain, 12 + 4 * chain);
+        closing = fmt::format("{:{}}}}\n", "", 8 + 4 * chain) + closing;
+    }
+    body += closing;
     std::string pieces;
     for (const Piece& piece : history.pieces) {
         pieces += "    {\n" + pointers(piece.begin, piece.from) + "        const size_t count = (size_t)(" + piece.end +
