@@ -41,7 +41,7 @@ flock --nonblock 9 || { echo "plant.sh: another run is at work in build/planted"
     cp -p "$source/$file" "$copy/$file"
     touch "$copy/$file"
 done
-tests="kernel_tests bench_tests qemu_tests"
+tests="kernel_tests bench_tests choose_tests qemu_tests"
 # The library that a file belongs to.
 library_of() {
     case $1 in
@@ -49,6 +49,7 @@ library_of() {
         bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
         bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
+        bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
         qemu/*) echo qemu/libglsum_stream.a ;;
@@ -59,8 +60,9 @@ jobs=$(nproc)
 compile() { ninja -C "$build" -j "$jobs" "$@" >"$build/planted.log" 2>&1; }
 # Emulator tests need firmware and time: the bugs here are of the host's libraries.
 run_tests() {
-    timeout 60 "$build/tests/kernel_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
-        timeout 30 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
+    timeout 90 "$build/tests/kernel_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
+        timeout 90 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
+        timeout 60 "$build/tests/choose_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
         timeout 60 "$build/tests/qemu_tests" --gtest_brief=1 --gtest_filter='Thumb.*:*CallCounter.*:Answers.*:Elf.*' >"$build/tests.log" 2>&1
 }
 # A run that was killed left a bug in objects whose source looks older: none of them can be trusted.
