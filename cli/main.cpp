@@ -58,6 +58,14 @@ int main(int argc, char** argv) {
     cli::add_stability(app);
     cli::add_indices(app);
     cli::add_resample(app);
+    // The launcher tells every command how many jobs may run at once.
+    unsigned unused_jobs = 1;
+    for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
+        if (command->get_option_no_throw("--jobs") == nullptr) {
+            command->add_option("--jobs", unused_jobs, "Threads at once; this command needs one only")
+                ->check(CLI::PositiveNumber);
+        }
+    }
     try {
         if (argc > 1 && argv[1][0] != '-' &&
             app.get_subcommands([&](const CLI::App* command) { return command->get_name() == argv[1]; }).empty()) {
