@@ -41,6 +41,7 @@ void add_simulate(CLI::App& app);
 void add_identify(CLI::App& app);
 void add_stability(CLI::App& app);
 void add_indices(CLI::App& app);
+void add_paper(CLI::App& app);
 void add_resample(CLI::App& app);
 
 }  // namespace cli

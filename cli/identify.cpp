@@ -175,7 +175,7 @@ void show_coverage(const Options& options) {
     {
         bench::Progress progress("fitting", options.coverage);
         found = drive::measure_coverage(truth, to_kind(options.form), options.acquisition, options.coverage,
-                                        options.fit.jobs, [&] { progress.advance(); });
+                                        options.fit.seed, options.fit.jobs, [&] { progress.advance(); });
     }
     Json json{{"model", options.start}, {"form", options.form}, {"runs", found.runs}, {"failed", found.failed}};
     json["parameters"] = Json::array();
@@ -307,7 +307,8 @@ void add_identify(CLI::App& app) {
     command->add_option("--iterations", options->fit.iterations, "Stop after so many")->capture_default_str();
     command->add_option("--starts", options->fit.starts, "Also from random starts, so many in all")
         ->capture_default_str();
-    command->add_option("--seed", options->fit.seed, "Of the random starts")->capture_default_str();
+    command->add_option("--seed", options->fit.seed, "Of the random starts, and of the first log of --coverage")
+        ->capture_default_str();
     command->add_option("--coverage", options->coverage,
                         "Fit so many noisy logs of --start and count the truths inside");
     command->add_option("--input", options->acquisition.excitation.name, "Of --coverage: step, pulse or staircase")

@@ -95,6 +95,7 @@ void add_indices(CLI::App& app) {
     add_column_options(*command, options->columns);
     command->add_flag("--json", options->json, "JSON instead of a table");
     command->add_option("--out", options->out, "File; printed if not given");
+    command->add_option("--jobs")->group("");  // the launcher hands it to every command
     command->callback([options] { run(*options); });
 }
 

@@ -46,6 +46,7 @@ void add_resample(CLI::App& app) {
         ->capture_default_str();
     add_column_options(*command, options->columns);
     command->add_option("--out", options->out, "CSV file; printed if not given");
+    command->add_option("--jobs")->group("");  // the launcher hands it to every command
     command->callback([options] { run(*options); });
 }
 

@@ -227,6 +227,7 @@ void add_simulate(CLI::App& app) {
     command->add_flag("--json", options->json, "The summary as JSON");
     command->add_option("--out", options->out, "CSV of time_s, input and output");
     command->add_option("--plot", options->plot, "Draw STEM.svg and STEM.png");
+    command->add_option("--jobs")->group("");  // the launcher hands it to every command
     command->callback([options] { run(*options); });
 }
 

@@ -97,6 +97,7 @@ void add_stability(CLI::App& app) {
     command->add_flag("--json", options->json, "JSON instead of text");
     command->add_option("--out", options->out, "File; printed if not given");
     command->add_option("--plot", options->plot, "Also draw the roots: STEM.svg and STEM.png");
+    command->add_option("--jobs")->group("");  // the launcher hands it to every command
     command->callback([options] { run(*options); });
 }
 

@@ -60,7 +60,7 @@ Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOpt
 }
 
 Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acquisition, std::size_t runs,
-                          unsigned jobs, const std::function<void()>& done) {
+                          std::uint64_t first_seed, unsigned jobs, const std::function<void()>& done) {
     const Form form(kind, truth);
     Coverage coverage;
     coverage.runs = runs;
@@ -77,7 +77,7 @@ Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acqu
     std::mutex mutex;
     bench::parallel_for(runs, jobs, [&](std::size_t run) {
         try {
-            const Record record = to_record(take_log(truth, acquisition, run + 1));
+            const Record record = to_record(take_log(truth, acquisition, first_seed + run));
             const Fit found = fit_from_nothing(kind, {record}, {});
             const std::lock_guard lock(mutex);
             std::size_t at = 0;

@@ -149,7 +149,7 @@ TEST(Fit, StartsInManyPlacesAndSaysHowManyAgree) {
 
 // Of 40 logs, as many intervals hold the truth as 95 % of them: 33 to 40 with probability 0.998 for one parameter.
 TEST(Fit, IntervalsHoldTheTruth) {
-    const auto found = drive::measure_coverage(plants::sopdt(), Kind::sopdt, {}, 40, 1);
+    const auto found = drive::measure_coverage(plants::sopdt(), Kind::sopdt, {}, 40, 1, 1);
     EXPECT_EQ(found.failed, 0U);
     ASSERT_EQ(found.names.size(), 3U);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -1,0 +1,92 @@
+// glsum paper: what of [Matusiak2020] can be checked, with our number beside it.
+#include <fmt/format.h>
+
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "bench/build_info.hpp"
+#include "bench/gnuplot.hpp"
+#include "cli/commands.hpp"
+#include "cli/drive_files.hpp"
+#include "drive/paper.hpp"
+
+namespace cli {
+namespace {
+
+struct Options {
+    std::filesystem::path models = std::filesystem::path(build_info::source_folder) / "drive" / "models";
+    bool json = false;
+    std::filesystem::path out;
+    std::filesystem::path plots;
+};
+
+const char* word_for(drive::Holds holds) {
+    switch (holds) {
+        case drive::Holds::yes:
+            return "holds";
+        case drive::Holds::no:
+            return "does not hold";
+        case drive::Holds::with_reservation:
+            break;
+    }
+    return "with a reservation";
+}
+
+void run(const Options& options) {
+    const drive::PaperModels models{read_model(options.models / "fopdt.json"),
+                                    read_model(options.models / "sopdt.json"),
+                                    read_model(options.models / "niopdt.json")};
+    const drive::PaperValue value = drive::value_at_5_s(models.niopdt);
+    const auto precisions = drive::compare_precisions(models.niopdt);
+    const auto claims = drive::check_paper(models);
+    if (options.json) {
+        nlohmann::ordered_json json{{"niopdt_5_s", value.without_delay}, {"niopdt_5_s_with_delay", value.with_delay}};
+        for (const auto& precision : precisions) {
+            json["precisions"].push_back(
+                {{"how", precision.how}, {"after_5_s", precision.after_5_s}, {"error_max", precision.largest_error}});
+        }
+        for (const auto& claim : claims) {
+            json["claims"].push_back({{"claim", claim.claim},
+                                      {"paper", claim.paper},
+                                      {"ours", claim.ours},
+                                      {"verdict", word_for(claim.holds)}});
+        }
+        put(json.dump(2) + "\n", options.out);
+    } else {
+        std::string text =
+            fmt::format("Model (12), unit step, at 5 s: {} without its dead time, {} with it\n\n{:<54} {:>10} {:>14}\n",
+                        value.without_delay, value.with_delay, "stepped at h = 1 ms, full memory unless said", "at 5 s",
+                        "largest error");
+        for (const auto& precision : precisions) {
+            text += fmt::format("{:<54} {:>10.5f} {:>14.2e}\n", precision.how, precision.after_5_s,
+                                precision.largest_error);
+        }
+        for (const auto& claim : claims) {
+            text += fmt::format("\n{}: {}\n", claim.claim, word_for(claim.holds));
+            text += claim.paper.empty() ? "" : fmt::format("  paper: {}\n", claim.paper);
+            text += fmt::format("  here:  {}\n", claim.ours);
+        }
+        put(text, options.out);
+    }
+    if (!options.plots.empty()) {
+        bench::draw(drive::picture_of_step_responses(models), options.plots / "step_responses");
+        bench::draw(drive::picture_of_precisions(models.niopdt), options.plots / "precision");
+    }
+}
+
+}  // namespace
+
+void add_paper(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    CLI::App* command = app.add_subcommand("paper", "The claims of the seed paper that can be checked, one by one");
+    command->footer("Example: glsum paper --plots results/drive");
+    command->add_option("--models", options->models, "Folder with fopdt.json, sopdt.json and niopdt.json")
+        ->capture_default_str();
+    command->add_flag("--json", options->json, "JSON instead of text");
+    command->add_option("--out", options->out, "File; printed if not given");
+    command->add_option("--plots", options->plots, "Folder for step_responses and precision, .svg and .png");
+    command->add_option("--jobs")->group("");  // the launcher hands it to every command
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace cli
