@@ -29,9 +29,11 @@ if [ "$rotate" -gt 0 ]; then
 fi
 
 # The copy: what git tracks, as it is in the working tree; unchanged files keep their times, so that ninja keeps its objects.
+# Its build folder lies as the project's own does, so that a compiler cache, where one is in use, knows its objects again.
 copy=$source/build/planted/source
-build=$source/build/planted/build
+build=$copy/build/host
 mkdir -p "$copy" "$build"
+export CCACHE_BASEDIR="$copy" CCACHE_NOHASHDIR=1
 exec 9>"$source/build/planted/lock"
 flock --nonblock 9 || { echo "plant.sh: another run is at work in build/planted" >&2; exit 2; }
 (cd "$source" && git ls-files --cached --others --exclude-standard) | while IFS= read -r file; do
@@ -41,46 +43,65 @@ flock --nonblock 9 || { echo "plant.sh: another run is at work in build/planted"
     cp -p "$source/$file" "$copy/$file"
     touch "$copy/$file"
 done
-tests="kernel_tests bench_tests choose_tests qemu_tests"
-# The library that a file belongs to.
+# The library that a file belongs to, and the tests that are to notice.
 library_of() {
     case $1 in
+        kernels/modes/*) echo kernels/modes/libglsum_modes.a ;;
         kernels/*) echo kernels/libglsum.a ;;
         bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
         bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
+        drive/*) echo drive/libglsum_drive.a ;;
+        qemu/timing/*) echo qemu/timing/libglsum_timing.a ;;
         qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
         qemu/*) echo qemu/libglsum_stream.a ;;
         *) echo "plant.sh: no library is known for $1" >&2; exit 2 ;;
     esac
 }
-jobs=$(nproc)
-compile() { ninja -C "$build" -j "$jobs" "$@" >"$build/planted.log" 2>&1; }
-# Emulator tests need firmware and time: the bugs here are of the host's libraries.
-run_tests() {
-    timeout 90 "$build/tests/kernel_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
-        timeout 90 "$build/tests/bench_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
-        timeout 60 "$build/tests/choose_tests" --gtest_brief=1 >"$build/tests.log" 2>&1 &&
-        timeout 60 "$build/tests/qemu_tests" --gtest_brief=1 --gtest_filter='Thumb.*:*CallCounter.*:Answers.*:Elf.*' >"$build/tests.log" 2>&1
+tests_of() {
+    case $1 in
+        kernels/modes/*) echo modes_tests ;;
+        kernels/*) echo kernel_tests bench_tests ;;
+        bench/choose/*) echo choose_tests ;;
+        bench/*) echo bench_tests qemu_tests ;;
+        drive/*) echo drive_tests ;;
+        qemu/timing/*) echo timing_tests ;;
+        *) echo qemu_tests bench_tests ;;
+    esac
 }
+jobs=$(nproc)
+compile() { ninja -C "$build" -j "$jobs" "$@" >"$source/build/planted/build.log" 2>&1; }
+run_tests() {
+    for test in "$@"; do
+        # Emulator tests need firmware and time: the bugs here are of the host's libraries.
+        case $test in
+            qemu_tests) only_these='Thumb.*:*CallCounter.*:Answers.*:Elf.*' ;;
+            *) only_these='*' ;;
+        esac
+        timeout 90 "$build/tests/$test" --gtest_brief=1 --gtest_filter="$only_these" >"$source/build/planted/tests.log" 2>&1 || return 1
+    done
+}
+printf '%s\n' "$bugs" | while IFS='|' read -r name file plant; do
+    name=$(echo $name) file=$(echo $file)
+    case ${name#!} in $only) printf '%s|%s|%s\n' "$name" "$file" "$(printf '%s' "$plant" | sed 's/^ *//; s/ *$//')" ;; esac
+done >"$source/build/planted/bugs"
+all_tests=$(while IFS='|' read -r name file plant; do tests_of "$file"; done <"$source/build/planted/bugs" | tr ' ' '\n' | sort -u)
 # A run that was killed left a bug in objects whose source looks older: none of them can be trusted.
 [ ! -e "$build/marker" ] || find "$build" -name '*.o' -delete
-cmake -S "$copy" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$source/build/planted/configure.log" 2>&1 ||
+(cd "$copy" && cmake --preset host) >"$source/build/planted/configure.log" 2>&1 ||
     { tail -n 20 "$source/build/planted/configure.log" >&2; exit 3; }
-compile $tests || { tail -n 20 "$build/planted.log" >&2; echo "plant.sh: the project does not build without a bug" >&2; exit 1; }
-run_tests || { tail -n 20 "$build/tests.log" >&2; echo "plant.sh: the tests fail without a bug" >&2; exit 1; }
+compile $all_tests || { tail -n 20 "$source/build/planted/build.log" >&2; echo "plant.sh: the project does not build without a bug" >&2; exit 1; }
+run_tests $all_tests || { tail -n 20 "$source/build/planted/tests.log" >&2; echo "plant.sh: the tests fail without a bug" >&2; exit 1; }
 
 caught=0
 missed=''
 number=0
-count=$(printf '%s\n' "$bugs" | wc -l)
-printf '%s\n' "$bugs" >"$build/bugs"
+count=$(wc -l <"$source/build/planted/bugs")
 while IFS='|' read -r name file plant <&3; do
-    name=$(echo $name) file=$(echo $file) plant=$(printf '%s' "$plant" | sed 's/^ *//; s/ *$//')
     number=$((number + 1))
-    case ${name#!} in $only) ;; *) continue ;; esac
+    tests=$(tests_of "$file")
     cp -p "$copy/$file" "$build/original"
     touch "$build/marker"
     perl -0pi -e "$plant" "$copy/$file"
@@ -99,7 +120,7 @@ while IFS='|' read -r name file plant <&3; do
             ;;
     esac
     if [ "$how" = missed ]; then
-        run_tests || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$build/tests.log" | sed '1q;d')"
+        run_tests $tests || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$source/build/planted/tests.log" | sed '1q;d')"
         [ "$how" != "caught by " ] || how='caught by a crash'
     fi
     # As it was: the file with its time, and no object that saw the bug.
@@ -109,6 +130,6 @@ while IFS='|' read -r name file plant <&3; do
     rm "$build/marker"
     printf '%3d/%d  %-34s %s\n' "$number" "$count" "${name#!}" "$how"
     case $how in missed) missed="$missed ${name#!}" ;; *) caught=$((caught + 1)) ;; esac
-done 3<"$build/bugs"
+done 3<"$source/build/planted/bugs"
 echo "$caught planted bugs caught, $(echo $missed | wc -w) missed:$missed"
 [ -z "$missed" ]
