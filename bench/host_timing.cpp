@@ -288,7 +288,10 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
     Json json;
     {
         Reporter reporter(pairs.size());
-        benchmark::RunSpecifiedBenchmarks(&reporter);
+        if (benchmark::RunSpecifiedBenchmarks(&reporter) == 0) {
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 "--benchmark_filter: expected to match some timing, found none that it does");
+        }
         json = reporter.json();
     }
     benchmark::ClearRegisteredBenchmarks();

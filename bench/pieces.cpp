@@ -13,6 +13,7 @@ constexpr double seconds_per_exact_product = 4.6e-8;
 constexpr double seconds_per_tap = 1.1e-9;
 constexpr double seconds_per_emulated_tap = 3.5e-8;
 constexpr double seconds_per_timing = 0.09;
+constexpr double seconds_per_repetition = 0.002;
 
 double accuracy_cost(const Sweep& sweep) {
     const auto samples = static_cast<double>(sweep.samples);
@@ -39,7 +40,8 @@ std::vector<Piece> make_pieces(const Sweep& sweep) {
     }
     if (sweep.wants("host")) {
         const std::size_t timings = (sweep.kernels.size() + sweep.peers.size()) * sweep.lengths.size();
-        pieces.push_back({Piece::Kind::host, 0, seconds_per_timing * static_cast<double>(timings)});
+        const double each = sweep.repetitions > 1 ? seconds_per_repetition * sweep.repetitions : seconds_per_timing;
+        pieces.push_back({Piece::Kind::host, 0, each * static_cast<double>(timings)});
     }
     return pieces;
 }

@@ -173,10 +173,11 @@ Board find_board(const std::filesystem::path& build, const std::filesystem::path
     Board board{build / "targets" / "measure.elf", build / "targets" / "replay.elf", plugin, {emulate}};
     for (const auto& file : {board.measure_elf, board.replay_elf, board.plugin, board.emulator.command}) {
         if (!std::filesystem::exists(file)) {
+            const std::string preset = file == board.plugin ? "host" : build.filename().string();
             throw Failure(
                 Exit::missing,
                 fmt::format("{}: not found; expected from `cmake --preset {}` and `cmake --build --preset {}`",
-                            file.string(), build.filename().string(), build.filename().string()));
+                            file.string(), preset, preset));
         }
     }
     return board;

@@ -23,6 +23,7 @@ expect 2 "no kernel is called nothing*" bench --kernels 'nothing*'
 expect 2 "--benchmark_no_such_flag" bench $small --targets host --benchmark_no_such_flag=1
 expect 2 "has no rows" bench --quick --kernels peer_std_f32 --targets m7 --out "$folder/out.json"
 expect 2 "cannot write" bench --quick --out /proc/glsum/out.json
+expect 2 "expected to match some timing" bench $small --targets host --benchmark_filter=no-such-row
 GLSUM_QEMU=no-such-emulator expect 3 "qemu-system-arm" bench $small --targets m7
 expect 0 "rows in" bench $small --targets host --benchmark_min_time=0.01
 [ "$failures" -eq 0 ]
