@@ -311,8 +311,40 @@ private:
         return timing;
     }
 
+    // The same measurement of another kernel.
+    static std::string row_of(const std::string& kernel, std::string name) {
+        return name.replace(3, kernel_of(name).size(), kernel);
+    }
+
+    // The witness of this order and length that moved most, if beyond what is allowed to kernels.
+    std::string what_moved(const Rule& rule, const std::string& anchor_row) const {
+        std::string what;
+        double most = rule.relative;
+        for (const std::string& name : verdict_.rows) {
+            const std::string kernel = kernel_of(name);
+            if (kernel == rule.anchor || !matches_any(rule.witnesses, kernel) ||
+                row_of(rule.anchor, name) != anchor_row) {
+                continue;
+            }
+            std::string why_not;
+            const auto then = timing(baseline_, name, anchor_row, why_not);
+            const auto now = timing(current_, name, anchor_row, why_not);
+            if (!then || !now) {
+                continue;
+            }
+            if (const double moved = movement(*then, *now); moved > most) {
+                most = moved;
+                what = fmt::format(
+                    "{}, whose code is not ours, moved by {:.0f} % against {}: one of the runs shared its core", kernel,
+                    100.0 * moved, rule.anchor);
+            }
+        }
+        return what;
+    }
+
     void times() {
-        std::map<std::string, std::size_t> not_judged;  // by reason
+        std::map<std::string, std::size_t> not_judged;                         // by reason
+        std::map<std::pair<const Rule*, std::string>, std::string> unsettled;  // by the anchor's row: what moved there
         for (const std::string& name : verdict_.rows) {
             const std::vector<std::size_t> of_row = rules_of_row(Layer::host_time, name);
             const Rule* fails = first_rule(Layer::host_time, true, of_row, "cpu_time");
@@ -322,15 +354,22 @@ private:
             }
             const Rule& rule = fails != nullptr ? *fails : *warns;
             const std::string kernel = kernel_of(name);
-            if (kernel.empty() || kernel == rule.anchor || judged(Layer::host_time, name) == nullptr) {
+            if (kernel.empty() || kernel == rule.anchor || matches_any(rule.witnesses, kernel) ||
+                judged(Layer::host_time, name) == nullptr) {
                 continue;
             }
-            std::string anchor_row = name;
-            anchor_row.replace(3, kernel.size(), rule.anchor);
+            const std::string anchor_row = row_of(rule.anchor, name);
             std::string why_not;
             const auto old_times = timing(baseline_, name, anchor_row, why_not);
             const auto new_times = timing(current_, name, anchor_row, why_not);
-            if (!old_times || !new_times) {
+            if (why_not.empty()) {
+                const auto [at, first] = unsettled.try_emplace({&rule, anchor_row});
+                if (first) {
+                    at->second = what_moved(rule, anchor_row);
+                }
+                why_not = at->second;
+            }
+            if (!why_not.empty()) {
                 ++verdict_.count(Layer::host_time).not_judged;
                 ++not_judged[why_not];
                 continue;

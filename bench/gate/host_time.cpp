@@ -10,11 +10,12 @@ namespace {
 
 constexpr std::size_t resamples = 2000;
 
-// The mean of the fastest hundredth, two at least. What disturbs a time only makes it longer, and on a busy machine may
-// do so to nine repetitions of ten: a neighbour on the same core that multiplies costs some kernels two thirds and
-// others nothing, so that no quartile and no ratio is safe. A few quiet moments are nearly always left.
-double fastest(std::vector<double>& values) {
-    const std::size_t count = std::max<std::size_t>(2, values.size() / 100);
+// The mean of the fastest hundredth (one part of `parts`), two at least. What disturbs a time only makes it longer, and
+// on a busy machine may do so to nine repetitions of ten: a neighbour on the same core that multiplies costs some
+// kernels two thirds and others nothing, so that no quartile and no ratio is safe. A few quiet moments are nearly
+// always left.
+double fastest(std::vector<double>& values, std::size_t parts = 100) {
+    const std::size_t count = std::max<std::size_t>(2, values.size() / parts);
     const auto end = values.begin() + static_cast<std::ptrdiff_t>(std::min(count, values.size()));
     std::partial_sort(values.begin(), end, values.end());
     return std::accumulate(values.begin(), end, 0.0) / static_cast<double>(end - values.begin());
@@ -60,6 +61,20 @@ TimeChange time_change(const Timing& baseline, const Timing& current, double con
         return std::expm1(changes[static_cast<std::size_t>(share * static_cast<double>(resamples - 1))]);
     };
     return {std::expm1(log_ratio_of(current) - log_ratio_of(baseline)), at(1.0 - confidence), at(confidence)};
+}
+
+double movement(const Timing& baseline, const Timing& current) {
+    double most = 0.0;
+    for (const std::size_t parts : {100, 20}) {
+        double change = 0.0;
+        for (const Timing& timing : {current, baseline}) {
+            std::vector<double> kernel = timing.kernel;
+            std::vector<double> anchor = timing.anchor;
+            change = std::log(fastest(kernel, parts) / fastest(anchor, parts)) - change;
+        }
+        most = std::max(most, std::expm1(std::fabs(change)));
+    }
+    return most;
 }
 
 }  // namespace bench::gate

@@ -27,4 +27,9 @@ inline constexpr std::size_t least_repetitions = 20;
 /// The bootstrap is seeded: the same files give the same verdict.
 [[nodiscard]] TimeChange time_change(const Timing& baseline, const Timing& current, double confidence);
 
+/// Of code that did not change: how far its ratio to the anchor moved, as a share, in the fastest hundredth of the
+/// repetitions or in the fastest twentieth, whichever moved more. Beyond a few per cent the two runs met different
+/// machines: a neighbour on the same core, another clock. \pre as above
+[[nodiscard]] double movement(const Timing& baseline, const Timing& current);
+
 }  // namespace bench::gate

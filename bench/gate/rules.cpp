@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t file_limit = 1 << 20;
 constexpr std::size_t rule_limit = 1000;
-constexpr std::string_view keys[] = {"layer",    "rows",  "counters", "better", "relative",
-                                     "absolute", "level", "reason",   "anchor", "confidence"};
+constexpr std::string_view keys[] = {"layer", "rows",   "counters", "better",    "relative",  "absolute",
+                                     "level", "reason", "anchor",   "witnesses", "confidence"};
 
 // One thresholds file while it is read: messages name its place.
 class Reader {
@@ -127,7 +127,7 @@ private:
 
     void host_time(const toml::table& table, Rule& rule) const {
         if (rule.layer != Layer::host_time) {
-            for (const std::string_view key : {"anchor", "confidence"}) {
+            for (const std::string_view key : {"anchor", "witnesses", "confidence"}) {
                 if (const toml::node* node = table.get(key)) {
                     refuse(node->source(), fmt::format("{}: only rules of the layer host_time have it", key));
                 }
@@ -141,6 +141,9 @@ private:
             refuse(need(table, "better").source(), "better: expected lower for times");
         }
         rule.anchor = text(table, "anchor");
+        if (table.contains("witnesses")) {
+            rule.witnesses = globs(table, "witnesses");
+        }
         if (const auto confidence = number(table, "confidence")) {
             if (*confidence < 0.5 || *confidence > 0.9999) {
                 refuse(need(table, "confidence").source(), "confidence: expected a number from 0.5 to 0.9999");

@@ -30,7 +30,10 @@ struct Rule {
     bool fails = true;      ///< else it only warns
     std::string reason;
     // Of host_time only:
-    std::string anchor;        ///< kernel of the same run, order and length that times are divided by
+    std::string anchor;  ///< kernel of the same run, order and length that times are divided by
+    std::vector<std::string>
+        witnesses;             ///< globs of kernels whose code is not ours: when one's own ratio to the anchor
+                               ///< moved, the machine did, and nothing of that order and length is judged
     double confidence = 0.99;  ///< of the one-sided bootstrap bound on the change of that ratio
     std::size_t line = 0;      ///< in the file
 

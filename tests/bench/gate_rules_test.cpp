@@ -64,6 +64,9 @@ TEST(GateRules, OfHostTimeHaveAnAnchor) {
     text += "anchor = \"peer_std_f32\"\nconfidence = 0.95\n";
     const Rules rules = parse_rules(text, "t.toml");
     EXPECT_EQ(rules[0].anchor, "peer_std_f32");
+    EXPECT_TRUE(rules[0].witnesses.empty());
+    EXPECT_EQ(parse_rules(text + "witnesses = \"peer_*\"\n", "rules")[0].witnesses, std::vector<std::string>{"peer_*"});
+    EXPECT_THAT(refusal(text + "witnesses = 3\n"), HasSubstr("witnesses"));
     EXPECT_EQ(rules[0].confidence, 0.95);
     EXPECT_THAT(refusal(text + "absolute = 1\n"), HasSubstr("t.toml:11:12: absolute: times of two runs"));
     EXPECT_THAT(refusal(good + "anchor = \"peer_std_f32\"\n"), HasSubstr("only rules of the layer host_time"));

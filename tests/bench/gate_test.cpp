@@ -357,6 +357,34 @@ TEST(Gate, JudgesTimesOnlyAgainstTheAnchor) {
     EXPECT_THAT(find(verdict, Level::note)->what, HasSubstr("fewer than 20 repetitions"));
 }
 
+// A neighbour on the same core slows what fills it and leaves the rest: code that is not ours tells so.
+TEST(Gate, DoesNotJudgeTimesWhereAWitnessMoved) {
+    Rules with_witness = rules();
+    with_witness.back().witnesses = {"peer_*"};
+    const auto with_peer = [](double slower) {
+        Results results = run();
+        Results more = run();
+        std::erase_if(more.rows, [](const Json& row) { return row["name"] != time_row; });
+        for (Json& row : more.rows) {
+            row["name"] = row["run_name"] = "gl/peer_eigen_f32/order:0.5/taps:50/host";
+            row["cpu_time"] = slower * row["cpu_time"].get<double>();
+            results.rows.push_back(row);
+        }
+        return results;
+    };
+    Results current = with_peer(1.0);
+    scale(current, time_row, "cpu_time", 1.1);
+    EXPECT_EQ(judge(with_peer(1.0), current, with_witness).status, Exit::check_failed);
+    for (const double slower : {1.3, 0.8}) {
+        current = with_peer(slower);
+        scale(current, time_row, "cpu_time", 1.1);
+        const Verdict verdict = judge(with_peer(1.0), current, with_witness);
+        EXPECT_EQ(verdict.status, Exit::good);
+        EXPECT_EQ(verdict.count(Layer::host_time).not_judged, 2u);
+        EXPECT_THAT(find(verdict, Level::note)->what, HasSubstr("peer_eigen_f32, whose code is not ours, moved by"));
+    }
+}
+
 TEST(Gate, WithoutARuleThatSpeaksIsRefused) {
     Results other;
     other.rows.push_back(bench::make_row("something", 1));

@@ -63,4 +63,16 @@ TEST(GateTime, FewQuietMomentsWidenTheInterval) {
     EXPECT_GT(busy.high - busy.low, 3.0 * (quiet.high - quiet.low));
 }
 
+// A run that met few quiet moments, and one that met none, differ in the fastest twentieth if not in the hundredth.
+TEST(GateTime, CodeThatDidNotChangeTellsWhetherTheMachineDid) {
+    EXPECT_LT(bench::gate::movement(run(1, 200, 0.0), run(2, 200, 0.5)), 0.02);
+    Timing few = run(3, 200, 0.0);
+    for (std::size_t i = 4; i < few.kernel.size(); ++i) {
+        few.kernel[i] *= 1.5;
+    }
+    EXPECT_NEAR(bench::gate::movement(run(1, 200, 0.0), few), 0.3, 0.02);  // 4 quiet and 6 disturbed of the fastest ten
+    EXPECT_NEAR(bench::gate::movement(few, run(1, 200, 0.0)), 0.3, 0.02);
+    EXPECT_NEAR(bench::gate::movement(run(1, 200, 0.0), run(2, 200, 0.0, 0.9)), 1.0 / 0.9 - 1.0, 0.02);
+}
+
 }  // namespace
