@@ -79,7 +79,9 @@ TimingLog read_timing_log(std::istream& in) {
         words >> kind;
         if (kind == "calls") {
             TimedRun run;
-            words >> run.calls >> run.call.entry >> run.call.instructions;
+            if (!(words >> run.calls >> run.call.entry >> run.call.instructions) || run.calls == 0) {
+                throw std::runtime_error("timing log: damaged line: " + line);
+            }
             std::size_t sets = 0;
             for (std::string word; words >> word >> sets;) {
                 CoreTime core;
@@ -107,8 +109,11 @@ TimingLog read_timing_log(std::istream& in) {
             log.hot[core][address] = half_cycles;
         } else if (kind == "unknown") {
             std::uint32_t address = 0;
-            words >> address;
-            words >> log.unknown[address];
+            std::uint64_t times = 0;
+            if (!(words >> address >> times)) {
+                throw std::runtime_error("timing log: damaged line: " + line);
+            }
+            log.unknown[address] = times;
         } else if (kind == "recursive") {
             log.recursive = true;
         } else if (kind == "unfinished") {

@@ -1,0 +1,14 @@
+// A model file from anywhere: what is taken is a model, and is written and taken again as it was.
+#include "drive/model_file.hpp"
+#include "tests/fuzz/refused.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    fuzz::refused_or([&] {
+        const drive::Model model = drive::parse_model(fuzz::to_text(data, size), "file");
+        drive::check_model(model, "file");
+        const drive::Model again = drive::parse_model(drive::to_json(model), "again");
+        fuzz::expect(again == model);
+        fuzz::expect(!drive::to_text(model).empty());
+    });
+    return 0;
+}
