@@ -14,6 +14,8 @@ namespace {
 
 // How many lengths in a row are measured one by one; a longer gap is bisected first.
 constexpr std::size_t longest_scan = 512;
+// So few lengths are all measured, whatever truncation says.
+constexpr std::size_t short_scan = 32;
 // Where code of equal kind repeats in groups (of 2, 4, 8 taps), a slightly longer one can cost less, by no more than
 // the rest of a group: so many instructions, so many taps.
 constexpr double group_cost = 64.0;
@@ -31,8 +33,14 @@ public:
         const ErrorAt there = whole(first);
         if (there.fault.empty() && there.error <= limit_) {
             // Shorter ones whose rounding may make good what truncation costs.
-            const double rounding = std::fabs(there.error - errors_.truncation(first));
-            reach_.shortest = scan(1, first, limit_ + 2.0 * rounding).value_or(first);
+            double rounding = std::fabs(there.error - errors_.truncation(first));
+            for (const std::size_t taps : {first - first / 4, first - first / 2}) {
+                const ErrorAt at = whole(taps);
+                rounding = std::max(rounding, at.fault.empty() ? std::fabs(at.error - errors_.truncation(taps)) : 0.0);
+            }
+            const double possible =
+                first <= short_scan ? std::numeric_limits<double>::infinity() : limit_ + 4.0 * rounding;
+            reach_.shortest = scan(1, first, possible).value_or(first);
             return reach_;
         }
         climb(first);
