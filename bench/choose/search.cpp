@@ -31,19 +31,19 @@ public:
     Reach run() {
         const std::size_t first = next_possible(1);
         const ErrorAt there = whole(first);
-        if (there.fault.empty() && there.error <= limit_) {
-            // Shorter ones whose rounding may make good what truncation costs.
-            double rounding = std::fabs(there.error - errors_.truncation(first));
-            for (const std::size_t taps : {first - first / 4, first - first / 2}) {
-                const ErrorAt at = whole(taps);
-                rounding = std::max(rounding, at.fault.empty() ? std::fabs(at.error - errors_.truncation(taps)) : 0.0);
-            }
-            const double possible =
-                first <= short_scan ? std::numeric_limits<double>::infinity() : limit_ + 4.0 * rounding;
-            reach_.shortest = scan(1, first, possible).value_or(first);
-            return reach_;
+        // Shorter ones whose rounding makes good what truncation costs.
+        double rounding = 0.0;
+        for (const std::size_t taps : {first, first - first / 4, first - first / 2}) {
+            const ErrorAt at = whole(taps);
+            rounding = std::max(rounding, at.fault.empty() ? std::fabs(at.error - errors_.truncation(taps)) : 0.0);
         }
-        climb(first);
+        const double possible = first <= short_scan ? std::numeric_limits<double>::infinity() : limit_ + 4.0 * rounding;
+        reach_.shortest = scan(first > longest_scan ? first - longest_scan : 1, first, possible);
+        if (!reach_.shortest && there.fault.empty() && there.error <= limit_) {
+            reach_.shortest = first;
+        } else if (!reach_.shortest) {
+            climb(first);
+        }
         return reach_;
     }
 

@@ -159,7 +159,8 @@ TEST(Search, SaysWhyEachKernelLost) {
     EXPECT_EQ(fates["broken"], Fate::wrong);
     EXPECT_EQ(fates["coarsest"], Fate::inaccurate);
     EXPECT_EQ(fates["exact"], Fate::too_dear);
-    EXPECT_EQ(fates["groups"], Fate::chosen);
+    EXPECT_EQ(fates["lucky"], Fate::chosen);
+    EXPECT_EQ(fates["groups"], Fate::runner_up);
 }
 
 TEST(Search, AWrongAnswerNeverWins) {
