@@ -7,6 +7,8 @@
 
 #include "bench/host_line.hpp"
 #include "bench/row.hpp"
+#include "bench/signals.hpp"
+#include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
 
 namespace choose {
@@ -41,19 +43,19 @@ Run run(const glsum::Design& design, const Record& record, double limit) {
     return {largest / record.peak, true, glsum::Status::ok};
 }
 
-Run run(const std::string& kernel, const glsum::Design& design, const Record& record, double limit) {
-    Run result{};
+// Calls `use.operator()<K>()` for the kernel of this name.
+template <class Use>
+void with_kernel(const std::string& name, const Use& use) {
     bool found = false;
     glsum::Registry::for_each([&]<class K>() {
-        if (K::name() == kernel) {
-            result = run<K>(design, record, limit);
+        if (K::name() == name) {
+            use.template operator()<K>();
             found = true;
         }
     });
     if (!found) {
-        throw std::out_of_range("no kernel " + kernel);
+        throw std::out_of_range("no kernel " + name);
     }
-    return result;
 }
 
 }  // namespace
@@ -77,6 +79,22 @@ void MeasuredErrors::remember(const std::string& kernel, std::size_t taps, const
     }
 }
 
+double MeasuredErrors::rounding_bound(const std::string& kernel, std::size_t taps) const {
+    double least_peak = std::numeric_limits<double>::infinity();
+    for (const Record& record : records_) {
+        least_peak = std::min(least_peak, record.peak);
+    }
+    double bound = std::numeric_limits<double>::infinity();
+    with_kernel(kernel, [&]<class K>() {
+        const glsum::Design design{order_, taps};
+        bench::HostLine<K> line(design);
+        if (line.status() == glsum::Status::ok) {
+            bound = glsum::error_bound<K>(design, line.state(), bench::signal_peak) / least_peak;
+        }
+    });
+    return bound;
+}
+
 MeasuredErrors::Known MeasuredErrors::of_signal(const std::string& kernel, std::size_t taps, std::size_t signal,
                                                 double limit, std::string& fault) {
     const std::pair key(kernel, taps);
@@ -97,7 +115,8 @@ MeasuredErrors::Known MeasuredErrors::of_signal(const std::string& kernel, std::
         }
         ++measured_;
     }
-    const Run found = run(kernel, {order_, taps}, records_[signal], limit);
+    Run found{};
+    with_kernel(kernel, [&]<class K>() { found = run<K>({order_, taps}, records_[signal], limit); });
     if (found.status != glsum::Status::ok) {
         fault = bench::to_text(found.status);
         return {std::numeric_limits<double>::infinity(), true};

@@ -28,6 +28,8 @@ public:
     [[nodiscard]] virtual std::size_t longest() const = 0;
     /// What truncation alone costs at this length, worst of the signals: a guide, not a measurement.
     [[nodiscard]] virtual double truncation(std::size_t taps) const = 0;
+    /// No error at this length or a shorter one is farther from `truncation` than this. Thread-safe.
+    [[nodiscard]] virtual double rounding_bound(const std::string& kernel, std::size_t taps) const = 0;
     /// Thread-safe.
     [[nodiscard]] virtual ErrorAt error(const std::string& kernel, std::size_t taps) = 0;
     /// Whether error(kernel, taps) <= limit, measured only as far as the answer needs. Thread-safe.
@@ -44,6 +46,7 @@ public:
 
     [[nodiscard]] std::size_t longest() const override { return truncation_.size(); }
     [[nodiscard]] double truncation(std::size_t taps) const override { return truncation_[taps - 1]; }
+    [[nodiscard]] double rounding_bound(const std::string& kernel, std::size_t taps) const override;
     [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override;
     [[nodiscard]] bool meets(const std::string& kernel, std::size_t taps, double limit) override;
 

@@ -14,8 +14,6 @@ namespace {
 
 // How many lengths in a row are measured one by one; a longer gap is bisected first.
 constexpr std::size_t longest_scan = 512;
-// So few lengths are all measured, whatever truncation says.
-constexpr std::size_t short_scan = 32;
 // Where code of equal kind repeats in groups (of 2, 4, 8 taps), a slightly longer one can cost less, by no more than
 // the rest of a group: so many instructions, so many taps.
 constexpr double group_cost = 64.0;
@@ -30,19 +28,15 @@ public:
 
     Reach run() {
         const std::size_t first = next_possible(1);
-        const ErrorAt there = whole(first);
         // Shorter ones whose rounding makes good what truncation costs.
-        double rounding = 0.0;
-        for (const std::size_t taps : {first, first - first / 4, first - first / 2}) {
-            const ErrorAt at = whole(taps);
-            rounding = std::max(rounding, at.fault.empty() ? std::fabs(at.error - errors_.truncation(taps)) : 0.0);
-        }
-        const double possible = first <= short_scan ? std::numeric_limits<double>::infinity() : limit_ + 4.0 * rounding;
-        reach_.shortest = scan(first > longest_scan ? first - longest_scan : 1, first, possible);
-        if (!reach_.shortest && there.fault.empty() && there.error <= limit_) {
-            reach_.shortest = first;
-        } else if (!reach_.shortest) {
-            climb(first);
+        reach_.shortest = scan(1, first, limit_ + errors_.rounding_bound(kernel_, first));
+        if (!reach_.shortest) {
+            const ErrorAt there = whole(first);
+            if (there.fault.empty() && there.error <= limit_) {
+                reach_.shortest = first;
+            } else {
+                climb(first);
+            }
         }
         return reach_;
     }

@@ -36,6 +36,10 @@ public:
         const auto l = static_cast<double>(taps);
         return taps >= ::longest ? 0.0 : std::pow(l, -0.6) * (1.0 + 0.05 * std::sin(l / 3.0));
     }
+    [[nodiscard]] double rounding_bound(const std::string& kernel, std::size_t taps) const override {
+        const Made& made = kernels_.at(kernel);
+        return std::fabs(made.rounding) * std::sqrt(static_cast<double>(taps)) * (1.0 + made.wobble);
+    }
     [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override {
         const Made& made = kernels_.at(kernel);
         if (!made.fault.empty()) {
