@@ -162,22 +162,51 @@ double time_kernel(benchmark::State* state, double order, std::size_t taps,
     }
 }
 
-double time_peer(benchmark::State* state, const Peer& peer, double order, std::size_t taps,
-                 const std::vector<reference::Real>& weights) {
-    std::vector<float> coefficients;
-    for (const auto& weight : weights) {
-        coefficients.push_back(static_cast<float>(weight));
-    }
-    Placed<PeerLine> placed(peer, coefficients, places().next() * Placement::line_bytes / sizeof(float));
-    PeerLine& line = *placed;
-    const std::vector<float> samples(stream().begin(), stream().end());
+// How a peer's numbers stand for real ones.
+template <class Dot>
+struct PeerNumbers {
+    static float coefficient(double a) { return static_cast<float>(a); }
+    static float sample(double x) { return static_cast<float>(x); }
+    static double real(float sum) { return sum; }
     // Any order of summation: every term may pass every addition.
-    const double bound = 1.01 * static_cast<double>(taps + 2) * glsum::F32::sum_roundoff * signal_peak *
-                         glsum::absolute_sum(order, taps);
+    static double bound(double order, std::size_t taps) {
+        return 1.01 * static_cast<double>(taps + 2) * glsum::F32::sum_roundoff * signal_peak *
+               glsum::absolute_sum(order, taps);
+    }
+};
+template <>
+struct PeerNumbers<Q31Dot> {
+    static std::int32_t coefficient(double a) {
+        return static_cast<std::int32_t>(std::lround(std::ldexp(a, q31_coefficient_bits)));
+    }
+    static std::int32_t sample(double x) { return static_cast<std::int32_t>(std::lround(std::ldexp(x, 31))); }
+    static double real(std::int64_t sum) { return std::ldexp(static_cast<double>(sum), -31 - q31_coefficient_bits); }
+    // Sums are exact; each coefficient and each sample is rounded once.
+    static double bound(double order, std::size_t taps) {
+        return std::ldexp(static_cast<double>(taps), -q31_coefficient_bits - 1) +
+               std::ldexp(1.01 * glsum::absolute_sum(order, taps), -32);
+    }
+};
+
+template <class Dot>
+double time_peer(benchmark::State* state, MakeDot<Dot> make, double order, std::size_t taps,
+                 const std::vector<reference::Real>& weights) {
+    using Numbers = PeerNumbers<Dot>;
+    std::vector<typename Dot::Sample> coefficients;
+    for (const auto& weight : weights) {
+        coefficients.push_back(Numbers::coefficient(static_cast<double>(weight)));
+    }
+    Placed<PeerLine<Dot>> placed(make, coefficients,
+                                 places().next() * Placement::line_bytes / sizeof(typename Dot::Sample));
+    PeerLine<Dot>& line = *placed;
+    std::vector<typename Dot::Sample> samples;
+    for (const double x : stream()) {
+        samples.push_back(Numbers::sample(x));
+    }
     const double ns = time_line(
-        state, samples, weights, bound, [&](float x) { return line.step(x); },
-        [](float y) { return static_cast<double>(y); });
-    set_sizes(state, taps, taps * sizeof(float), 2 * taps * sizeof(float));
+        state, samples, weights, Numbers::bound(order, taps), [&](auto x) { return line.step(x); },
+        [](auto sum) { return Numbers::real(sum); });
+    set_sizes(state, taps, taps * sizeof(typename Dot::Sample), 2 * taps * sizeof(typename Dot::Sample));
     return ns;
 }
 
@@ -280,7 +309,8 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
         for (const Peer& peer : peers()) {
             if (peer.name == name) {
                 add(name, length, [&peer, order, taps, weights](benchmark::State* state) {
-                    return time_peer(state, peer, order, taps, *weights);
+                    return std::visit([&](auto make) { return time_peer(state, make, order, taps, *weights); },
+                                      peer.make);
                 });
             }
         }

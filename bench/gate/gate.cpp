@@ -316,10 +316,11 @@ private:
         return name.replace(3, kernel_of(name).size(), kernel);
     }
 
-    // The witness of this order and length that moved most, if beyond what is allowed to kernels.
+    // The witness of this order and length that moved most, if beyond half of what is allowed to kernels: some suffer
+    // more.
     std::string what_moved(const Rule& rule, const std::string& anchor_row) const {
         std::string what;
-        double most = rule.relative;
+        double most = 0.5 * rule.relative;
         for (const std::string& name : verdict_.rows) {
             const std::string kernel = kernel_of(name);
             if (kernel == rule.anchor || !matches_any(rule.witnesses, kernel) ||

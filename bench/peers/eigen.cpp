@@ -6,7 +6,7 @@
 namespace bench {
 namespace {
 
-class EigenDot final : public PeerDot {
+class EigenDot final : public F32Dot {
 public:
     explicit EigenDot(const std::vector<float>& coefficients)
         : coefficients_(
@@ -21,7 +21,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PeerDot> make_eigen(const std::vector<float>& coefficients) {
+std::unique_ptr<F32Dot> make_eigen(const std::vector<float>& coefficients) {
     return std::make_unique<EigenDot>(coefficients);
 }
 

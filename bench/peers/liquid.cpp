@@ -7,7 +7,7 @@
 namespace bench {
 namespace {
 
-class LiquidDot final : public PeerDot {
+class LiquidDot final : public F32Dot {
 public:
     explicit LiquidDot(std::vector<float> coefficients)
         : dot_(dotprod_rrrf_create(coefficients.data(), static_cast<unsigned>(coefficients.size()))) {}
@@ -26,7 +26,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PeerDot> make_liquid(const std::vector<float>& coefficients) {
+std::unique_ptr<F32Dot> make_liquid(const std::vector<float>& coefficients) {
     return std::make_unique<LiquidDot>(coefficients);
 }
 

@@ -8,7 +8,7 @@ extern "C" void openblas_set_num_threads(int threads);
 namespace bench {
 namespace {
 
-class OpenblasDot final : public PeerDot {
+class OpenblasDot final : public F32Dot {
 public:
     explicit OpenblasDot(const std::vector<float>& coefficients) : coefficients_(coefficients) {
         openblas_set_num_threads(1);
@@ -23,7 +23,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PeerDot> make_openblas(const std::vector<float>& coefficients) {
+std::unique_ptr<F32Dot> make_openblas(const std::vector<float>& coefficients) {
     return std::make_unique<OpenblasDot>(coefficients);
 }
 

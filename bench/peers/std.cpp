@@ -6,7 +6,7 @@
 namespace bench {
 namespace {
 
-class StdDot final : public PeerDot {
+class StdDot final : public F32Dot {
 public:
     explicit StdDot(const std::vector<float>& coefficients) : coefficients_(coefficients) {}
     float dot(const float* window) override {
@@ -19,7 +19,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PeerDot> make_std(const std::vector<float>& coefficients) {
+std::unique_ptr<F32Dot> make_std(const std::vector<float>& coefficients) {
     return std::make_unique<StdDot>(coefficients);
 }
 

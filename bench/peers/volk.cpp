@@ -6,7 +6,7 @@
 namespace bench {
 namespace {
 
-class VolkDot final : public PeerDot {
+class VolkDot final : public F32Dot {
 public:
     explicit VolkDot(const std::vector<float>& coefficients) : coefficients_(coefficients) {}
     float dot(const float* window) override {
@@ -21,7 +21,7 @@ private:
 
 }  // namespace
 
-std::unique_ptr<PeerDot> make_volk(const std::vector<float>& coefficients) {
+std::unique_ptr<F32Dot> make_volk(const std::vector<float>& coefficients) {
     return std::make_unique<VolkDot>(coefficients);
 }
 

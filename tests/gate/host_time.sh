@@ -47,7 +47,7 @@ plant() {
 record() {
     [ ! -s "$folder/$2.json" ] || return 0
     "$1" bench --quick --targets host --orders 0.5 --taps 600 --signals step --repetitions 200 --out "$folder/$2.json" \
-        --kernels ring_plain_f32,ring_horner_f32,mirror_multi_f32,mirror_simd_f32,ring_plain_q31,peer_std_f32,peer_eigen_f32 >"$folder/log" 2>&1 ||
+        --kernels ring_plain_f32,ring_horner_f32,mirror_multi_f32,mirror_simd_f32,ring_plain_q31,peer_std_f32,peer_eigen_f32,peer_std_q31 >"$folder/log" 2>&1 ||
         { tail "$folder/log" >&2; exit 1; }
     rm -f "$folder/$2.csv" "$folder/$2.svg" "$folder/$2.png"
 }
