@@ -15,6 +15,7 @@
 #include "bench/signals.hpp"
 #include "bench/table.hpp"
 #include "bench/target_rows.hpp"
+#include "cli/bench_drive.hpp"
 #include "cli/board.hpp"
 #include "cli/commands.hpp"
 #include "cli/finish_run.hpp"
@@ -31,6 +32,7 @@ constexpr std::size_t most_taps = 1'000'000;  // beyond any record; tables and w
 
 struct Options {
     bool quick = false;
+    bool drive = false;
     std::vector<std::string> kernels{"*"};
     std::vector<double> orders;
     std::vector<std::string> taps;
@@ -139,6 +141,12 @@ std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
 }
 
 void run(const Options& options, const PassedOn& flags) {
+    if (options.drive) {
+        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
+        run_drive_bench({options.kernels, options.taps, options.targets, options.quick, options.jobs,
+                         options.out.empty() ? results / "drive.json" : options.out});
+        return;
+    }
     const bench::Sweep sweep = to_sweep(options);
     const std::optional<bench::Shard> shard =
         options.shard ? std::optional(bench::parse_shard(*options.shard)) : std::nullopt;
@@ -169,6 +177,8 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
         "Flags --benchmark_... go to Google Benchmark.\n"
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");
     command->add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
+    command->add_flag("--drive", options->drive,
+                      "Instead of sums, whole models (10) to (12) stepped at 1 kHz: writes results/drive.json");
     command->add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
     command->add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
     command->add_option("--taps", options->taps, "Lengths: numbers, or full (as many as the record has samples)")

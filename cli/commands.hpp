@@ -43,5 +43,6 @@ void add_stability(CLI::App& app);
 void add_indices(CLI::App& app);
 void add_paper(CLI::App& app);
 void add_resample(CLI::App& app);
+void add_stand(CLI::App& app);
 
 }  // namespace cli

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "bench/files.hpp"
 #include "bench/gnuplot.hpp"
 #include "bench/progress.hpp"
 #include "cli/commands.hpp"
@@ -18,6 +19,7 @@
 #include "drive/indices.hpp"
 #include "drive/model_file.hpp"
 #include "drive/pictures.hpp"
+#include "drive/static_characteristic.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -38,6 +40,8 @@ struct Options {
     std::vector<std::string> bounds;
     drive::FitOptions fit;
     std::string method = "least-squares";
+    bool characteristic = false;
+    double shortest_hold_s = 1.0;
     std::size_t coverage = 0;
     drive::Acquisition acquisition;
     bool json = false;
@@ -205,11 +209,42 @@ void show_coverage(const Options& options) {
     }
 }
 
+void show_characteristic(const Options& options) {
+    if (options.logs.size() != 1) {
+        throw Failure(Exit::bad_input, fmt::format("--static: expected one log, found {}", options.logs.size()));
+    }
+    const drive::Log log = read_ordered_log(options.logs.front(), options.columns);
+    const drive::StaticCharacteristic found = drive::static_characteristic(log, options.shortest_hold_s);
+    std::string text =
+        fmt::format("{:>10} {:>12} {:>12} {:>10} {:>10}\n", "input", "output", "deviation", "from s", "to s");
+    for (const drive::Level& level : found.levels) {
+        text += fmt::format("{:>10.5g} {:>12.6g} {:>12.2g} {:>10.2f} {:>10.2f}  {}{}\n", level.input, level.output,
+                            level.deviation, level.from_s, level.to_s, level.rising ? "up" : "down",
+                            level.settled ? "" : fmt::format(", not settled: still moves by {:.2g}", level.drift));
+    }
+    text += fmt::format(
+        "straight line {:.6g} + {:.6g} input; the output bends away from it by up to {:.1f} % of its range\n",
+        found.intercept, found.slope, 100.0 * found.largest_bend);
+    fmt::print("{}", text);
+    if (!options.out.empty()) {
+        bench::write_file(options.out, drive::to_csv(found));
+    }
+    if (!options.plot.empty()) {
+        bench::draw(drive::picture_of_characteristic(
+                        found, "Static characteristic of " + options.logs.front().filename().string()),
+                    options.plot);
+    }
+}
+
 void run(const Options& given) {
     Options options = given;
     options.fit.prediction_error = options.method == "prediction-error";
     if (options.coverage > 0) {
         show_coverage(options);
+        return;
+    }
+    if (options.characteristic) {
+        show_characteristic(options);
         return;
     }
     if (options.logs.empty()) {
@@ -308,6 +343,10 @@ void add_identify(CLI::App& app) {
     command->add_option("--starts", options->fit.starts, "Also from random starts, so many in all")
         ->capture_default_str();
     command->add_option("--seed", options->fit.seed, "Of the random starts, and of the first log of --coverage")
+        ->capture_default_str();
+    command->add_flag("--static", options->characteristic,
+                      "Instead: the static characteristic, where the output rests for each level of the input");
+    command->add_option("--hold-s", options->shortest_hold_s, "Of --static: shorter holds are passed over")
         ->capture_default_str();
     command->add_option("--coverage", options->coverage,
                         "Fit so many noisy logs of --start and count the truths inside");

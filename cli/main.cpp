@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
     cli::add_stability(app);
     cli::add_indices(app);
     cli::add_resample(app);
+    cli::add_stand(app);
     cli::add_paper(app);
     // The launcher tells every command how many jobs may run at once.
     unsigned unused_jobs = 1;

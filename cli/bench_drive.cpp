@@ -1,0 +1,382 @@
+#include "cli/bench_drive.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "bench/build_info.hpp"
+#include "bench/context.hpp"
+#include "bench/progress.hpp"
+#include "bench/result_file.hpp"
+#include "bench/results.hpp"
+#include "cli/board.hpp"
+#include "cli/drive_files.hpp"
+#include "drive/realtime.hpp"
+#include "drive/response.hpp"
+#include "drive/simulation.hpp"
+#include "qemu/failure.hpp"
+#include "qemu/model_run.hpp"
+
+namespace cli {
+namespace {
+
+using bench::Json;
+using glsum::Exit;
+using glsum::Failure;
+
+constexpr double step_s = 0.001;
+constexpr double period_cycles = 216e6 * step_s;   // an STM32F746 at 1 kHz
+constexpr std::size_t response_steps = 5000;       // 5 s behind the dead time
+constexpr std::size_t emulated_double_taps = 600;  // longer ones take minutes in software
+
+struct Case {
+    std::string model;
+    std::string name;  ///< with the writing
+    std::string kernel;
+    drive::Writing writing;
+    std::size_t taps;  ///< as asked; `design` has those that are needed
+    bool full;
+    drive::RealtimeModel design;
+    std::size_t steps;
+    const std::vector<double>* exact;
+    double error_max = 0.0;
+    double error_rms = 0.0;
+    double final_output = 0.0;
+    std::uint32_t saturations = 0;
+    double host_ns = 0.0;
+    std::optional<qemu::MeasuredRow> counted;
+    bool same_bits = true;
+    std::string fault;
+
+    [[nodiscard]] std::string length() const { return full ? "full" : std::to_string(design.taps()); }
+    [[nodiscard]] bool in_double() const { return kernel.ends_with("f64"); }
+    [[nodiscard]] bool runs_on_target() const { return !in_double() || design.taps() <= emulated_double_taps; }
+};
+
+const std::vector<double> ones{1.0};
+
+template <class Work>
+double best_seconds(int runs, Work work) {
+    double best = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < runs; ++i) {
+        const auto start = std::chrono::steady_clock::now();
+        work();
+        best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    return best;
+}
+
+void run_here(Case& one) {
+    const qemu::PlannedModel planned{one.kernel, &one.design.design(), ones, one.steps};
+    qemu::SteppedModel stepped;
+    const double seconds = best_seconds(3, [&] { stepped = qemu::step_model_here(planned); });
+    if (stepped.status != glsum::Status::ok) {
+        one.fault = bench::to_text(stepped.status);
+        return;
+    }
+    one.host_ns = 1e9 * seconds / static_cast<double>(one.steps + 1);
+    one.saturations = stepped.saturations;
+    one.final_output = stepped.output[one.steps];
+    double largest = 0.0;
+    double square = 0.0;
+    double peak = 0.0;
+    for (std::size_t k = 0; k <= one.steps; ++k) {
+        const double error = stepped.output[k] - (*one.exact)[k];
+        largest = std::max(largest, std::fabs(error));
+        square += error * error;
+        peak = std::max(peak, std::fabs((*one.exact)[k]));
+    }
+    one.error_max = largest / peak;
+    one.error_rms = std::sqrt(square / static_cast<double>(one.steps + 1)) / peak;
+}
+
+Json to_row(const Case& one, const std::string& target) {
+    Json row = bench::make_row(fmt::format("drive/{}/{}/taps:{}/{}", one.model, one.name, one.length(), target),
+                               one.steps + 1);
+    row["error_max"] = one.error_max;
+    row["error_rms"] = one.error_rms;
+    row["final_output"] = one.final_output;
+    row["effective_taps"] = one.design.taps();
+    if (!one.fault.empty()) {
+        bench::mark_error(row, one.fault);
+        return row;
+    }
+    if (one.kernel.find("_q") != std::string::npos) {
+        row["saturations"] = one.saturations;
+    }
+    if (target == "host") {
+        row["real_time"] = row["cpu_time"] = row["ns_per_sample"] = one.host_ns;
+        return row;
+    }
+    const qemu::MeasuredRow& counted = *one.counted;
+    row["label"] = one.in_double()
+                       ? "instructions only; double precision in software, where the count depends on the data"
+                       : "instructions only";
+    row["instructions_per_sample"] = counted.instructions;
+    row["loads_per_sample"] = counted.loads;
+    row["stores_per_sample"] = counted.stores;
+    row["branches_per_sample"] = counted.branches;
+    row["first_instructions"] = counted.first.instructions;
+    row["worst_instructions"] = counted.worst_instructions;
+    row["instructions_share_of_period"] = static_cast<double>(counted.worst_instructions) / period_cycles;
+    row["code_bytes"] = counted.code_bytes;
+    row["stack_bytes"] = counted.stack_bytes;
+    row["state_bytes"] = counted.state_bytes;
+    row["coefficient_bytes"] = counted.coefficient_bytes;
+    if (!one.same_bits) {
+        bench::mark_error(row, "the target's outputs differ from the host's");
+    }
+    return row;
+}
+
+std::string to_table(const std::vector<Case>& cases, const std::string& model) {
+    std::string text =
+        fmt::format("\n{}\n  {:<28} {:>6} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8}  {}\n", model, "kernel", "taps",
+                    "error max", "at the end", "M7 instr.", "M7 worst", "period", "bytes", "host ns");
+    for (const Case& one : cases) {
+        if (one.model != model) {
+            continue;
+        }
+        text += fmt::format("  {:<28} {:>6} ", one.name, one.length());
+        if (!one.fault.empty()) {
+            text += one.fault + "\n";
+            continue;
+        }
+        text += fmt::format("{:>10.2e} {:>10.5f} ", one.error_max, one.final_output);
+        if (one.counted) {
+            const auto worst = static_cast<double>(one.counted->worst_instructions);
+            text +=
+                fmt::format("{:>10.1f} {:>10.0f} {:>7.2f}% {:>8}  ", one.counted->instructions, worst,
+                            100.0 * worst / period_cycles, one.counted->state_bytes + one.counted->coefficient_bytes);
+        } else {
+            text += fmt::format("{:>10} {:>10} {:>8} {:>8}  ", "-", "-", "-", "-");
+        }
+        text += fmt::format("{:.1f}{}{}\n", one.host_ns,
+                            one.saturations > 0 ? fmt::format("  {} saturations", one.saturations) : "",
+                            one.same_bits ? "" : "  NOT THE HOST'S BITS");
+    }
+    return text;
+}
+
+// The longest memory that a period leaves, if every cycle took an instruction, and what bytes 320 KB leave.
+std::string deadline_table(const std::vector<Case>& cases) {
+    std::string text = fmt::format(
+        "\nThe longest memory at 1 kHz, 216 000 cycles a step, by the line through two counted lengths\n  {:<10} "
+        "{:<28} "
+        "{:>16} {:>14} {:>16} {:>16}\n",
+        "model", "kernel", "instr. a tap", "bytes a tap", "1 a cycle", "in 320 KB");
+    std::map<std::pair<std::string, std::string>, std::vector<const Case*>> counted;
+    for (const Case& one : cases) {
+        if (one.counted && one.fault.empty()) {
+            counted[{one.model, one.name}].push_back(&one);
+        }
+    }
+    for (const auto& [key, list] : counted) {
+        const auto [shortest, longest] = std::minmax_element(
+            list.begin(), list.end(), [](const Case* a, const Case* b) { return a->design.taps() < b->design.taps(); });
+        const auto taps = [](const Case* one) { return static_cast<double>(one->design.taps()); };
+        const auto cost = [](const Case* one) { return static_cast<double>(one->counted->worst_instructions); };
+        const auto bytes = [](const Case* one) {
+            return static_cast<double>(one->counted->state_bytes + one->counted->coefficient_bytes);
+        };
+        if (taps(*longest) < taps(*shortest) + 32.0) {
+            continue;  // whole orders: the memory ends by itself
+        }
+        const double span = taps(*longest) - taps(*shortest);
+        text += fmt::format(
+            "  {:<10} {:<28} {:>16.2f} {:>14.1f} {:>16} {:>16}\n", key.first, key.second,
+            (cost(*longest) - cost(*shortest)) / span, (bytes(*longest) - bytes(*shortest)) / span,
+            drive::largest_taps(taps(*shortest), cost(*shortest), taps(*longest), cost(*longest), period_cycles),
+            drive::largest_taps(taps(*shortest), bytes(*shortest), taps(*longest), bytes(*longest), 320.0 * 1024.0));
+    }
+    return text +
+           "  Instructions are not cycles: waits make the length shorter, a second instruction in a cycle longer.\n";
+}
+
+// Full memory of long records, by blocks.
+std::string time_long_records(const drive::Model& model, const std::string& name, std::vector<Json>& rows) {
+    std::string text = "\nFull memory on this machine, one merged table in double, by blocks\n";
+    std::vector<double> seconds;
+    for (const std::size_t samples : {response_steps, std::size_t{100'000}, std::size_t{1'000'000}}) {
+        const std::vector<double> input(samples + 1, 1.0);
+        drive::Scheme scheme{.step_s = step_s, .increments = true};
+        seconds.push_back(
+            best_seconds(samples > 500'000 ? 2 : 3, [&] { (void)drive::simulate(model, scheme, input); }));
+        text += fmt::format("  {:>8} samples {:>10.4f} s {:>10.1f} ns a sample\n", samples, seconds.back(),
+                            1e9 * seconds.back() / static_cast<double>(samples));
+        Json row = bench::make_row(fmt::format("drive/{}/blockdelta_fft_f64/taps:{}/host", name, samples), samples);
+        row["real_time"] = row["cpu_time"] = row["ns_per_sample"] = 1e9 * seconds.back() / static_cast<double>(samples);
+        rows.push_back(row);
+    }
+    return text + fmt::format("  t(10^6)/t(10^5) = {:.1f}\n", seconds[2] / seconds[1]);
+}
+
+std::vector<std::optional<std::size_t>> lengths_of(const DriveBench& options) {
+    std::vector<std::string> words = options.taps;
+    if (words.empty()) {
+        words = options.quick ? std::vector<std::string>{"100", "600"}
+                              : std::vector<std::string>{"50", "100", "200", "600", "full"};
+    }
+    std::vector<std::optional<std::size_t>> lengths;
+    for (const std::string& word : words) {
+        std::size_t taps = 0;
+        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), taps);
+        if (word == "full") {
+            lengths.emplace_back();
+        } else if (error == std::errc{} && end == word.data() + word.size() && taps >= 1 && taps <= response_steps) {
+            lengths.emplace_back(taps);
+        } else {
+            throw Failure(Exit::bad_input,
+                          fmt::format("--taps: expected numbers of 1 to {}, or full, found {}", response_steps, word));
+        }
+    }
+    return lengths;
+}
+
+}  // namespace
+
+void run_drive_bench(const DriveBench& options) {
+    const auto wants = [&](const char* target) {
+        return std::find(options.targets.begin(), options.targets.end(), target) != options.targets.end();
+    };
+    std::optional<qemu::Board> board;
+    if (wants("m7")) {
+        board = built_board();
+        (void)qemu::model_elf(*board);
+    }
+    const auto lengths = lengths_of(options);
+    std::map<std::string, drive::Model> models;
+    std::map<std::string, std::vector<double>> exact;
+    for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
+        const auto path =
+            std::filesystem::path(build_info::source_folder) / "drive" / "models" / (std::string(name) + ".json");
+        models[name] = read_model(path);
+        const std::size_t steps =
+            response_steps + static_cast<std::size_t>(std::ceil(models[name].delay_s / step_s - 1e-9));
+        std::vector<double> times;
+        for (std::size_t k = 0; k <= steps; ++k) {
+            times.push_back(static_cast<double>(k) * step_s);
+        }
+        exact[name] = drive::respond(models[name], std::vector<drive::Change>{{0.0, 1.0}}, times);
+    }
+
+    std::vector<Case> cases;
+    for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
+        for (const drive::Writing writing : {drive::Writing::delta, drive::Writing::merged, drive::Writing::apart}) {
+            glsum::ModelKernels::for_each([&]<class K>() {
+                const std::string kernel(K::name());
+                const std::string written = drive::realtime_name(kernel, writing);
+                const bool wanted =
+                    std::any_of(options.kernels.begin(), options.kernels.end(), [&](const std::string& glob) {
+                        return fnmatch(glob.c_str(), kernel.c_str(), 0) == 0 ||
+                               fnmatch(glob.c_str(), written.c_str(), 0) == 0;
+                    });
+                for (std::size_t i = 0; wanted && i < lengths.size(); ++i) {
+                    const std::size_t taps = lengths[i].value_or(response_steps + 1);
+                    drive::RealtimeModel design(models[name], writing, taps, step_s);
+                    // Whole orders end their memory by themselves, however long it might be.
+                    const bool known = !cases.empty() && cases.back().model == name && cases.back().name == written &&
+                                       cases.back().design.taps() == design.taps();
+                    if (!known) {
+                        const bool full = !lengths[i] && design.taps() == taps;
+                        cases.push_back({name, written, kernel, writing, taps, full, std::move(design),
+                                         exact[name].size() - 1, &exact[name]});
+                    }
+                }
+            });
+        }
+    }
+    if (cases.empty()) {
+        std::vector<std::string> names;
+        glsum::ModelKernels::for_each([&]<class K>() { names.emplace_back(K::name()); });
+        throw Failure(
+            Exit::bad_input,
+            fmt::format("--kernels: models are stepped with {}, each also as {} and {}; found {}",
+                        fmt::join(names, ", "), drive::realtime_name("ring_...", drive::Writing::delta),
+                        drive::realtime_name("ring_...", drive::Writing::apart), fmt::join(options.kernels, ", ")));
+    }
+    {
+        bench::Progress progress("models here", cases.size());
+        for (Case& one : cases) {
+            run_here(one);
+            progress.advance();
+        }
+    }
+    if (board) {
+        std::vector<std::size_t> chosen;
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            if (cases[i].fault.empty() && cases[i].runs_on_target()) {
+                chosen.push_back(i);
+            }
+        }
+        bench::Progress progress("models on the emulated Cortex-M7", chosen.size());
+        // As many at once as the firmware has room for.
+        constexpr std::size_t at_once = 20;
+        for (std::size_t first = 0; first < chosen.size(); first += at_once) {
+            std::vector<qemu::PlannedModel> plan;
+            for (std::size_t i = first; i < std::min(first + at_once, chosen.size()); ++i) {
+                const Case& one = cases[chosen[i]];
+                plan.push_back({one.kernel, &one.design.design(), ones, one.steps});
+            }
+            const auto counted = qemu::step_models(*board, plan, [&] { progress.advance(); });
+            for (std::size_t i = 0; i < counted.size(); ++i) {
+                Case& one = cases[chosen[first + i]];
+                one.counted = counted[i];
+                one.same_bits =
+                    counted[i].status == glsum::Status::ok && counted[i].hash == qemu::step_model_here(plan[i]).hash;
+            }
+        }
+    }
+
+    std::vector<Json> rows;
+    std::size_t wrong = 0;
+    for (const Case& one : cases) {
+        if (wants("host")) {
+            rows.push_back(to_row(one, "host"));
+        }
+        if (one.counted) {
+            rows.push_back(to_row(one, "m7:count"));
+        }
+        wrong += one.fault.empty() && one.same_bits ? 0 : 1;
+    }
+    std::string text = fmt::format(
+        "Models stepped at 1 kHz for 5 s behind their dead time, a unit step; errors relative to the largest exact "
+        "output.\n"
+        "ringdelta: one table on increments; ring: the textbook's, one table; ringapart: the textbook's, one for each "
+        "order.\n");
+    for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
+        text += to_table(cases, name);
+    }
+    text +=
+        "\n  M7: instructions a step on the emulated core, dead time and factors included; they are not cycles. "
+        "period: the\n"
+        "  worst step's instructions over 216 000, the cycles of a step on an STM32F746. Every row that ran there "
+        "computed\n"
+        "  the host's bits over the whole record.\n";
+    if (board) {
+        text += deadline_table(cases);
+    }
+    if (wants("host") && !options.quick) {
+        text += time_long_records(models["niopdt"], "niopdt", rows);
+    }
+    fmt::print("{}", text);
+    bench::Sweep sweep;
+    sweep.targets = options.targets;
+    sweep.samples = response_steps;
+    sweep.jobs = options.jobs;
+    bench::write_results(options.out, bench::make_context(Json(), sweep, board ? &*board : nullptr), rows);
+    fmt::print("\n{} rows in {}\n", rows.size(), options.out.string());
+    if (wrong > 0) {
+        throw Failure(Exit::check_failed, fmt::format("{} rows are wrong or impossible; they are marked", wrong));
+    }
+}
+
+}  // namespace cli

@@ -1,0 +1,180 @@
+// glsum stand: logs of the virtual stand.
+#include "drive/stand/stand.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "bench/files.hpp"
+#include "bench/gnuplot.hpp"
+#include "cli/commands.hpp"
+#include "cli/drive_files.hpp"
+#include "drive/pictures.hpp"
+#include "drive/stand/experiment.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+namespace {
+
+using glsum::Exit;
+using glsum::Failure;
+
+struct Options {
+    std::filesystem::path stand;
+    std::vector<std::string> set;
+    std::vector<std::string> without;
+    std::vector<std::string> only;
+    bool ideal = false;
+    stand::Experiment experiment;
+    std::uint64_t seed = 1;
+    bool truth = false;
+    bool show = false;
+    std::filesystem::path model;
+    std::filesystem::path out;
+    std::filesystem::path plot;
+};
+
+double to_number(const std::string& text, const std::string& word) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc{} || end != text.data() + text.size() || std::isnan(value)) {
+        throw Failure(Exit::bad_input, fmt::format("--set: expected NAME=NUMBER, found {}", word));
+    }
+    return value;
+}
+
+stand::Stand build_stand(const Options& options) {
+    stand::Stand built;
+    if (!options.stand.empty()) {
+        built = stand::parse_stand(bench::read_file(options.stand, 1U << 20U), options.stand.string());
+    }
+    for (const std::string& effect : options.without) {
+        stand::remove_effect(built, effect);
+    }
+    if (options.ideal || !options.only.empty()) {
+        const auto all = stand::effects();
+        for (const std::string& kept : options.only) {
+            if (std::find(all.begin(), all.end(), kept) == all.end()) {
+                stand::remove_effect(built, kept);  // says which there are
+            }
+        }
+        for (const std::string& effect : all) {
+            if (std::find(options.only.begin(), options.only.end(), effect) == options.only.end()) {
+                stand::remove_effect(built, effect);
+            }
+        }
+    }
+    for (const std::string& word : options.set) {
+        const auto at = word.find('=');
+        stand::set_size(built, word.substr(0, at), to_number(at == std::string::npos ? "" : word.substr(at + 1), word));
+    }
+    stand::check(built, options.stand.empty() ? "stand" : options.stand.string());
+    return built;
+}
+
+void run(const Options& options) {
+    const stand::Stand built = build_stand(options);
+    if (!options.model.empty()) {
+        bench::write_file(options.model, stand::linear_model_json(built));
+    }
+    if (options.show) {
+        put(stand::to_toml(built), options.out);
+        return;
+    }
+    const bool series = options.experiment.name == "series";
+    std::vector<stand::Record> records;
+    stand::Experiment experiment = options.experiment;
+    if (series) {
+        if (options.out.empty()) {
+            throw Failure(Exit::bad_input, "stand: expected --out FOLDER for the logs of a series");
+        }
+        experiment.name = "pulse";
+        records = stand::run_series(built, experiment, options.seed);
+        std::error_code error;
+        std::filesystem::create_directories(options.out, error);
+    } else {
+        records.push_back(stand::run(built, experiment, options.seed));
+    }
+    std::vector<drive::Curve> curves;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        const auto path = series ? options.out / fmt::format("series-{}.csv", i + 1) : options.out;
+        put(stand::to_csv(records[i], options.truth), path);
+        if (!path.empty()) {
+            std::size_t impacts = 0;
+            double highest = records[i].angle_rad.front();
+            for (const stand::Event& event : records[i].truth.events) {
+                impacts += event.kind == stand::EventKind::impact ? 1 : 0;
+            }
+            for (const double angle : records[i].angle_rad) {
+                highest = std::max(highest, angle);
+            }
+            fmt::print(stderr, "{}: {} samples, up to {:.4f} rad, {} impacts on a stop\n", path.string(),
+                       records[i].time_s.size(), highest, impacts);
+        }
+        curves.push_back(
+            {series ? fmt::format("series {}", i + 1) : "read", records[i].time_s, records[i].angle_rad, !series});
+    }
+    if (!options.plot.empty()) {
+        if (!series) {
+            std::vector<double> angle;
+            for (const stand::Point& point : records[0].truth.points) {
+                angle.push_back(point.angle_rad);
+            }
+            curves.push_back({"true angle", records[0].time_s, angle});
+        }
+        bench::draw(drive::picture_of_curves(curves, "Virtual stand: " + options.experiment.name, "angle [rad]"),
+                    options.plot);
+    }
+}
+
+}  // namespace
+
+void add_stand(CLI::App& app) {
+    auto options = std::make_shared<Options>();
+    options->experiment.name = "series";
+    CLI::App* command =
+        app.add_subcommand("stand", "The laboratory stand as a physical simulation: logs to identify from");
+    command->footer(
+        "Each effect has sizes (--show prints all) and can be absent. The same seed gives the same logs.\n"
+        "Example: glsum stand --out build/stand                               (series 1 to 4 of the paper's Fig. 3)\n"
+        "Example: glsum stand --experiment chirp --duty 0.4 --until-s 60 --seed 7 --out chirp.csv\n"
+        "Example: glsum stand --only coulomb_friction,encoder_quantisation --experiment staircase --out log.csv\n"
+        "Example: glsum stand --ideal --model linear.json --experiment prbs --out linear.csv");
+    command->add_option("--stand", options->stand,
+                        "TOML with parts and effects; what it leaves out has its usual size");
+    command->add_option("--set", options->set, "EFFECT.SIZE=NUMBER, or a part's NAME=NUMBER; repeatable");
+    command->add_option("--without", options->without, "Effects that are absent")->delimiter(',');
+    command->add_option("--only", options->only, "All others are absent")->delimiter(',');
+    command->add_flag("--ideal", options->ideal, "All effects are absent: a linear plant; --set brings one back");
+    command->add_flag("--show", options->show, "Print the stand with all sizes, as TOML, and run nothing");
+    command->add_option("--model", options->model, "Also write the linear plant without effects as a model file");
+    command
+        ->add_option("--experiment", options->experiment.name,
+                     "series (four pulses into a folder), pulse, step, staircase, ramp, chirp, prbs or release")
+        ->capture_default_str();
+    command->add_option("--duty", options->experiment.duty, "Of step and pulse; the highest of others")
+        ->capture_default_str();
+    command->add_option("--low-duty", options->experiment.low_duty, "The lowest of staircase, ramp, chirp and prbs")
+        ->capture_default_str();
+    command->add_option("--off-s", options->experiment.off_s, "When the pulse ends")->capture_default_str();
+    command->add_option("--until,--until-s", options->experiment.until_s, "Length of the record in s")
+        ->capture_default_str();
+    command->add_option("--stairs", options->experiment.stairs, "Stairs up, and down again")->capture_default_str();
+    command->add_option("--from-hz", options->experiment.from_hz, "Of the chirp")->capture_default_str();
+    command->add_option("--to-hz", options->experiment.to_hz, "Of the chirp")->capture_default_str();
+    command->add_option("--bit-s", options->experiment.bit_s, "Of the PRBS")->capture_default_str();
+    command->add_option("--angle", options->experiment.angle_rad, "Release: where the bar is held, in rad")
+        ->capture_default_str();
+    command->add_option("--seed", options->seed, "Of stamps, noise and bits")->capture_default_str();
+    command->add_flag("--truth", options->truth, "Further columns: what nobody measured");
+    command->add_option("--out", options->out, "CSV file, or the folder of a series; printed if not given");
+    command->add_option("--plot", options->plot, "Draw STEM.svg and STEM.png");
+    command->add_option("--jobs")->group("");  // the launcher hands it to every command
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace cli

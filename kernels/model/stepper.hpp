@@ -1,0 +1,102 @@
+// A fractional model stepped in real time, on the microcontroller and on the host by the same code.
+//
+//   sum_i a_i h^-alpha_i sum_{j>=0} w_j^(alpha_i) x_(k-j) = gain u_(k-1-d)     solved for the newest x_k
+//
+// x is the output y itself, or, in increments, y_k - y_(k-1) with orders one lower and the constant term apart. All
+// sums of the past are kernels of the registry: the past of one table is m_1 (x_(k-1) + sum_{j>=1} (m_(j+1)/m_1)
+// x_(k-1-j)), which is a kernel's sum for the newest sample x_(k-1). So a step costs one kernel call for each table and
+// a few operations:
+//
+//   x_k = input u_(k-1-d) - constant y_(k-1) - sum_i factor_i S_i,     y_k = y_(k-1) + x_k  or  x_k
+//
+// Range, floating point: as the kernel's. Fixed point: x is a fraction of the design's `stored_full_scale`, u of
+// `input_full_scale`; y is exact in 64 bits in increments. Overflow saturates and is counted.
+// Error: that of the scheme (first order in h), of the memory that is cut off, and of the format; measured, not
+// promised.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "glsum/gain.hpp"
+#include "glsum/registry.hpp"
+
+namespace glsum {
+
+/// One table of a model's past.
+struct PastTable {
+    double factor;                   ///< m_1 over the newest coefficient
+    std::span<const double> ratios;  ///< m_2/m_1, m_3/m_1, ...; the kernel has one tap more
+};
+
+/// A model as numbers, in double, computed once on the host: no power of h is taken on the target.
+struct ModelDesign {
+    bool increments = true;
+    std::uint32_t delay = 0;         ///< whole steps
+    double input = 1.0;              ///< gain over the newest coefficient
+    double constant = 0.0;           ///< in increments: a of order 0 over the newest coefficient
+    double input_full_scale = 1.0;   ///< fixed point only, as the next two; powers of two
+    double stored_full_scale = 1.0;  ///< of x
+    double output_full_scale = 1.0;  ///< of y where it is multiplied by `constant`
+    std::span<const PastTable> tables;
+};
+
+inline constexpr std::size_t most_tables = 4;
+
+template <class K>
+class Stepper {
+    using Format = typename K::FormatPart;
+    static constexpr bool fixed = Format::fixed_point;
+
+public:
+    using Sample = typename K::Sample;
+    using Coefficient = typename K::Coefficient;
+    using Output = std::conditional_t<fixed, std::int64_t, Sample>;
+
+    struct State {
+        typename K::State sums[most_tables];
+        // What multiplies the sums, the input and y: a number, or mantissa and exponent.
+        using Factor = std::conditional_t<fixed, Gain, Sample>;
+        Factor factor[most_tables];
+        Factor input;
+        Factor constant;
+        std::uint32_t
+            negative;  // fixed point: bits of the factors whose sign is minus; 16 the input's, 17 the constant's
+        std::int32_t output_shift;
+        std::uint32_t tables;
+        std::uint32_t increments;
+        std::uint32_t saturations;
+        Output output;
+        Sample newest;
+        Sample* line;  // inputs that wait for the dead time
+        std::uint32_t line_length;
+        std::uint32_t line_at;
+    };
+
+    /// Coefficients and samples of the past that a table of `ratios` needs.
+    static constexpr std::size_t table_count(std::size_t ratios) { return K::table_count(ratios + 1); }
+    static constexpr std::size_t past_count(std::size_t ratios) { return K::past_count(ratios + 1); }
+    static constexpr std::size_t line_count(std::uint32_t delay) { return std::size_t{delay} + 1; }
+
+    /// Fills the state and clears the past. `table` and `past` hold those of all tables, one after the other.
+    static Status prepare(State& state, const ModelDesign& design, std::span<Coefficient> table, std::span<Sample> past,
+                          std::span<Sample> line);
+    /// y_k for the next input u_k, which acts from the next sample on.
+    [[gnu::noinline]] static Output step(State& state, Sample input);
+
+    static Sample from_real(const ModelDesign& design, double input) {
+        return K::from_real(fixed ? input / design.input_full_scale : input);
+    }
+    static double to_real(const ModelDesign& design, Output output) {
+        return static_cast<double>(output) * (fixed ? design.stored_full_scale * power_of_two(-31) : 1.0);
+    }
+};
+
+/// The kernels that models are stepped with.
+using ModelKernels = KernelList<Sum<Ring, Plain, F32>, Sum<Ring, Oldest, F32>, Sum<Mirror, Multi, F32>,
+                                Sum<Mirror, MultiFma, F32>, Sum<Ring, Plain, Q31>, Sum<Ring, Oldest, F64>>;
+
+}  // namespace glsum

@@ -1,0 +1,124 @@
+// Models stepped in real time, on this machine: against the exact response, and against the scheme written plainly.
+#include "drive/realtime.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "drive/response.hpp"
+#include "drive/simulation.hpp"
+#include "qemu/failure.hpp"
+#include "qemu/model_run.hpp"
+#include "tests/drive/plants.hpp"
+
+namespace {
+
+using drive::Writing;
+
+constexpr double h = 0.001;
+const std::vector<double> ones{1.0};
+
+std::vector<double> stepped(const drive::RealtimeModel& model, const std::string& kernel, std::size_t steps) {
+    return qemu::step_model_here({kernel, &model.design(), ones, steps}).output;
+}
+
+double largest_error(const drive::Model& model, const std::vector<double>& output) {
+    std::vector<double> time;
+    for (std::size_t k = 0; k < output.size(); ++k) {
+        time.push_back(static_cast<double>(k) * h);
+    }
+    const auto exact = drive::respond(model, std::vector<drive::Change>{{0.0, 1.0}}, time);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < output.size(); ++k) {
+        largest = std::max(largest, std::fabs(output[k] - exact[k]));
+    }
+    return largest;
+}
+
+// 5 s behind the dead time of 1 s.
+double error_of(Writing writing, std::size_t taps, const std::string& kernel) {
+    const drive::RealtimeModel model(plants::niopdt(), writing, taps, h);
+    return largest_error(plants::niopdt(), stepped(model, kernel, 6000));
+}
+
+TEST(Realtime, IncrementsInSinglePrecisionReachWhatIsPromised) {
+    for (const char* kernel : {"ring_plain_f32", "ring_oldest_f32", "mirror_multi_f32", "mirror_multifma_f32"}) {
+        EXPECT_LT(error_of(Writing::delta, 600, kernel), 7e-3) << kernel;
+        // Newest first, the sum of thousands of small terms costs a little more.
+        const bool plain = std::string(kernel) == "ring_plain_f32";
+        EXPECT_LT(error_of(Writing::delta, 5001, kernel), plain ? 8e-4 : 6e-4) << kernel;
+    }
+    EXPECT_LT(error_of(Writing::delta, 600, "ring_plain_q31"), 7e-3);
+    EXPECT_LT(error_of(Writing::delta, 5001, "ring_plain_q31"), 6e-4);
+}
+
+TEST(Realtime, TheTextbookFormFailsInSinglePrecisionAndNotInDouble) {
+    EXPECT_GT(error_of(Writing::merged, 5001, "ring_plain_f32"), 0.1);
+    EXPECT_GT(error_of(Writing::apart, 5001, "ring_plain_f32"), 0.1);
+    EXPECT_LT(error_of(Writing::merged, 5001, "ring_oldest_f64"), 6e-4);
+    EXPECT_LT(error_of(Writing::apart, 5001, "ring_oldest_f64"), 6e-4);
+}
+
+TEST(Realtime, StepsTheSameSchemeAsTheSimulation) {
+    for (const auto& plant : {plants::fopdt(), plants::sopdt(), plants::niopdt()}) {
+        for (const Writing writing : {Writing::merged, Writing::delta, Writing::apart}) {
+            for (const std::size_t taps : {3U, 50U, 400U}) {
+                const drive::RealtimeModel model(plant, writing, taps, h);
+                const auto found = stepped(model, "ring_oldest_f64", 3000);
+                const auto expected =
+                    drive::simulate(plant, {.step_s = h, .taps = taps, .increments = writing == Writing::delta},
+                                    std::vector<double>(3001, 1.0));
+                for (std::size_t k = 0; k < found.size(); ++k) {
+                    ASSERT_NEAR(found[k], expected.output[k], 1e-8 * (1.0 + std::fabs(expected.output[k])))
+                        << drive::to_text(plant) << " " << taps << " at " << k;
+                }
+            }
+        }
+    }
+}
+
+TEST(Realtime, WholeOrdersNeedNoMoreTermsThanTheyHave) {
+    EXPECT_EQ(drive::RealtimeModel(plants::fopdt(), Writing::delta, 600, h).taps(), 1U);
+    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::delta, 600, h).taps(), 2U);
+    EXPECT_EQ(drive::RealtimeModel(plants::fopdt(), Writing::merged, 600, h).taps(), 2U);
+    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::merged, 600, h).taps(), 3U);
+    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::apart, 600, h).design().tables.size(), 2U);
+    EXPECT_EQ(drive::RealtimeModel(plants::niopdt(), Writing::delta, 600, h).taps(), 600U);
+}
+
+// An input that goes against the scales as hard as it can: the sign of the impulse response, backward.
+TEST(Realtime, FixedPointHoldsWhateverTheInput) {
+    const drive::RealtimeModel model(plants::niopdt(), Writing::delta, 600, h);
+    std::vector<double> worst;
+    for (int k = 0; k < 4000; ++k) {
+        worst.push_back(k % 7 < 3 ? 1.0 : -1.0);
+    }
+    for (int k = 0; k < 4000; ++k) {
+        worst.push_back(k / 1340 % 2 == 0 ? 1.0 : -1.0);
+    }
+    const qemu::PlannedModel planned{"ring_plain_q31", &model.design(), worst, worst.size() - 1};
+    const auto fixed = qemu::step_model_here(planned);
+    EXPECT_EQ(fixed.saturations, 0U);
+    auto in_double = planned;
+    in_double.kernel = "ring_oldest_f64";
+    const auto expected = qemu::step_model_here(in_double).output;
+    for (std::size_t k = 0; k < expected.size(); ++k) {
+        ASSERT_NEAR(fixed.output[k], expected[k], 2e-5) << k;
+    }
+}
+
+TEST(Realtime, RefusesWhatItCannotStep) {
+    drive::Model model = plants::niopdt();
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, 0, h), glsum::Failure);
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, 10, 0.0), glsum::Failure);
+    model.numerator = {{1.0, 0.5}, {1.0, 0.0}};
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, 10, h), glsum::Failure);
+    EXPECT_THROW((void)qemu::step_model_here({"ring_plain_f33", nullptr, ones, 100}), std::out_of_range);
+}
+
+TEST(Realtime, TheLargestLengthLiesOnTheLineThroughTwo) {
+    EXPECT_EQ(drive::largest_taps(100, 650, 600, 3650, 216000), 35991U);
+    EXPECT_EQ(drive::largest_taps(100, 650, 600, 3650, 10), 0U);
+}
+
+}  // namespace
