@@ -47,12 +47,14 @@ done
 library_of() {
     case $1 in
         kernels/modes/*) echo kernels/modes/libglsum_modes.a ;;
+        kernels/model/*) echo kernels/model/libglsum_model.a ;;
         kernels/*) echo kernels/libglsum.a ;;
         bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
         bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
+        drive/stand/*) echo drive/stand/libglsum_stand.a ;;
         drive/*) echo drive/libglsum_drive.a ;;
         qemu/timing/*) echo qemu/timing/libglsum_timing.a ;;
         qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
@@ -63,6 +65,7 @@ library_of() {
 tests_of() {
     case $1 in
         kernels/modes/*) echo modes_tests ;;
+        kernels/model/*) echo drive_tests ;;
         kernels/*) echo kernel_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
