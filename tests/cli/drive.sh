@@ -39,5 +39,14 @@ expect 2 "one.csv: expected at least 2 samples, found 1" identify "$folder/one.c
 printf 'time_s,input,output\n0,1,0\n1,1,nan\n' >"$folder/nan.csv"
 expect 2 "nan.csv:3: output: expected a finite number, found 'nan'" identify "$folder/nan.csv"
 
+{ echo time_s,input,output; for k in 0 1 2 3 4 5 6 7 8 9; do echo "$k,1,3"; done; } >"$folder/still.csv"
+expect 2 "the output is 3 throughout" identify "$folder/still.csv"
+{ echo time_s,input,output; for k in 0 1 2 3 4 5 6 7 8 9; do echo "$k,0,$k"; done; } >"$folder/off.csv"
+expect 2 "the input is 0 throughout" identify "$folder/off.csv"
+printf 'time_s,duty,angle_rad\n0,27,0\n1,27,1\n' >"$folder/percent.csv"
+expect 2 "percent.csv:2: duty: expected 0 to 1, found 27" identify "$folder/percent.csv"
+printf 'time_s,input,counts\n0,1,65530\n1,1,65535\n2,1,4\n' >"$folder/wraps.csv"
+expect 2 "wraps.csv:4: counts: jumps by -65531" identify "$folder/wraps.csv"
+
 expect 0 "0.9977144659 without its dead time" paper
 [ "$failures" -eq 0 ]

@@ -25,6 +25,9 @@ expect 0 "true_angle_rad" stand --experiment release --truth
 "$program" stand --experiment chirp --seed 3 >"$folder/a.csv"
 "$program" stand --experiment chirp --seed 3 >"$folder/b.csv"
 cmp "$folder/a.csv" "$folder/b.csv" || failures=$((failures + 1))
+"$program" stand --experiment staircase --duty 0.28 --until-s 80 --out "$folder/stairs.csv" 2>"$folder/said"
+expect 0 "the output bends away from it by up to" identify "$folder/stairs.csv" --static --out "$folder/characteristic.csv"
+expect 2 "expected a hold of the input of at least 100 s" identify "$folder/stairs.csv" --static --hold-s 100
 expect 2 "expected one of the effects gain_error" stand --without wear --experiment step
 expect 2 "backlash.gap: expected 0 to 10, found -1" stand --set backlash.gap=-1 --experiment step
 expect 2 "--set: expected NAME=NUMBER, found backlash.gap" stand --set backlash.gap --experiment step
