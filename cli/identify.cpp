@@ -299,9 +299,10 @@ void run(const Options& given) {
     if (!options.plot.empty()) {
         const std::vector<drive::Curve> curves{
             {"measured", record.time_s, record.output, true},
-            {"start: " + drive::to_text(start), record.time_s, drive::respond(start, record.changes, record.time_s)},
+            {"start", record.time_s, drive::respond(start, record.changes, record.time_s)},
             {"fitted", record.time_s, fitted}};
-        bench::draw(drive::picture_of_curves(curves, drive::to_text(fit.model), "output"), options.plot);
+        bench::draw(drive::picture_of_curves(curves, "fitted: " + drive::short_text(fit.model), "output"),
+                    options.plot);
     }
 }
 

@@ -31,16 +31,30 @@ bench::Picture picture_of_curves(const std::vector<Curve>& curves, const std::st
     std::vector<std::string> plots;
     for (std::size_t i = 0; i < curves.size(); ++i) {
         script += data_block(i, curves[i]);
-        plots.push_back(
-            fmt::format("$d{} using 1:2 with {} lc rgb \"{}\" title \"{}\" noenhanced", i,
-                        curves[i].points ? "points pt 7 ps 0.35" : fmt::format("lines lw 2 dt {}", i % 4 + 1),
-                        palette[i % std::size(palette)], curves[i].title));
+        // Measured samples lie behind, in grey; the last line is the one that matters, and solid.
+        const std::size_t dash = i + 1 == curves.size() ? 1 : i % 4 + 2;
+        plots.push_back(fmt::format("$d{} using 1:2 with {} lc rgb \"{}\" title \"{}\" noenhanced", i,
+                                    curves[i].points ? "points pt 7 ps 0.5" : fmt::format("lines lw 2 dt {}", dash),
+                                    curves[i].points ? "#AAAAAA" : palette[i % std::size(palette)], curves[i].title));
     }
     script += fmt::format(
         "set title \"{}\" noenhanced\nset xlabel \"t [s]\"\nset ylabel \"{}\"\nset grid lc rgb \"#dddddd\"\n"
-        "set key outside below horizontal maxcols 3 width 2\nset border 3\nset tics nomirror\nplot {}\n",
+        "set key outside below horizontal maxcols 3 width 2\nset border 3\nset tics nomirror\nset xrange [*:*] "
+        "noextend\nplot {}\n",
         title, unit, fmt::join(plots, ", \\\n  "));
     return {script, 900, 520};
+}
+
+std::string short_text(Model model) {
+    const auto round = [](double value) { return std::stod(fmt::format("{:.4g}", value)); };
+    model.gain = round(model.gain);
+    model.delay_s = round(model.delay_s);
+    for (auto* terms : {&model.numerator, &model.denominator}) {
+        for (Term& term : *terms) {
+            term = {round(term.coefficient), round(term.order)};
+        }
+    }
+    return to_text(model);
 }
 
 bench::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title) {
