@@ -271,7 +271,8 @@ std::vector<Group> group(const std::vector<Json>& rows) {
             entry.host_ns = median(repetitions, "real_time");
             entry.host_cycles = median(repetitions, "cycles_per_sample");
         }
-        mark_front(group, [](const Entry& entry) { return entry.host_ns; }, &Entry::host_front);
+        mark_front(
+            group, [](const Entry& entry) { return entry.host_ns; }, &Entry::host_front);
         mark_front(group, target_cost, &Entry::target_front);
     }
     return groups;

@@ -25,7 +25,8 @@ std::set<std::string> cores_of(const Group& group) {
     return cores;
 }
 
-// Instructions and the most of them; of modelled cores the cycles and the band over the rule sets instead of the latter.
+// Instructions and the most of them; of modelled cores the cycles and the band over the rule sets instead of the
+// latter.
 std::string target_cells(const Entry& entry, const std::set<std::string>& cores) {
     const char mark = entry.target_front ? '*' : ' ';
     if (cores.empty()) {
@@ -57,11 +58,10 @@ std::string line_of(const Entry& entry, const std::set<std::string>& cores) {
     if (dominated) {
         note = note.empty() ? "dominated" : "dominated; " + note;
     }
-    std::string line = fmt::format("  {:<25} {:>9} {:>9}  {:>9}{} {:>9}{}  {:>8}  {}", entry.kernel,
-                                   error(entry.error_max), error(entry.rounding_error_max),
-                                   count(entry.host_ns, "{:.1f}"), entry.host_front ? '*' : ' ',
-                                   count(entry.host_cycles, "{:.0f}"), target_cells(entry, cores),
-                                   count(entry.bytes, "{:.0f}"), note);
+    std::string line =
+        fmt::format("  {:<25} {:>9} {:>9}  {:>9}{} {:>9}{}  {:>8}  {}", entry.kernel, error(entry.error_max),
+                    error(entry.rounding_error_max), count(entry.host_ns, "{:.1f}"), entry.host_front ? '*' : ' ',
+                    count(entry.host_cycles, "{:.0f}"), target_cells(entry, cores), count(entry.bytes, "{:.0f}"), note);
     line.erase(line.find_last_not_of(' ') + 1);
     return line;
 }
@@ -101,11 +101,13 @@ std::string to_table(const std::vector<Group>& groups, bool colour) {
     }
     text +=
         "\n  error max, rounding: worst over the signals, relative to the largest exact sum; rounding is against the\n"
-        "  exact sum of the same length. Host: per sample, window upkeep included. M7 instr.: instructions per sample on\n"
+        "  exact sum of the same length. Host: per sample, window upkeep included. M7 instr.: instructions per sample "
+        "on\n"
         "  the emulated core; they are not cycles. *: no kernel of the table costs less at this error (within 1 %).\n";
     if (modelled) {
         text +=
-            "  M7 cycles: per sample, of the timing model, not of silicon; band: over the rule sets that fit silicon as\n"
+            "  M7 cycles: per sample, of the timing model, not of silicon; band: over the rule sets that fit silicon "
+            "as\n"
             "  well. qemu/README.md says how far the model was from silicon.\n";
     }
     return text;

@@ -47,8 +47,8 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
     const std::string software =
         row.software_double ? "; double precision in software, where the count depends on the data" : "";
     Json json = make_row(row_name(row.kernel, row.order, row.length, "m7:" + core), 32);
-    json["label"] = fmt::format("{}; counted at order {}{}", modelled != nullptr ? "modelled cycles" : "instructions only",
-                                counted_at, software);
+    json["label"] = fmt::format("{}; counted at order {}{}",
+                                modelled != nullptr ? "modelled cycles" : "instructions only", counted_at, software);
     if (measured.status != glsum::Status::ok) {
         mark_error(json, to_text(measured.status));
         return json;
@@ -97,9 +97,7 @@ std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan, 
                                      const timing::TimingRequest& timing) {
     const auto compared = run_in_shares<qemu::MeasuredRow>(
         plan, jobs,
-        [&](const auto& share) {
-            return qemu::measure(board, share, signals, done, qemu::Counting::blocks, timing);
-        },
+        [&](const auto& share) { return qemu::measure(board, share, signals, done, qemu::Counting::blocks, timing); },
         [&](qemu::PlannedRow planned) {
             ++planned.calls;  // the firmware makes one more, on a painted stack
             return qemu::replay_here(planned, signals);
@@ -154,8 +152,8 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
         for (const std::string& core : sweep.cores) {
             const bool counted = core == count_only;
             const qemu::ModelledCall* call = counted || measured.cores.empty() ? nullptr : &measured.cores[modelled];
-            rows.push_back(to_json(row, plan.counts[row.count].order, measured, core, call,
-                                   counted ? 1.0 : clocks[modelled]));
+            rows.push_back(
+                to_json(row, plan.counts[row.count].order, measured, core, call, counted ? 1.0 : clocks[modelled]));
             modelled += counted ? 0 : 1;
             if (!same_bits[i]) {
                 mark_error(rows.back(), "the target's outputs differ from the host's");

@@ -179,8 +179,8 @@ void run(const Options& options, const PassedOn& flags) {
 
 void add_bench(CLI::App& app, const PassedOn& passed_on) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions and modelled cycles");
+    CLI::App* command = app.add_subcommand(
+        "bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions and modelled cycles");
     command->footer(
         "Flags --benchmark_... go to Google Benchmark.\n"
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");

@@ -5,9 +5,7 @@
 
 namespace cli {
 
-std::filesystem::path cores_folder() {
-    return std::filesystem::path(build_info::source_folder) / "qemu" / "cores";
-}
+std::filesystem::path cores_folder() { return std::filesystem::path(build_info::source_folder) / "qemu" / "cores"; }
 
 qemu::Board built_board() {
     const std::filesystem::path source = build_info::source_folder;

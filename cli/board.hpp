@@ -9,7 +9,8 @@
 
 namespace cli {
 
-/// The core that is modelled where none is asked for: the chip of the seed's drive, code and data in its fastest memory.
+/// The core that is modelled where none is asked for: the chip of the seed's drive, code and data in its fastest
+/// memory.
 inline constexpr const char* default_core = "stm32f746-itcm";
 
 /// The project's core files.

@@ -214,26 +214,27 @@ Function Elf::function(const std::string& name) const {
         for (std::size_t i = 0; i < std::min<std::size_t>(3, close.size()); ++i) {
             names += (i > 0 ? ", " : "") + close[i].second;
         }
-        throw Failure(Exit::bad_input,
-                      fmt::format("{}: no function {}; the compiler may have inlined it (noinline keeps it) or the linker "
-                                  "dropped it; the closest names are {}",
-                                  path_.string(), name, names));
+        throw Failure(
+            Exit::bad_input,
+            fmt::format("{}: no function {}; the compiler may have inlined it (noinline keeps it) or the linker "
+                        "dropped it; the closest names are {}",
+                        path_.string(), name, names));
     }
     for (const Function& function : found) {
         names += fmt::format(" {} at {:#x}", function.name, function.address);
     }
-    throw Failure(Exit::bad_input, fmt::format("{}: {} is the name of {} functions:{}", path_.string(), name,
-                                               found.size(), names));
+    throw Failure(Exit::bad_input,
+                  fmt::format("{}: {} is the name of {} functions:{}", path_.string(), name, found.size(), names));
 }
 
 void Elf::check_runs_on_cortex_m7() const {
     const auto refuse = [&](const std::string& found) {
-        throw Failure(Exit::bad_input,
-                      fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found {}", path_.string(), found));
+        throw Failure(Exit::bad_input, fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found {}",
+                                                   path_.string(), found));
     };
     if (attributes_.empty()) {
-        // Written in assembly: its encodings will tell. The core starts where the vector table says, in Thumb state; the
-        // ELF's own entry is for loaders, and often not set.
+        // Written in assembly: its encodings will tell. The core starts where the vector table says, in Thumb state;
+        // the ELF's own entry is for loaders, and often not set.
         const auto first = std::find_if(sections_.begin(), sections_.end(),
                                         [](const Section& section) { return section.address == 0; });
         if (first == sections_.end() || first->bytes.size() < 8 || (word(4) & 1U) == 0) {
@@ -242,9 +243,13 @@ void Elf::check_runs_on_cortex_m7() const {
         return;
     }
     // [Arm IHI 0045, Tag_CPU_arch]
-    static const std::map<unsigned, const char*> names{{10, "ARMv7"},   {13, "ARMv7E-M"}, {14, "ARMv8-A"},
-                                                       {15, "ARMv8-R"}, {16, "ARMv8-M baseline"},
-                                                       {17, "ARMv8-M mainline"}, {21, "ARMv8.1-M mainline"},
+    static const std::map<unsigned, const char*> names{{10, "ARMv7"},
+                                                       {13, "ARMv7E-M"},
+                                                       {14, "ARMv8-A"},
+                                                       {15, "ARMv8-R"},
+                                                       {16, "ARMv8-M baseline"},
+                                                       {17, "ARMv8-M mainline"},
+                                                       {21, "ARMv8.1-M mainline"},
                                                        {22, "ARMv9-A"}};
     constexpr unsigned v7 = 10;
     constexpr unsigned v6_m = 11;
@@ -255,12 +260,10 @@ void Elf::check_runs_on_cortex_m7() const {
     const bool right = attributes.architecture == v7e_m || (attributes.architecture == v7 && attributes.profile == 'M');
     if (!small && !right) {
         const auto name = names.find(attributes.architecture);
-        refuse(fmt::format("one for {}{}",
-                           name != names.end() ? name->second
-                                               : fmt::format("architecture {}", attributes.architecture),
-                           attributes.profile != 0
-                               ? fmt::format(", profile {}", static_cast<char>(attributes.profile))
-                               : ""));
+        refuse(fmt::format(
+            "one for {}{}",
+            name != names.end() ? name->second : fmt::format("architecture {}", attributes.architecture),
+            attributes.profile != 0 ? fmt::format(", profile {}", static_cast<char>(attributes.profile)) : ""));
     }
 }
 

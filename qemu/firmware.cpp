@@ -166,8 +166,8 @@ bool computes_in_double(const std::string& kernel) {
 void summarise(MeasuredRow& row, const timing::TimingLog& log, const PlannedRow& planned, std::size_t cores) {
     const firmware::TimedCalls timed{planned.taps, computes_in_double(planned.kernel)};
     const auto fault = [&](const std::string& what) {
-        return Failure(Exit::check_failed, fmt::format("the timing model, {} with {} taps: {}", planned.kernel,
-                                                       planned.taps, what));
+        return Failure(Exit::check_failed,
+                       fmt::format("the timing model, {} with {} taps: {}", planned.kernel, planned.taps, what));
     };
     row.cores.assign(cores, {});
     for (const auto& [address, times] : log.unknown) {

@@ -48,11 +48,11 @@ struct ReplayedRow {
 
 /// What one core takes for a call, in modelled cycles: see targets/firmware/timed_calls.hpp for the calls.
 struct ModelledCall {
-    double cycles;        ///< the mean of the steady calls, with the nominal rules
-    double low;           ///< over the core file's rule sets, the nominal one included
+    double cycles;  ///< the mean of the steady calls, with the nominal rules
+    double low;     ///< over the core file's rule sets, the nominal one included
     double high;
-    double first_cycles;  ///< of the call after `prepare`, caches and branch predictor cold
-    double worst_cycles;  ///< of the timed calls once the past is full
+    double first_cycles;                            ///< of the call after `prepare`, caches and branch predictor cold
+    double worst_cycles;                            ///< of the timed calls once the past is full
     std::array<double, timing::effect_count> lost;  ///< of `cycles`, to each effect
     bool operator==(const ModelledCall&) const = default;
 };
@@ -69,8 +69,8 @@ struct MeasuredRow {
     double loads;
     double stores;
     double branches;
-    std::uint64_t worst_instructions;  ///< of the calls once the past is full
-    std::vector<ModelledCall> cores;   ///< as the timing request has them
+    std::uint64_t worst_instructions;              ///< of the calls once the past is full
+    std::vector<ModelledCall> cores;               ///< as the timing request has them
     std::vector<std::uint32_t> unknown_encodings;  ///< addresses of what the model could not decode
     bool operator==(const MeasuredRow&) const = default;
 };

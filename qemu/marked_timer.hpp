@@ -1,6 +1,7 @@
 // The timing model on a program that says itself what is to be timed: it calls three empty functions.
 //
-//   row   a new part begins: whatever was learnt of caches and branches is forgotten, so that its cycles do not depend on
+//   row   a new part begins: whatever was learnt of caches and branches is forgotten, so that its cycles do not depend
+//   on
 //         what ran before
 //   on    the model sees all that follows, calls of watched functions and what lies between them
 //   off   it sees nothing

@@ -24,7 +24,7 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
-constexpr std::uint32_t most_taps = 1024;  // of a registered kernel, as targets/firmware/silicon.cpp has memory for
+constexpr std::uint32_t most_taps = 1024;   // of a registered kernel, as targets/firmware/silicon.cpp has memory for
 constexpr std::size_t rows_of_a_run = 400;  // of at most 40 bytes: the firmware's plan holds 16 KB
 const std::map<std::string, std::uint32_t> most_taps_of_loops{
 #define GLSUM_LOOP(name, most) {#name, most},
@@ -99,8 +99,7 @@ std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& fi
             continue;
         }
         if (cells.size() != width) {
-            throw Failure(Exit::bad_input,
-                          fmt::format("{}: expected {} cells, found {}", place, width, cells.size()));
+            throw Failure(Exit::bad_input, fmt::format("{}: expected {} cells, found {}", place, width, cells.size()));
         }
         const auto cell = [&](const char* column) { return cells[columns.at(column)]; };
         rows.push_back({cell("kernel"), one_of(cell("code"), place, "code", {"flash_cached", "flash", "itcm"}),
@@ -185,9 +184,9 @@ std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::f
                 calls += run.calls;
             }
             if (calls != firmware::silicon_calls) {
-                throw Failure(Exit::check_failed, fmt::format("{}: {} calls of {} were seen, {} expected",
-                                                              program.elf.string(), calls, plan[settled.size()].first,
-                                                              firmware::silicon_calls));
+                throw Failure(Exit::check_failed,
+                              fmt::format("{}: {} calls of {} were seen, {} expected", program.elf.string(), calls,
+                                          plan[settled.size()].first, firmware::silicon_calls));
             }
             if (!log.unknown.empty()) {
                 throw Failure(Exit::check_failed,
@@ -205,7 +204,8 @@ std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::f
         const auto more = static_cast<double>(figures.measurement_counter_reads +
                                               (rows[i].maintenance ? figures.measurement_maintenance : 0));
         const auto cycles = [&](std::int64_t half) { return static_cast<double>(half) / 2.0 + more; };
-        predictions.push_back({cycles(half_cycles[0]), cycles(*std::min_element(half_cycles.begin(), half_cycles.end())),
+        predictions.push_back({cycles(half_cycles[0]),
+                               cycles(*std::min_element(half_cycles.begin(), half_cycles.end())),
                                cycles(*std::max_element(half_cycles.begin(), half_cycles.end()))});
     }
     return predictions;

@@ -11,8 +11,7 @@
 namespace qemu {
 
 std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std::filesystem::path& plugin,
-                                            const std::filesystem::path& elf,
-                                            const std::vector<std::string>& arguments,
+                                            const std::filesystem::path& elf, const std::vector<std::string>& arguments,
                                             const std::vector<std::uint32_t>& entries,
                                             const timing::TimingRequest& request, const std::optional<Marks>& marks,
                                             const std::function<void(const std::string&)>& line) {
@@ -29,13 +28,11 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
             of_marks << marks->row << ' ' << marks->on << ' ' << marks->off << '\n';
         }
         if (!watch.flush() || !out.flush() || !of_marks.flush()) {
-            throw glsum::Failure(glsum::Exit::check_failed,
-                                 fmt::format("{}: cannot write", scratch.file("").string()));
+            throw glsum::Failure(glsum::Exit::check_failed, fmt::format("{}: cannot write", scratch.file("").string()));
         }
     }
-    std::string value =
-        fmt::format("{},watch={},timing={},times={}", plugin.string(), scratch.file("watch").string(),
-                    scratch.file("request").string(), scratch.file("log").string());
+    std::string value = fmt::format("{},watch={},timing={},times={}", plugin.string(), scratch.file("watch").string(),
+                                    scratch.file("request").string(), scratch.file("log").string());
     if (marks) {
         value += fmt::format(",marks={}", scratch.file("marks").string());
     }

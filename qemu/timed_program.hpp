@@ -18,7 +18,8 @@ namespace qemu {
 /// \param marks    of a program that marks what is to be timed
 /// \param line     called for each line that the program prints; may be empty
 /// \return one log for each part that the program marks; without marks one of the whole program
-/// \throws glsum::Failure as emulate() does; when the program ends within a watched function, and when none was called, it
+/// \throws glsum::Failure as emulate() does; when the program ends within a watched function, and when none was called,
+/// it
 ///         says so (check failed)
 [[nodiscard]] std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std::filesystem::path& plugin,
                                                           const std::filesystem::path& elf,

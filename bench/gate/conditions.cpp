@@ -65,8 +65,8 @@ std::string text_of(const Json& context, const std::string& key) {
     return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
-// "NAME sha256:HASH, ...": the cores that both runs modelled, as one of them has them. Where they share none, or a file says
-// it otherwise, the whole text.
+// "NAME sha256:HASH, ...": the cores that both runs modelled, as one of them has them. Where they share none, or a file
+// says it otherwise, the whole text.
 std::string shared_cores(const std::string& text, const std::string& other) {
     const auto entries = [](const std::string& list) {
         std::map<std::string, std::string> by_name;

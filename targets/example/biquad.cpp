@@ -1,4 +1,5 @@
-// A firmware with a function of its own to time: glsum time --elf build/mps2-an500/targets/biquad.elf --function biquad_step
+// A firmware with a function of its own to time: glsum time --elf build/mps2-an500/targets/biquad.elf --function
+// biquad_step
 #include "port.hpp"
 
 struct Biquad {

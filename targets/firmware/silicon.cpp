@@ -1,9 +1,10 @@
 // silicon: what does one call of a kernel take? On a board it says so by the core's cycle counter, in rows of measured
 // cycles; on the emulated one, which has no cycle counter, the timing model watches the same calls from outside.
 //
-// Argument: a file of lines `<kernel> <taps>`; without one, the program's own list. A kernel is one of the registry's, a
-// loop of published measurements (silicon_loops.S), or a loop that tells rival rules apart (rival_loops.S), whose `taps`
-// are its turns. Each is called until caches and branch predictor have settled; the last call is the one that counts.
+// Argument: a file of lines `<kernel> <taps>`; without one, the program's own list. A kernel is one of the registry's,
+// a loop of published measurements (silicon_loops.S), or a loop that tells rival rules apart (rival_loops.S), whose
+// `taps` are its turns. Each is called until caches and branch predictor have settled; the last call is the one that
+// counts.
 #include "buffers.hpp"
 #include "glsum/registry.hpp"
 #include "marks.hpp"

@@ -21,16 +21,19 @@ constexpr std::string_view code = GLSUM_CODE;
 constexpr std::string_view data = GLSUM_DATA;
 constexpr std::uint32_t wait_states = 7;  // 210 to 216 MHz at 2.7 to 3.6 V [RM0385, table 5]
 
-void set(std::uint32_t address, std::uint32_t mask, std::uint32_t value) { at(address) = (at(address) & ~mask) | value; }
+void set(std::uint32_t address, std::uint32_t mask, std::uint32_t value) {
+    at(address) = (at(address) & ~mask) | value;
+}
 void wait_for(std::uint32_t address, std::uint32_t mask, std::uint32_t value) {
     while ((at(address) & mask) != value) {
     }
 }
 void barrier() { asm volatile("dsb\n isb" ::: "memory"); }
 
-// 216 MHz from the internal 16 MHz oscillator: no solder bridge or crystal decides. Buses: AHB 216, APB1 54, APB2 108 MHz.
+// 216 MHz from the internal 16 MHz oscillator: no solder bridge or crystal decides. Buses: AHB 216, APB1 54, APB2 108
+// MHz.
 void start_clocks() {
-    enable(rcc::apb1enr, bit(28));          // PWR
+    enable(rcc::apb1enr, bit(28));      // PWR
     set(pwr::cr1, 3U << 14, 3U << 14);  // scale 1
     // PLL: 16 MHz / 8 * 216 / 2; 48 MHz / 9 is not used.
     at(rcc::pllcfgr) = 8U | 216U << 6 | 0U << 16 | 9U << 24;

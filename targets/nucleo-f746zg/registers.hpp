@@ -5,9 +5,7 @@
 
 namespace stm32f746 {
 
-inline volatile std::uint32_t& at(std::uint32_t address) {
-    return *reinterpret_cast<volatile std::uint32_t*>(address);
-}
+inline volatile std::uint32_t& at(std::uint32_t address) { return *reinterpret_cast<volatile std::uint32_t*>(address); }
 /// Switches a peripheral's clock on and waits until it is: the reading back takes that long.
 inline void enable(std::uint32_t register_address, std::uint32_t mask) {
     at(register_address) = at(register_address) | mask;

@@ -124,8 +124,8 @@ TEST_F(FirmwareTest, BlocksAndTheWholeStreamGiveTheSameCounts) {
     }
 }
 
-// Cores side by side cost one emulation, and change nothing: neither what is counted nor each other's cycles; nor do the
-// rows before.
+// Cores side by side cost one emulation, and change nothing: neither what is counted nor each other's cycles; nor do
+// the rows before.
 TEST_F(FirmwareTest, ModelledCyclesDoNotDependOnWhatElseRuns) {
     std::vector<qemu::PlannedRow> plan;
     for (const char* kernel : {"shift_plain_f32", "ring_plain_q31", "mirror_smlald_q15", "ring_horner_f64"}) {
