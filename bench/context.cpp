@@ -11,7 +11,9 @@
 #include "bench/files.hpp"
 #include "bench/target_build.hpp"
 #include "bench/target_plan.hpp"
+#include "bench/target_rows.hpp"
 #include "glsum/registry.hpp"
+#include "qemu/scratch.hpp"
 
 namespace bench {
 namespace {
@@ -45,6 +47,21 @@ std::string now() {
     return text;
 }
 
+std::string sha256_of(const std::filesystem::path& file) {
+    return first_line(fmt::format("sha256sum '{}'", file.string())).substr(0, 64);
+}
+
+// "NAME sha256:HASH" of each core, the hash over its file and those that it is based on; "none" without any.
+std::string core_files(const qemu::Board& board, const std::vector<std::string>& cores) {
+    const qemu::Scratch scratch;
+    std::string text;
+    for (const timing::CoreFile& core : timing::cores_of(timing_request(board.cores, cores))) {
+        write_file(scratch.file("core"), core.text);
+        text += fmt::format("{}{} sha256:{}", text.empty() ? "" : ", ", core.name, sha256_of(scratch.file("core")));
+    }
+    return text.empty() ? "none" : text;
+}
+
 }  // namespace
 
 Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
@@ -71,14 +88,14 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
 #if defined(GLSUM_SIMD)
     context["simd"] = std::string(glsum::simd_instruction_set());
 #endif
-    context["core_file"] = "none";
+    context["core_file"] = board != nullptr ? core_files(*board, sweep.modelled_cores()) : "none";
     if (board != nullptr) {
         const std::filesystem::path info = board->measure_elf.parent_path() / "build_info.json";
         const TargetBuild target = parse_target_build(read_file(info, std::size_t{1} << 20), info.string());
         context["target_compiler"] = target.compiler;
         context["target_flags"] = target.flags;
         context["qemu_version"] = qemu::emulator_version();
-        context["elf_sha256"] = first_line(fmt::format("sha256sum '{}'", board->measure_elf.string())).substr(0, 64);
+        context["elf_sha256"] = sha256_of(board->measure_elf);
         context["target_count_order"] = fmt::format("{}", count_order(sweep));
         context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
     }
@@ -86,8 +103,9 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
     for (const Length& length : sweep.lengths) {
         taps.push_back(length.text());
     }
-    context["sweep"] = {{"kernels", sweep.kernels}, {"peers", sweep.peers},    {"orders", sweep.orders}, {"taps", taps},
-                        {"signals", sweep.signals}, {"targets", sweep.targets}};
+    context["sweep"] = {
+        {"kernels", sweep.kernels}, {"peers", sweep.peers},     {"orders", sweep.orders}, {"taps", taps},
+        {"signals", sweep.signals}, {"targets", sweep.targets}, {"cores", sweep.cores}};
     context["n_samples"] = sweep.samples;
     context["seed"] = sweep.seed;
     return context;

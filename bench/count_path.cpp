@@ -1,10 +1,10 @@
 #include "bench/count_path.hpp"
 
-#include <concepts>
 #include <optional>
 #include <stdexcept>
 #include <vector>
 
+#include "glsum/computes_in_double.hpp"
 #include "glsum/registry.hpp"
 
 namespace bench {
@@ -31,16 +31,6 @@ concept has_scale = requires(typename K::State state) {
     state.scale.output_exponent;
 };
 
-template <class K>
-constexpr bool uses_double() {
-    bool uses = std::same_as<typename K::Sample, double> || std::same_as<typename K::Coefficient, double> ||
-                std::same_as<typename K::Output, double>;
-    if constexpr (requires { typename K::FormatPart::Accumulator; }) {
-        uses = uses || std::same_as<typename K::FormatPart::Accumulator, double>;
-    }
-    return uses;
-}
-
 }  // namespace
 
 CountPath count_path(const std::string& kernel, const glsum::Design& design) {
@@ -58,7 +48,7 @@ CountPath count_path(const std::string& kernel, const glsum::Design& design) {
 }
 
 bool double_in_software(const std::string& kernel) {
-    return of_kernel(kernel, []<class K>() { return uses_double<K>(); });
+    return of_kernel(kernel, []<class K>() { return glsum::computes_in_double<K>(); });
 }
 
 }  // namespace bench

@@ -114,13 +114,21 @@ void add_row(Entry& entry, const std::string& aspect, const Json& row) {
     }
 }
 
-void mark_front(Group& group, std::optional<double> Entry::*cost, bool Entry::*front) {
+// Modelled cycles where there are any, of the first core by name.
+std::optional<double> target_cost(const Entry& entry) {
+    return entry.model_cycles.empty() ? entry.target_instructions
+                                      : std::optional(entry.model_cycles.begin()->second.median);
+}
+
+// \param cost  of an entry, if it has one
+template <class CostOf>
+void mark_front(Group& group, CostOf cost, bool Entry::*front) {
     constexpr double same_error = 1.01;
     for (Entry& entry : group.entries) {
-        const auto rankable = [&](const Entry& e) { return e.fault.empty() && e.error_max && e.*cost; };
+        const auto rankable = [&](const Entry& e) { return e.fault.empty() && e.error_max && cost(e); };
         entry.*front =
             rankable(entry) && std::none_of(group.entries.begin(), group.entries.end(), [&](const Entry& other) {
-                return rankable(other) && *(other.*cost) < *(entry.*cost) &&
+                return rankable(other) && *cost(other) < *cost(entry) &&
                        *other.error_max <= *entry.error_max * same_error;
             });
     }
@@ -263,8 +271,9 @@ std::vector<Group> group(const std::vector<Json>& rows) {
             entry.host_ns = median(repetitions, "real_time");
             entry.host_cycles = median(repetitions, "cycles_per_sample");
         }
-        mark_front(group, &Entry::host_ns, &Entry::host_front);
-        mark_front(group, &Entry::target_instructions, &Entry::target_front);
+        mark_front(
+            group, [](const Entry& entry) { return entry.host_ns; }, &Entry::host_front);
+        mark_front(group, target_cost, &Entry::target_front);
     }
     return groups;
 }

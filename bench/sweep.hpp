@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,9 @@ struct Length {
     [[nodiscard]] std::string text() const { return full ? "full" : std::to_string(taps); }
 };
 
+/// In place of a core's name: no timing model, only what the emulator counts.
+inline constexpr const char* count_only = "count";
+
 struct Sweep {
     std::vector<std::string> kernels;  ///< in the registry's order; may hold `null`
     std::vector<std::string> peers;
@@ -23,10 +27,19 @@ struct Sweep {
     std::vector<Length> lengths;  ///< rising
     std::vector<std::string> signals;
     std::vector<std::string> targets{"host", "m7"};  ///< where the cost is measured
+    /// On m7: cores of the timing model, and `count` for instructions alone; not empty.
+    std::vector<std::string> cores{count_only};
     std::size_t samples = 5000;
     std::uint64_t seed = 2020;
     unsigned repetitions = 1;  ///< of each host timing
     unsigned jobs = 1;
+    /// Those of `cores` that are modelled.
+    [[nodiscard]] std::vector<std::string> modelled_cores() const {
+        std::vector<std::string> modelled;
+        std::copy_if(cores.begin(), cores.end(), std::back_inserter(modelled),
+                     [](const std::string& core) { return core != count_only; });
+        return modelled;
+    }
     [[nodiscard]] bool wants(const char* target) const {
         return std::find(targets.begin(), targets.end(), target) != targets.end();
     }

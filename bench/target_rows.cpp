@@ -41,11 +41,14 @@ std::vector<Compared<Outcome>> run_in_shares(const std::vector<qemu::PlannedRow>
     return compared;
 }
 
-Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::MeasuredRow& measured) {
-    Json json = make_row(row_name(row.kernel, row.order, row.length, "m7:count"), 32);
-    json["label"] =
-        fmt::format("instructions only; counted at order {}{}", counted_at,
-                    row.software_double ? "; double precision in software, where the count depends on the data" : "");
+// The row of one of the sweep's cores. \param clock_hz  of a modelled one
+Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::MeasuredRow& measured, const std::string& core,
+             const qemu::ModelledCall* modelled, double clock_hz) {
+    const std::string software =
+        row.software_double ? "; double precision in software, where the count depends on the data" : "";
+    Json json = make_row(row_name(row.kernel, row.order, row.length, "m7:" + core), 32);
+    json["label"] = fmt::format("{}; counted at order {}{}",
+                                modelled != nullptr ? "modelled cycles" : "instructions only", counted_at, software);
     if (measured.status != glsum::Status::ok) {
         mark_error(json, to_text(measured.status));
         return json;
@@ -56,19 +59,45 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
     json["branches_per_sample"] = measured.branches;
     json["first_instructions"] = measured.first.instructions;
     json["worst_instructions"] = measured.worst_instructions;
+    if (modelled != nullptr) {
+        json["real_time"] = json["cpu_time"] = modelled->cycles / clock_hz * 1e9;
+        json["model_cycles_per_sample"] = modelled->cycles;
+        json["model_cycles_low"] = modelled->low;
+        json["model_cycles_high"] = modelled->high;
+        json["first_model_cycles"] = modelled->first_cycles;
+        json["worst_model_cycles"] = modelled->worst_cycles;
+        for (std::size_t e = 0; e < timing::effect_count; ++e) {
+            json[fmt::format("stall_{}", timing::effect_names[e])] = modelled->lost[e];
+        }
+    }
     json["code_bytes"] = measured.code_bytes;
     json["stack_bytes"] = measured.stack_bytes;
     json["state_bytes"] = measured.state_bytes;
     json["coefficient_bytes"] = measured.coefficient_bytes;
+    if (modelled != nullptr && !measured.unknown_encodings.empty()) {
+        mark_error(json, fmt::format("the timing model does not know {} encodings, the first at {:#010x}",
+                                     measured.unknown_encodings.size(), measured.unknown_encodings.front()));
+    }
     return json;
 }
 
 }  // namespace
 
+timing::TimingRequest timing_request(const std::filesystem::path& folder, const std::vector<std::string>& cores) {
+    timing::TimingRequest request;
+    request.cores_folder = folder.string();
+    for (const std::string& core : cores) {
+        request.cores.push_back({core, "", ""});
+    }
+    return request;
+}
+
 std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan, const qemu::Signals& signals,
-                                     const qemu::Board& board, unsigned jobs, const qemu::RowDone& done) {
+                                     const qemu::Board& board, unsigned jobs, const qemu::RowDone& done,
+                                     const timing::TimingRequest& timing) {
     const auto compared = run_in_shares<qemu::MeasuredRow>(
-        plan, jobs, [&](const auto& share) { return qemu::measure(board, share, signals, done); },
+        plan, jobs,
+        [&](const auto& share) { return qemu::measure(board, share, signals, done, qemu::Counting::blocks, timing); },
         [&](qemu::PlannedRow planned) {
             ++planned.calls;  // the firmware makes one more, on a painted stack
             return qemu::replay_here(planned, signals);
@@ -95,7 +124,12 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
 
     Progress progress("emulated Cortex-M7", plan.counts.size() + replay_plan.size());
     const auto done = [&] { progress.advance(); };
-    const auto counts = count_on_target(plan.counts, signals, board, sweep.jobs, done);
+    const timing::TimingRequest request = timing_request(board.cores, sweep.modelled_cores());
+    std::vector<double> clocks;
+    for (const timing::CoreFile& core : timing::cores_of(request)) {
+        clocks.push_back(static_cast<double>(core.sets.front().figures.memory_clock_hz));
+    }
+    const auto counts = count_on_target(plan.counts, signals, board, sweep.jobs, done, request);
     const auto replays = run_in_shares<qemu::ReplayedRow>(
         replay_plan, sweep.jobs, [&](const auto& share) { return qemu::replay(board, share, signals, done); },
         [&](const qemu::PlannedRow& planned) { return qemu::replay_here(planned, signals); });
@@ -113,9 +147,17 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
         const TargetPlan::Row& row = plan.rows[i];
         auto& rows = result[static_cast<std::size_t>(std::lower_bound(pieces.begin(), pieces.end(), row.piece) -
                                                      pieces.begin())];
-        rows.push_back(to_json(row, plan.counts[row.count].order, counts[row.count].row));
-        if (!same_bits[i]) {
-            mark_error(rows.back(), "the target's outputs differ from the host's");
+        const qemu::MeasuredRow& measured = counts[row.count].row;
+        std::size_t modelled = 0;
+        for (const std::string& core : sweep.cores) {
+            const bool counted = core == count_only;
+            const qemu::ModelledCall* call = counted || measured.cores.empty() ? nullptr : &measured.cores[modelled];
+            rows.push_back(
+                to_json(row, plan.counts[row.count].order, measured, core, call, counted ? 1.0 : clocks[modelled]));
+            modelled += counted ? 0 : 1;
+            if (!same_bits[i]) {
+                mark_error(rows.back(), "the target's outputs differ from the host's");
+            }
         }
     }
     return result;

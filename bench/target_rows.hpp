@@ -16,14 +16,22 @@ struct Counted {
     bool same_bits;
 };
 
+/// A request for the timing model: cores of a folder, placed as their files say.
+[[nodiscard]] timing::TimingRequest timing_request(const std::filesystem::path& folder,
+                                                   const std::vector<std::string>& cores);
+
 /// Counts the plan's rows on the emulated board, in shares of about equal cost. \param done  called after each row
+/// \param timing  cores to be modelled in the same runs; may have none
 [[nodiscard]] std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan,
                                                    const qemu::Signals& signals, const qemu::Board& board,
-                                                   unsigned jobs, const qemu::RowDone& done);
+                                                   unsigned jobs, const qemu::RowDone& done,
+                                                   const timing::TimingRequest& timing = {});
 
 /// For each kernel that runs on the target, order and length: instructions, loads, stores and branches of the first
 /// call and of a steady one, the worst of a whole turn, bytes of code, stack, state and coefficients. Named
-/// ".../m7:count": counts of instructions, never called cycles.
+/// ".../m7:count": counts of instructions, never called cycles. For each modelled core of the sweep the same row again,
+/// named ".../m7:<core>", with the cycles that the timing model gives the same calls; its time is theirs at the core's
+/// clock.
 ///
 /// Which instructions a kernel executes follows from its length and, in fixed point, the scale; each such case is
 /// counted once, and the rows of every order have it, their labels saying at which order it was taken. In software

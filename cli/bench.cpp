@@ -38,6 +38,7 @@ struct Options {
     std::vector<std::string> taps;
     std::vector<std::string> signals;
     std::vector<std::string> targets = bench::Sweep().targets;
+    std::vector<std::string> cores{bench::count_only, default_core};
     std::optional<std::string> shard;
     unsigned repetitions = 1;
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -111,6 +112,13 @@ bench::Sweep to_sweep(const Options& options) {
         }
     }
     sweep.targets = options.targets;
+    sweep.cores.clear();
+    for (const std::string& core : options.cores) {
+        if (std::find(sweep.cores.begin(), sweep.cores.end(), core) == sweep.cores.end()) {
+            sweep.cores.push_back(core);
+        }
+    }
+    (void)timing::cores_of(bench::timing_request(cores_folder(), sweep.modelled_cores()));
     glsum::Registry::for_each([&]<class K>() {
         if (matches_any(options.kernels, K::name())) {
             sweep.kernels.emplace_back(K::name());
@@ -171,8 +179,8 @@ void run(const Options& options, const PassedOn& flags) {
 
 void add_bench(CLI::App& app, const PassedOn& passed_on) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions");
+    CLI::App* command = app.add_subcommand(
+        "bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions and modelled cycles");
     command->footer(
         "Flags --benchmark_... go to Google Benchmark.\n"
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");
@@ -186,6 +194,12 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
     command->add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
         ->delimiter(',');
     command->add_option("--targets", options->targets, "host, m7 or both")->delimiter(',')->capture_default_str();
+    command
+        ->add_option("--core", options->cores,
+                     "Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation serves "
+                     "all")
+        ->delimiter(',')
+        ->capture_default_str();
     command->add_option("--shard", options->shard,
                         "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "
                         "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");

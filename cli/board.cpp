@@ -5,11 +5,14 @@
 
 namespace cli {
 
+std::filesystem::path cores_folder() { return std::filesystem::path(build_info::source_folder) / "qemu" / "cores"; }
+
 qemu::Board built_board() {
     const std::filesystem::path source = build_info::source_folder;
     const std::filesystem::path built = build_info::build_folder;
     qemu::Board board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
                                          source / "targets" / "mps2-an500" / "emulate");
+    board.cores = cores_folder();
     (void)qemu::emulator_version();
     return board;
 }

@@ -1,12 +1,20 @@
 // The emulated board that was built beside this program.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 
 #include "bench/choose/question.hpp"
 #include "qemu/firmware.hpp"
 
 namespace cli {
+
+/// The core that is modelled where none is asked for: the chip of the seed's drive, code and data in its fastest
+/// memory.
+inline constexpr const char* default_core = "stm32f746-itcm";
+
+/// The project's core files.
+[[nodiscard]] std::filesystem::path cores_folder();
 
 /// \throws glsum::Failure (missing) naming the file that is not there, or the emulator.
 [[nodiscard]] qemu::Board built_board();

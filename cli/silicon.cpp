@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "bench/build_info.hpp"
+#include "cli/board.hpp"
 #include "cli/commands.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
@@ -30,18 +31,15 @@ struct Options {
 
 void run(const Options& options) {
     const std::vector<qemu::MeasuredCycles> rows = qemu::read_measured_cycles(options.file);
-    const std::filesystem::path source = build_info::source_folder;
-    const std::filesystem::path built = build_info::build_folder;
-    const qemu::Board board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
-                                               source / "targets" / "mps2-an500" / "emulate");
-    const qemu::SiliconProgram program{board.measure_elf.parent_path() / "silicon.elf", board.plugin,
-                                       source / "qemu" / "cores", board.emulator};
+    const qemu::Board board = built_board();
+    const qemu::SiliconProgram program{board.measure_elf.parent_path() / "silicon.elf", board.plugin, board.cores,
+                                       board.emulator};
     const std::vector<qemu::PredictedCycles> predicted =
         qemu::predict(program, options.file, rows, options.core, options.without);
 
     fmt::print("{}: {} rows, predicted with the core file {}\n\n", options.file.filename().string(), rows.size(),
                options.core);
-    fmt::print("{:<20} {:<13} {:<5} {:>5} {:>9} {:>9} {:>17} {:>8} {:>8}\n", "kernel", "code", "data", "taps",
+    fmt::print("{:<26} {:<13} {:<5} {:>5} {:>9} {:>9} {:>17} {:>8} {:>8}\n", "kernel", "code", "data", "taps",
                "measured", "predicted", "band", "error", "cycles");
     struct Group {
         std::vector<double> taps;
@@ -58,20 +56,20 @@ void run(const Options& options) {
         const bool misses = std::abs(error) > allowed_share && std::abs(p.nominal - row.cycles) > allowed_cycles;
         missed += misses ? 1 : 0;
         errors.push_back(std::abs(error));
-        fmt::print("{:<20} {:<13} {:<5} {:>5} {:>9} {:>9.1f} {:>17} {:>+7.1f}% {:>+8.1f}{}\n", row.kernel, row.code,
+        fmt::print("{:<26} {:<13} {:<5} {:>5} {:>9} {:>9.1f} {:>17} {:>+7.1f}% {:>+8.1f}{}\n", row.kernel, row.code,
                    row.data, row.taps, row.cycles, p.nominal, fmt::format("{:.1f} to {:.1f}", p.low, p.high),
                    100 * error, p.nominal - row.cycles, misses ? "  MISSED" : "");
-        Group& group = groups[fmt::format("{:<20} {:<13} {:<5}", row.kernel, row.code, row.data)];
+        Group& group = groups[fmt::format("{:<26} {:<13} {:<5}", row.kernel, row.code, row.data)];
         group.taps.push_back(row.taps);
         group.measured.push_back(row.cycles);
         group.predicted.push_back(p.nominal);
     }
-    fmt::print("\n{:<40} {:>10} {:>10} {:>10} {:>10}\n", "cycles a tap and beside them", "measured", "predicted",
+    fmt::print("\n{:<46} {:>10} {:>10} {:>10} {:>10}\n", "cycles a tap and beside them", "measured", "predicted",
                "measured", "predicted");
     for (const auto& [name, group] : groups) {
         const qemu::Line measured = qemu::fit_line(group.taps, group.measured);
         const qemu::Line model = qemu::fit_line(group.taps, group.predicted);
-        fmt::print("{:<40} {:>10.3f} {:>10.3f} {:>10.1f} {:>10.1f}\n", name, measured.slope, model.slope,
+        fmt::print("{:<46} {:>10.3f} {:>10.3f} {:>10.1f} {:>10.1f}\n", name, measured.slope, model.slope,
                    measured.constant, model.constant);
     }
     std::sort(errors.begin(), errors.end());

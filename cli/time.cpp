@@ -9,6 +9,7 @@
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
 #include "bench/row.hpp"
+#include "cli/board.hpp"
 #include "cli/commands.hpp"
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
@@ -26,7 +27,7 @@ constexpr std::size_t hot_rows = 20;
 struct Options {
     std::filesystem::path elf;
     std::string function;
-    std::string core = "stm32f746-itcm";
+    std::string core = default_core;
     std::vector<std::string> places;
     std::vector<std::string> without;
     std::filesystem::path json;
@@ -48,7 +49,8 @@ std::string disassemble(const std::filesystem::path& elf, std::uint32_t address)
     const std::string text = output_of(fmt::format(
         "arm-none-eabi-objdump -d --no-show-raw-insn --start-address={:#x} --stop-address={:#x} '{}' 2>/dev/null",
         address, address + 4, elf.string()));
-    const std::string mark = fmt::format("\n{:8x}:\t", address);
+    // "  1a4:\tadds\tr0, #1": as wide as the section's addresses need.
+    const std::string mark = fmt::format(" {:x}:\t", address);
     const std::size_t at = text.find(mark);
     if (at == std::string::npos) {
         return "";
@@ -107,7 +109,7 @@ timing::TimingRequest to_request(const Options& options, const std::filesystem::
 void run(const Options& options) {
     const std::filesystem::path source = build_info::source_folder;
     const std::filesystem::path built = build_info::build_folder;
-    const timing::TimingRequest request = to_request(options, source / "qemu" / "cores");
+    const timing::TimingRequest request = to_request(options, cores_folder());
     const timing::CoreFile core = timing::cores_of(request).front();
     const qemu::Elf elf(options.elf);
     elf.check_runs_on_cortex_m7();
@@ -118,18 +120,20 @@ void run(const Options& options) {
     const qemu::Emulator emulator{source / "targets" / "mps2-an500" / "emulate", std::chrono::seconds(options.timeout),
                                   std::chrono::seconds(10)};
     const timing::TimingLog log = qemu::time_program(emulator, built / "qemu" / "glsum_plugin.so", options.elf,
-                                                     {function.name}, {function.address}, request, {});
+                                                     {function.name}, {function.address}, request, {}, {})
+                                      .front();
 
     Distribution instructions;
-    std::vector<Distribution> half_cycles(core.sets.size());
+    std::vector<Distribution> half_cycles;  // the nominal set, then what spans the band
     std::vector<Distribution> losses(timing::effect_count);
     std::uint64_t calls = 0;
     for (const timing::TimedRun& run : log.runs) {
         calls += run.calls;
         instructions.add(static_cast<std::int64_t>(run.call.instructions), run.calls);
         const timing::CoreTime& time = run.call.cores.at(0);
+        half_cycles.resize(time.half_cycles.size());
         for (std::size_t s = 0; s < half_cycles.size(); ++s) {
-            half_cycles[s].add(time.half_cycles.at(s), run.calls);
+            half_cycles[s].add(time.half_cycles[s], run.calls);
         }
         for (std::size_t e = 0; e < losses.size(); ++e) {
             losses[e].add(time.losses[e], run.calls);

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <map>
 #include <memory>
 
 #include "qemu/failure.hpp"
@@ -130,7 +131,6 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
     }
     std::size_t bytes_left = most_section_bytes;
     std::size_t symbols_left = most_symbols;
-    entry_ = static_cast<std::uint32_t>(header.e_entry);
     for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section)) != nullptr;) {
         GElf_Shdr info;
         Elf_Data* data = elf_getdata(section, nullptr);
@@ -192,7 +192,9 @@ Function Elf::function(const std::string& name) const {
     for (const auto& [address, function] : functions_) {
         const std::string text = readable(function.name);
         const std::string without_parameters = text.substr(0, text.find('('));
-        if (function.name == name || text == name || without_parameters == name) {
+        // "f.constprop.0" is what the compiler made of f.
+        if (function.name == name || text == name || without_parameters == name ||
+            function.name.starts_with(name + '.')) {
             found.push_back(function);
         }
         close.emplace_back(distance(without_parameters, name), text);
@@ -212,29 +214,43 @@ Function Elf::function(const std::string& name) const {
         for (std::size_t i = 0; i < std::min<std::size_t>(3, close.size()); ++i) {
             names += (i > 0 ? ", " : "") + close[i].second;
         }
-        throw Failure(Exit::bad_input,
-                      fmt::format("{}: no function {}; the compiler may have inlined it (noinline keeps it) or the linker "
-                                  "dropped it; the closest names are {}",
-                                  path_.string(), name, names));
+        throw Failure(
+            Exit::bad_input,
+            fmt::format("{}: no function {}; the compiler may have inlined it (noinline keeps it) or the linker "
+                        "dropped it; the closest names are {}",
+                        path_.string(), name, names));
     }
     for (const Function& function : found) {
         names += fmt::format(" {} at {:#x}", function.name, function.address);
     }
-    throw Failure(Exit::bad_input, fmt::format("{}: {} is the name of {} functions:{}", path_.string(), name,
-                                               found.size(), names));
+    throw Failure(Exit::bad_input,
+                  fmt::format("{}: {} is the name of {} functions:{}", path_.string(), name, found.size(), names));
 }
 
 void Elf::check_runs_on_cortex_m7() const {
     const auto refuse = [&](const std::string& found) {
-        throw Failure(Exit::bad_input,
-                      fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found {}", path_.string(), found));
+        throw Failure(Exit::bad_input, fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found {}",
+                                                   path_.string(), found));
     };
-    if ((entry_ & 1U) == 0) {
-        refuse("an entry in Arm state");
-    }
     if (attributes_.empty()) {
-        return;  // written in assembly; its encodings will tell
+        // Written in assembly: its encodings will tell. The core starts where the vector table says, in Thumb state;
+        // the ELF's own entry is for loaders, and often not set.
+        const auto first = std::find_if(sections_.begin(), sections_.end(),
+                                        [](const Section& section) { return section.address == 0; });
+        if (first == sections_.end() || first->bytes.size() < 8 || (word(4) & 1U) == 0) {
+            refuse("none whose vector table at address 0 starts it in Thumb state");
+        }
+        return;
     }
+    // [Arm IHI 0045, Tag_CPU_arch]
+    static const std::map<unsigned, const char*> names{{10, "ARMv7"},
+                                                       {13, "ARMv7E-M"},
+                                                       {14, "ARMv8-A"},
+                                                       {15, "ARMv8-R"},
+                                                       {16, "ARMv8-M baseline"},
+                                                       {17, "ARMv8-M mainline"},
+                                                       {21, "ARMv8.1-M mainline"},
+                                                       {22, "ARMv9-A"}};
     constexpr unsigned v7 = 10;
     constexpr unsigned v6_m = 11;
     constexpr unsigned v6s_m = 12;
@@ -243,8 +259,11 @@ void Elf::check_runs_on_cortex_m7() const {
     const bool small = attributes.architecture == v6_m || attributes.architecture == v6s_m;
     const bool right = attributes.architecture == v7e_m || (attributes.architecture == v7 && attributes.profile == 'M');
     if (!small && !right) {
-        refuse(fmt::format("one for architecture {} of profile {}", attributes.architecture,
-                           attributes.profile != 0 ? std::string(1, static_cast<char>(attributes.profile)) : "none"));
+        const auto name = names.find(attributes.architecture);
+        refuse(fmt::format(
+            "one for {}{}",
+            name != names.end() ? name->second : fmt::format("architecture {}", attributes.architecture),
+            attributes.profile != 0 ? fmt::format(", profile {}", static_cast<char>(attributes.profile)) : ""));
     }
 }
 

@@ -47,7 +47,6 @@ private:
     std::vector<Section> sections_;
     std::map<std::string, std::uint32_t> symbols_;
     std::vector<unsigned char> attributes_;  // .ARM.attributes
-    std::uint32_t entry_ = 0;
     std::map<std::uint32_t, Function> functions_;  // by address
 };
 

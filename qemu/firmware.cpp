@@ -9,12 +9,15 @@
 #include <set>
 #include <stdexcept>
 
+#include "glsum/computes_in_double.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/answers.hpp"
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
+#include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
+#include "targets/firmware/timed_calls.hpp"
 
 namespace qemu {
 namespace {
@@ -61,28 +64,15 @@ std::string to_text(const CallCounts& counts) {
                        counts.stores, counts.branches);
 }
 
-// What the program offers to the instrument, read from its ELF.
 struct Watch {
-    explicit Watch(const Elf& elf) {
-        const auto need = [&](const std::string& name) {
-            const auto address = elf.symbol(name);
-            if (!address) {
-                throw Failure(Exit::bad_input, fmt::format("{}: expected the symbol {}", elf.path().string(), name));
-            }
-            return *address;
-        };
+    explicit Watch(const Elf& elf) : kernels(watched_kernels(elf)), marks(marks_of(elf)) {
         for (const KnownLoop& loop : known_loops) {
-            loops.push_back(need(loop.name));
-        }
-        const std::uint32_t table = need("glsum_watched");
-        const std::uint32_t count = elf.word(need("glsum_watched_count"));
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t row = table + 12 * i;
-            kernels[elf.text(elf.word(row), elf.word(row + 4))] = elf.word(row + 8) & ~1U;
+            loops.push_back(address_of(elf, loop.name));
         }
     }
     std::vector<std::uint32_t> loops;
     std::map<std::string, std::uint32_t> kernels;
+    Marks marks;
 };
 
 // The log's runs, taken call by call in the order in which the program made them.
@@ -166,11 +156,78 @@ void summarise(MeasuredRow& row, Calls& calls, std::uint32_t entry, std::size_t 
     calls.take(entry, 1);  // the one on the painted stack
 }
 
+bool computes_in_double(const std::string& kernel) {
+    bool computes = false;
+    glsum::Registry::for_each([&]<class K>() { computes |= K::name() == kernel && glsum::computes_in_double<K>(); });
+    return computes;
+}
+
+// The timed calls of one row, in the order in which the program made them.
+void summarise(MeasuredRow& row, const timing::TimingLog& log, const PlannedRow& planned, std::size_t cores) {
+    const firmware::TimedCalls timed{planned.taps, computes_in_double(planned.kernel)};
+    const auto fault = [&](const std::string& what) {
+        return Failure(Exit::check_failed,
+                       fmt::format("the timing model, {} with {} taps: {}", planned.kernel, planned.taps, what));
+    };
+    row.cores.assign(cores, {});
+    for (const auto& [address, times] : log.unknown) {
+        row.unknown_encodings.push_back(address);
+    }
+    std::vector<std::vector<double>> sets(cores);  // cycles of the steady calls, by rule set
+    const auto share = 1.0 / static_cast<double>(timed.steady());
+    auto run = log.runs.begin();
+    std::uint64_t used = 0;
+    for (std::size_t call = 0; call < planned.calls; ++call) {
+        if (!timed.contains(call)) {
+            continue;
+        }
+        if (run == log.runs.end() || run->call.cores.size() != cores) {
+            throw fault("it saw fewer calls than the program marked");
+        }
+        if (call == 0 && run->call.instructions != row.first.instructions) {
+            throw fault(fmt::format("its first call has {} instructions, the counter's {}", run->call.instructions,
+                                    row.first.instructions));
+        }
+        for (std::size_t c = 0; c < cores; ++c) {
+            const timing::CoreTime& time = run->call.cores[c];
+            ModelledCall& modelled = row.cores[c];
+            const double cycles = static_cast<double>(time.half_cycles.at(0)) / 2.0;
+            if (call == 0) {
+                modelled.first_cycles = cycles;
+            } else if (timed.is_full(call)) {
+                modelled.worst_cycles = std::max(modelled.worst_cycles, cycles);
+            }
+            if (timed.is_steady(call)) {
+                sets[c].resize(time.half_cycles.size());
+                for (std::size_t s = 0; s < sets[c].size(); ++s) {
+                    sets[c][s] += share * static_cast<double>(time.half_cycles[s]) / 2.0;
+                }
+                for (std::size_t e = 0; e < timing::effect_count; ++e) {
+                    modelled.lost[e] += share * static_cast<double>(time.losses[e]) / 2.0;
+                }
+            }
+        }
+        if (++used == run->calls) {
+            ++run;
+            used = 0;
+        }
+    }
+    if (run != log.runs.end()) {
+        throw fault("it saw more calls than the program marked");
+    }
+    for (std::size_t c = 0; c < cores; ++c) {
+        row.cores[c].cycles = sets[c].at(0);
+        const auto [low, high] = std::minmax_element(sets[c].begin(), sets[c].end());
+        row.cores[c].low = *low;
+        row.cores[c].high = *high;
+    }
+}
+
 }  // namespace
 
 Board find_board(const std::filesystem::path& build, const std::filesystem::path& plugin,
                  const std::filesystem::path& emulate) {
-    Board board{build / "targets" / "measure.elf", build / "targets" / "replay.elf", plugin, {emulate}};
+    Board board{build / "targets" / "measure.elf", build / "targets" / "replay.elf", plugin, {emulate}, {}};
     for (const auto& file : {board.measure_elf, board.replay_elf, board.plugin, board.emulator.command}) {
         if (!std::filesystem::exists(file)) {
             const std::string preset = file == board.plugin ? "host" : build.filename().string();
@@ -228,7 +285,10 @@ std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> 
 }
 
 std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow> plan, const Signals& signals,
-                                 const RowDone& done, Counting counting) {
+                                 const RowDone& done, Counting counting, const timing::TimingRequest& timing) {
+    if (!timing.cores.empty()) {
+        (void)timing::cores_of(timing);  // says what is wrong with it here, where it can be said well
+    }
     const Elf elf(board.measure_elf);
     const Watch watch(elf);
     const Scratch scratch;
@@ -241,12 +301,23 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
         for (const auto& [name, entry] : watch.kernels) {
             list << entry << '\n';
         }
+        std::ofstream marks(scratch.file("marks"));
+        marks << fmt::format("{} {} {}\n", watch.marks.row, watch.marks.on, watch.marks.off);
+        std::ofstream request(scratch.file("request"));
+        timing::write_timing_request(request, timing);
+        if (!list.flush() || !marks.flush() || !request.flush()) {
+            throw Failure(Exit::check_failed, fmt::format("{}: cannot write", scratch.file("").string()));
+        }
     }
     Answers answers(plan.size());
     std::vector<MeasuredRow> rows;
-    const std::string plugin =
+    std::string plugin =
         fmt::format("{},watch={},out={},stream={}", board.plugin.string(), scratch.file("watch").string(),
                     scratch.file("calls").string(), counting == Counting::stream ? "on" : "off");
+    if (!timing.cores.empty()) {
+        plugin += fmt::format(",marks={},timing={},times={}", scratch.file("marks").string(),
+                              scratch.file("request").string(), scratch.file("times").string());
+    }
     emulate(board.emulator, board.measure_elf, {scratch.file("plan").string()}, plugin, [&](const std::string& line) {
         if (const auto row = answers.take_measured(line)) {
             rows.push_back(*row);
@@ -259,6 +330,7 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
     const CallLog log = read_call_log(log_file);
     Calls calls(log);
     check_instrument(calls, watch);
+    std::ifstream times(scratch.file("times"));
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (rows[i].status == glsum::Status::ok) {
             const std::uint32_t entry = watch.kernels.at(plan[i].kernel);
@@ -268,6 +340,9 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
                 throw Failure(Exit::check_failed, "the instrument saw no instruction of " + plan[i].kernel);
             }
             rows[i].code_bytes = code_bytes(elf, reached->second);
+            if (!timing.cores.empty()) {
+                summarise(rows[i], timing::read_timing_log(times), plan[i], timing.cores.size());
+            }
         }
     }
     if (!calls.empty()) {

@@ -1,6 +1,7 @@
 // Carries out plans on the emulated board: what each call of a kernel costs there, and which bits it computes.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -11,6 +12,7 @@
 #include "glsum/kernel.hpp"
 #include "qemu/call_counter.hpp"
 #include "qemu/emulator.hpp"
+#include "qemu/timing/timing_log.hpp"
 
 namespace qemu {
 
@@ -19,6 +21,7 @@ struct Board {
     std::filesystem::path replay_elf;
     std::filesystem::path plugin;
     Emulator emulator;
+    std::filesystem::path cores = {};  ///< folder of core files, for the timing model
 };
 
 /// The board's files below the build folder of its preset.
@@ -43,6 +46,17 @@ struct ReplayedRow {
     std::uint64_t hash;  ///< of all outputs
 };
 
+/// What one core takes for a call, in modelled cycles: see targets/firmware/timed_calls.hpp for the calls.
+struct ModelledCall {
+    double cycles;  ///< the mean of the steady calls, with the nominal rules
+    double low;     ///< over the core file's rule sets, the nominal one included
+    double high;
+    double first_cycles;                            ///< of the call after `prepare`, caches and branch predictor cold
+    double worst_cycles;                            ///< of the timed calls once the past is full
+    std::array<double, timing::effect_count> lost;  ///< of `cycles`, to each effect
+    bool operator==(const ModelledCall&) const = default;
+};
+
 struct MeasuredRow {
     glsum::Status status;
     std::uint64_t hash;  ///< of the outputs of calls + 1 calls
@@ -55,7 +69,9 @@ struct MeasuredRow {
     double loads;
     double stores;
     double branches;
-    std::uint64_t worst_instructions;  ///< of the calls once the past is full
+    std::uint64_t worst_instructions;              ///< of the calls once the past is full
+    std::vector<ModelledCall> cores;               ///< as the timing request has them
+    std::vector<std::uint32_t> unknown_encodings;  ///< addresses of what the model could not decode
     bool operator==(const MeasuredRow&) const = default;
 };
 
@@ -77,9 +93,11 @@ using RowDone = std::function<void()>;
 enum class Counting { blocks, stream };
 
 /// Checks the instrument on loops of known counts first. Every row's `calls` must be `calls_to_measure(taps)`.
-/// \throws glsum::Failure when the instrument miscounts, or the emulator fails.
+/// \param timing  cores that the timing model is to have, in the same run; none: instructions only
+/// \throws glsum::Failure when the instrument miscounts, or the emulator fails, and as timing::cores_of.
 [[nodiscard]] std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow> plan,
                                                const Signals& signals, const RowDone& done,
-                                               Counting counting = Counting::blocks);
+                                               Counting counting = Counting::blocks,
+                                               const timing::TimingRequest& timing = {});
 
 }  // namespace qemu

@@ -15,6 +15,8 @@
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
 #include "qemu/timed_program.hpp"
+#include "qemu/watched.hpp"
+#include "targets/firmware/silicon_calls.hpp"
 
 namespace qemu {
 namespace {
@@ -22,8 +24,13 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
-constexpr unsigned calls_of_a_row = 12;  // as targets/firmware/silicon.cpp makes them
-constexpr std::uint32_t most_taps = 128;
+constexpr std::uint32_t most_taps = 1024;   // of a registered kernel, as targets/firmware/silicon.cpp has memory for
+constexpr std::size_t rows_of_a_run = 400;  // of at most 40 bytes: the firmware's plan holds 16 KB
+const std::map<std::string, std::uint32_t> most_taps_of_loops{
+#define GLSUM_LOOP(name, most) {#name, most},
+#include "targets/firmware/silicon_loops.def"
+#undef GLSUM_LOOP
+};
 
 std::vector<std::string> split(const std::string& line) {
     std::vector<std::string> cells;
@@ -92,8 +99,7 @@ std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& fi
             continue;
         }
         if (cells.size() != width) {
-            throw Failure(Exit::bad_input,
-                          fmt::format("{}: expected {} cells, found {}", place, width, cells.size()));
+            throw Failure(Exit::bad_input, fmt::format("{}: expected {} cells, found {}", place, width, cells.size()));
         }
         const auto cell = [&](const char* column) { return cells[columns.at(column)]; };
         rows.push_back({cell("kernel"), one_of(cell("code"), place, "code", {"flash_cached", "flash", "itcm"}),
@@ -112,6 +118,7 @@ std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::f
                                      const std::vector<MeasuredCycles>& rows, const std::string& core,
                                      const std::vector<std::string>& without) {
     const Elf elf(program.elf);
+    const std::map<std::string, std::uint32_t> kernels = watched_kernels(elf);
     // Each placement is a core of its own; each kernel and length is run once.
     std::vector<std::pair<std::string, std::string>> placements;
     std::vector<std::pair<std::string, std::uint32_t>> plan;
@@ -126,16 +133,20 @@ std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::f
     };
     std::vector<std::pair<std::size_t, std::size_t>> of_row;  // placement, plan
     for (const MeasuredCycles& row : rows) {
-        const auto entry = elf.symbol("glsum_silicon_" + row.kernel);
-        if (!entry) {
-            throw Failure(Exit::bad_input, fmt::format("{}:{}: no probe for the kernel {}", file.string(), row.line,
-                                                       row.kernel));
+        const auto loop = most_taps_of_loops.find(row.kernel);
+        const auto kernel = kernels.find(row.kernel);
+        if (loop == most_taps_of_loops.end() && kernel == kernels.end()) {
+            throw Failure(Exit::bad_input, fmt::format("{}:{}: kernel: expected one of the registry's that runs on the "
+                                                       "target, or a loop of silicon_loops.def; found {}",
+                                                       file.string(), row.line, row.kernel));
         }
-        if (row.taps > most_taps) {
-            throw Failure(Exit::bad_input, fmt::format("{}:{}: taps: the probes take 1 to {}, found {}", file.string(),
-                                                       row.line, most_taps, row.taps));
+        const std::uint32_t most = loop != most_taps_of_loops.end() ? loop->second : most_taps;
+        if (row.taps > most) {
+            throw Failure(Exit::bad_input, fmt::format("{}:{}: taps: {} takes 1 to {}, found {}", file.string(),
+                                                       row.line, row.kernel, most, row.taps));
         }
-        entries.insert(*entry);
+        entries.insert(loop != most_taps_of_loops.end() ? address_of(elf, "glsum_silicon_" + row.kernel)
+                                                        : kernel->second);
         of_row.emplace_back(index_in(placements, std::pair(row.code, row.data)),
                             index_in(plan, std::pair(row.kernel, row.taps)));
     }
@@ -147,38 +158,54 @@ std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::f
     }
     const std::vector<timing::CoreFile> cores = timing::cores_of(request);
 
-    const Scratch scratch;
-    {
+    // Of each row of the plan its last call, in runs of as many rows as the firmware reads at once.
+    std::vector<timing::TimedCall> settled;
+    while (settled.size() < plan.size()) {
+        const std::size_t end = std::min(plan.size(), settled.size() + rows_of_a_run);
+        const Scratch scratch;
+        std::string text;
+        for (std::size_t i = settled.size(); i < end; ++i) {
+            text += fmt::format("{}{} {}", text.empty() ? "" : "\n", plan[i].first, plan[i].second);
+        }
         std::ofstream out(scratch.file("plan"));
-        for (std::size_t i = 0; i < plan.size(); ++i) {
-            out << (i > 0 ? "\n" : "") << plan[i].first << ' ' << plan[i].second;
+        out << text;
+        if (!out.flush()) {
+            throw Failure(Exit::check_failed, fmt::format("{}: cannot write", scratch.file("plan").string()));
         }
-    }
-    const timing::TimingLog log = time_program(program.emulator, program.plugin, program.elf,
-                                               {scratch.file("plan").string()}, {entries.begin(), entries.end()},
-                                               request, {});
-    // The last call of each row of the plan.
-    std::vector<const timing::TimedCall*> settled;
-    std::uint64_t calls = 0;
-    for (const timing::TimedRun& run : log.runs) {
-        calls += run.calls;
-        while (settled.size() < plan.size() && calls >= (settled.size() + 1) * calls_of_a_row) {
-            settled.push_back(&run.call);
+        const auto logs = time_program(program.emulator, program.plugin, program.elf, {scratch.file("plan").string()},
+                                       {entries.begin(), entries.end()}, request, marks_of(elf), {});
+        if (logs.size() != end - settled.size()) {
+            throw Failure(Exit::check_failed, fmt::format("{}: {} rows were seen, {} expected", program.elf.string(),
+                                                          logs.size(), end - settled.size()));
         }
-    }
-    if (settled.size() != plan.size() || calls != plan.size() * calls_of_a_row) {
-        throw Failure(Exit::check_failed, fmt::format("{}: {} calls were seen, {} expected", program.elf.string(), calls,
-                                                      plan.size() * calls_of_a_row));
+        for (const timing::TimingLog& log : logs) {
+            std::uint64_t calls = 0;
+            for (const timing::TimedRun& run : log.runs) {
+                calls += run.calls;
+            }
+            if (calls != firmware::silicon_calls) {
+                throw Failure(Exit::check_failed,
+                              fmt::format("{}: {} calls of {} were seen, {} expected", program.elf.string(), calls,
+                                          plan[settled.size()].first, firmware::silicon_calls));
+            }
+            if (!log.unknown.empty()) {
+                throw Failure(Exit::check_failed,
+                              fmt::format("{}: the timing model does not know the encoding at {:#010x}",
+                                          program.elf.string(), log.unknown.begin()->first));
+            }
+            settled.push_back(log.runs.back().call);
+        }
     }
     std::vector<PredictedCycles> predictions;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto [placement, planned] = of_row[i];
-        const auto& half_cycles = settled[planned]->cores[placement].half_cycles;
+        const auto& half_cycles = settled[planned].cores[placement].half_cycles;
         const timing::Figures& figures = cores[placement].sets[0].figures;
         const auto more = static_cast<double>(figures.measurement_counter_reads +
                                               (rows[i].maintenance ? figures.measurement_maintenance : 0));
         const auto cycles = [&](std::int64_t half) { return static_cast<double>(half) / 2.0 + more; };
-        predictions.push_back({cycles(half_cycles[0]), cycles(*std::min_element(half_cycles.begin(), half_cycles.end())),
+        predictions.push_back({cycles(half_cycles[0]),
+                               cycles(*std::min_element(half_cycles.begin(), half_cycles.end())),
                                cycles(*std::max_element(half_cycles.begin(), half_cycles.end()))});
     }
     return predictions;

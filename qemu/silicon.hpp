@@ -40,8 +40,9 @@ struct SiliconProgram {
 };
 
 /// Predictions, row by row, on a core of the folder with each row's placement.
-/// \throws glsum::Failure (bad input) naming file and line for a kernel whose loop the program does not have, and for more
-///         taps than its memory holds
+/// A kernel is a loop of the program's (targets/firmware/silicon_loops.def), or else one of the registry's.
+/// \throws glsum::Failure (bad input) naming file and line for a kernel that the program does not have, and for more taps
+///         than it takes
 [[nodiscard]] std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::filesystem::path& file,
                                                    const std::vector<MeasuredCycles>& rows, const std::string& core,
                                                    const std::vector<std::string>& without);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "qemu/failure.hpp"
@@ -9,10 +10,11 @@
 
 namespace qemu {
 
-timing::TimingLog time_program(const Emulator& emulator, const std::filesystem::path& plugin,
-                               const std::filesystem::path& elf, const std::vector<std::string>& arguments,
-                               const std::vector<std::uint32_t>& entries, const timing::TimingRequest& request,
-                               const std::function<void(const std::string&)>& line) {
+std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std::filesystem::path& plugin,
+                                            const std::filesystem::path& elf, const std::vector<std::string>& arguments,
+                                            const std::vector<std::uint32_t>& entries,
+                                            const timing::TimingRequest& request, const std::optional<Marks>& marks,
+                                            const std::function<void(const std::string&)>& line) {
     const Scratch scratch;
     {
         std::ofstream watch(scratch.file("watch"));
@@ -21,14 +23,19 @@ timing::TimingLog time_program(const Emulator& emulator, const std::filesystem::
         }
         std::ofstream out(scratch.file("request"));
         timing::write_timing_request(out, request);
-        if (!watch.flush() || !out.flush()) {
-            throw glsum::Failure(glsum::Exit::check_failed,
-                                 fmt::format("{}: cannot write", scratch.file("").string()));
+        std::ofstream of_marks(scratch.file("marks"));
+        if (marks) {
+            of_marks << marks->row << ' ' << marks->on << ' ' << marks->off << '\n';
+        }
+        if (!watch.flush() || !out.flush() || !of_marks.flush()) {
+            throw glsum::Failure(glsum::Exit::check_failed, fmt::format("{}: cannot write", scratch.file("").string()));
         }
     }
-    const std::string value =
-        fmt::format("{},watch={},out={},timing={}", plugin.string(), scratch.file("watch").string(),
-                    scratch.file("log").string(), scratch.file("request").string());
+    std::string value = fmt::format("{},watch={},timing={},times={}", plugin.string(), scratch.file("watch").string(),
+                                    scratch.file("request").string(), scratch.file("log").string());
+    if (marks) {
+        value += fmt::format(",marks={}", scratch.file("marks").string());
+    }
     std::string failure;
     glsum::Exit status = glsum::Exit::good;
     try {
@@ -42,14 +49,16 @@ timing::TimingLog time_program(const Emulator& emulator, const std::filesystem::
         status = failed.status();
     }
     std::ifstream in(scratch.file("log"));
-    timing::TimingLog log;
+    std::vector<timing::TimingLog> logs;
     try {
-        log = timing::read_timing_log(in);
+        do {
+            logs.push_back(timing::read_timing_log(in));
+        } while (in.peek() != std::ifstream::traits_type::eof());
     } catch (const std::runtime_error& damaged) {
         throw glsum::Failure(status == glsum::Exit::good ? glsum::Exit::check_failed : status,
                              failure.empty() ? damaged.what() : failure);
     }
-    if (log.unfinished) {
+    if (logs.back().unfinished) {
         throw glsum::Failure(glsum::Exit::check_failed,
                              fmt::format("{}: a call of the timed function did not return{}", elf.string(),
                                          failure.empty() ? " before the program ended" : "; " + failure));
@@ -57,11 +66,11 @@ timing::TimingLog time_program(const Emulator& emulator, const std::filesystem::
     if (!failure.empty()) {
         throw glsum::Failure(status, failure);
     }
-    if (log.runs.empty()) {
+    if (std::any_of(logs.begin(), logs.end(), [](const timing::TimingLog& log) { return log.runs.empty(); })) {
         throw glsum::Failure(glsum::Exit::check_failed,
                              fmt::format("{}: the timed function was never called", elf.string()));
     }
-    return log;
+    return logs;
 }
 
 }  // namespace qemu

@@ -108,7 +108,7 @@ void remember(const Earlier& earlier, const Question& question, Instructions& in
     }
     const std::string here = fmt::format("counted at order {}", question.conditions.order);
     for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
-        if (key.aspect != "m7:count" || !row.contains("instructions_per_sample")) {
+        if (!key.aspect.starts_with("m7:") || !row.contains("instructions_per_sample")) {
             return;
         }
         // In software double the data decides, and with it the order at which the count was taken.

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 namespace bench::gate {
 namespace {
@@ -62,6 +65,29 @@ std::string text_of(const Json& context, const std::string& key) {
     return found->is_string() ? found->get<std::string>() : found->dump();
 }
 
+// "NAME sha256:HASH, ...": the cores that both runs modelled, as one of them has them. Where they share none, or a file
+// says it otherwise, the whole text.
+std::string shared_cores(const std::string& text, const std::string& other) {
+    const auto entries = [](const std::string& list) {
+        std::map<std::string, std::string> by_name;
+        for (std::size_t at = 0; at <= list.size();) {
+            const std::size_t end = std::min(list.find(", ", at), list.size());
+            const std::string entry = list.substr(at, end - at);
+            by_name[entry.substr(0, entry.find(' '))] = entry;
+            at = end + 2;
+        }
+        return by_name;
+    };
+    const auto others = entries(other);
+    std::string shared;
+    for (const auto& [name, entry] : entries(text)) {
+        if (others.contains(name)) {
+            shared += (shared.empty() ? "" : ", ") + entry;
+        }
+    }
+    return shared.empty() ? text : shared;
+}
+
 // The keys of a field in either context: itself, or for the core file all that begin with its name.
 std::vector<std::string> keys_of(const Field& field, const Json& baseline, const Json& current) {
     std::vector<std::string> keys{std::string(field.name)};
@@ -86,8 +112,12 @@ std::vector<Difference> differences(const Json& baseline, const Json& current, c
             continue;
         }
         for (const std::string& key : keys_of(field, baseline, current)) {
-            const std::string was = text_of(baseline, key);
-            const std::string is = text_of(current, key);
+            std::string was = text_of(baseline, key);
+            std::string is = text_of(current, key);
+            if (field.matters == Matters::to_model) {
+                // Of a core that only one run has there are no rows to compare.
+                std::tie(was, is) = std::pair(shared_cores(was, is), shared_cores(is, was));
+            }
             if (was != is) {
                 found.push_back({key, was, is, field.effect});
             }

@@ -1,13 +1,20 @@
-// QEMU glue: turns the emulator's callbacks into the blocks, or the stream, of stream.hpp. Nothing is decided here.
-// Options: watch=FILE (entry addresses, decimal, one a line), out=FILE (the call log), stream=on (tell every
-// instruction and access, as a timing model needs it; off, the default: tell blocks, and count accesses without a
-// call), timing=FILE (a timing request: the stream goes to the timing model, and the log is its own).
+// QEMU glue: turns the emulator's callbacks into the blocks and the stream of stream.hpp. Nothing is decided here.
+// Options:
+//   watch=FILE   entry addresses of the functions that are watched, decimal, one a line
+//   out=FILE     counts their calls; the call log goes there
+//   stream=on    the counter is told every instruction and access; off, the default: blocks, accesses being counted
+//                without a call
+//   timing=FILE  a timing request: the stream goes to the timing model too, and
+//   times=FILE   the timing logs go there
+//   marks=FILE   addresses of the program's marks (row, on, off), decimal: only what lies between on and off is timed
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,9 +22,9 @@
 #include <utility>
 
 #include "qemu/call_counter.hpp"
+#include "qemu/marked_timer.hpp"
 #include "qemu/plugin/api.h"
 #include "qemu/thumb.hpp"
-#include "qemu/timing/timing_log.hpp"
 
 int qemu_plugin_version = 1;
 
@@ -26,16 +33,25 @@ namespace {
 // The timing model at work, and its log.
 struct Timing {
     std::ofstream log;
-    timing::TimingLogWriter writer;
-    timing::CallTimer timer;
-    Timing(const std::set<std::uint32_t>& entries, const std::vector<timing::CoreFile>& cores, const std::string& path)
-        : log(path), writer(log), timer(entries, cores, [this](const timing::TimedCall& call) { writer.add(call); }) {}
+    qemu::MarkedTimer timer;
+    Timing(const std::set<std::uint32_t>& entries, std::vector<timing::CoreFile> cores,
+           std::optional<qemu::Marks> marks, const std::string& path)
+        : log(path), timer(entries, std::move(cores), marks, log) {}
+};
+
+struct Options {
+    std::set<std::uint32_t> entries;
+    std::string out_path;
+    std::string request_path;
+    std::string times_path;
+    std::optional<qemu::Marks> marks;
+    bool stream = false;
 };
 
 struct Session {
+    Options options;
     qemu::CallCounter counter;
-    std::unique_ptr<Timing> timing;  // or none: the counter counts
-    std::string out_path;
+    std::unique_ptr<Timing> timing;  // or none
     // One per address for the whole run: translations come and go.
     std::unordered_map<std::uint32_t, std::unique_ptr<qemu::Instruction>> instructions = {};
     // By first address and number of instructions: the emulator may cut the same code elsewhere when it is translated
@@ -86,26 +102,33 @@ void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, v
     session->counter.accesses(to_access(info, address));
 }
 void times(unsigned int, void* instruction) {
-    session->timing->timer.executes(*static_cast<qemu::Instruction*>(instruction));
+    qemu::MarkedTimer& timer = session->timing->timer;
+    if (timer.on()) {
+        timer.executes(*static_cast<qemu::Instruction*>(instruction));
+    }
 }
 void times_access(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
-    session->timing->timer.accesses(to_access(info, address));
+    qemu::MarkedTimer& timer = session->timing->timer;
+    if (timer.on()) {
+        timer.accesses(to_access(info, address));
+    }
+}
+void meets_mark(unsigned int, void* instruction) {
+    session->timing->timer.meets_mark(static_cast<qemu::Instruction*>(instruction)->address);
 }
 
 void executes_block(unsigned int, void* block) { session->counter.executes_block(*static_cast<qemu::Block*>(block)); }
 
-void translates_to_stream(qemu_plugin_id_t, qemu_plugin_tb* block) {
+void counts_by_stream(qemu_plugin_tb* block) {
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
         qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
-        const bool timing = session->timing != nullptr;
-        qemu_plugin_register_vcpu_insn_exec_cb(translated, timing ? times : executes, QEMU_PLUGIN_CB_NO_REGS,
+        qemu_plugin_register_vcpu_insn_exec_cb(translated, executes, QEMU_PLUGIN_CB_NO_REGS,
                                                instruction_at(translated));
-        qemu_plugin_register_vcpu_mem_cb(translated, timing ? times_access : accesses, QEMU_PLUGIN_CB_NO_REGS,
-                                         QEMU_PLUGIN_MEM_RW, nullptr);
+        qemu_plugin_register_vcpu_mem_cb(translated, accesses, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
     }
 }
 
-void translates_to_blocks(qemu_plugin_id_t, qemu_plugin_tb* block) {
+void counts_by_blocks(qemu_plugin_tb* block) {
     qemu::AccessTotals& totals = session->counter.totals();
     qemu_plugin_register_vcpu_tb_exec_cb(block, executes_block, QEMU_PLUGIN_CB_NO_REGS, block_at(block));
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
@@ -116,21 +139,82 @@ void translates_to_blocks(qemu_plugin_id_t, qemu_plugin_tb* block) {
     }
 }
 
+void times_stream(qemu_plugin_tb* block) {
+    for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
+        qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
+        qemu::Instruction* instruction = instruction_at(translated);
+        const bool mark = session->timing->timer.is_mark(instruction->address);
+        qemu_plugin_register_vcpu_insn_exec_cb(translated, mark ? meets_mark : times, QEMU_PLUGIN_CB_NO_REGS,
+                                               instruction);
+        qemu_plugin_register_vcpu_mem_cb(translated, times_access, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
+    }
+}
+
+void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
+    if (!session->options.out_path.empty()) {
+        session->options.stream ? counts_by_stream(block) : counts_by_blocks(block);
+    }
+    if (session->timing) {
+        times_stream(block);
+    }
+}
+
 void ends(qemu_plugin_id_t, void*) {
     if (session->timing) {
         Timing& timing = *session->timing;
         timing.timer.finish();
-        timing.writer.finish(timing.timer);
         if (!timing.log.flush()) {
-            std::fprintf(stderr, "plugin: cannot write %s\n", session->out_path.c_str());
+            std::fprintf(stderr, "plugin: cannot write %s\n", session->options.times_path.c_str());
         }
-        return;
     }
-    std::ofstream out(session->out_path);
-    session->counter.write(out);
-    if (!out.flush()) {
-        std::fprintf(stderr, "plugin: cannot write %s\n", session->out_path.c_str());
+    if (!session->options.out_path.empty()) {
+        std::ofstream out(session->options.out_path);
+        session->counter.write(out);
+        if (!out.flush()) {
+            std::fprintf(stderr, "plugin: cannot write %s\n", session->options.out_path.c_str());
+        }
     }
+}
+
+// \return whether the options are whole.
+bool read_options(int argc, char** argv, Options& options) {
+    for (int i = 0; i < argc; ++i) {
+        const std::string_view argument = argv[i];
+        const std::string value(argument.substr(std::min(argument.find('=') + 1, argument.size())));
+        if (argument.starts_with("watch=")) {
+            std::ifstream watch(value);
+            for (std::uint32_t entry = 0; watch >> entry;) {
+                options.entries.insert(entry);
+            }
+        } else if (argument.starts_with("out=")) {
+            options.out_path = value;
+        } else if (argument.starts_with("timing=")) {
+            options.request_path = value;
+        } else if (argument.starts_with("times=")) {
+            options.times_path = value;
+        } else if (argument.starts_with("marks=")) {
+            std::ifstream file(value);
+            qemu::Marks marks{};
+            if (!(file >> marks.row >> marks.on >> marks.off)) {
+                std::fprintf(stderr, "plugin: %s: expected three addresses\n", value.c_str());
+                return false;
+            }
+            options.marks = marks;
+        } else if (argument == "stream=on" || argument == "stream=off") {
+            options.stream = argument == "stream=on";
+        } else {
+            std::fprintf(stderr, "plugin: expected watch=, out=, stream=, timing=, times= or marks=, found %s\n",
+                         argv[i]);
+            return false;
+        }
+    }
+    if (options.entries.empty() || (options.out_path.empty() && options.times_path.empty()) ||
+        options.times_path.empty() != options.request_path.empty()) {
+        std::fprintf(stderr,
+                     "plugin: expected watch=FILE with at least one address, and out=FILE, timing= and times=, or all\n");
+        return false;
+    }
+    return true;
 }
 
 }  // namespace
@@ -140,45 +224,24 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
         std::fprintf(stderr, "plugin: expected the target arm, found %s\n", info->target_name);
         return 1;
     }
-    std::set<std::uint32_t> entries;
-    std::string out_path;
-    std::string request_path;
-    bool stream = false;
-    for (int i = 0; i < argc; ++i) {
-        const std::string_view argument = argv[i];
-        if (argument.starts_with("watch=")) {
-            std::ifstream watch{std::string(argument.substr(6))};
-            for (std::uint32_t entry = 0; watch >> entry;) {
-                entries.insert(entry);
-            }
-        } else if (argument.starts_with("out=")) {
-            out_path = argument.substr(4);
-        } else if (argument.starts_with("timing=")) {
-            request_path = argument.substr(7);
-            stream = true;
-        } else if (argument == "stream=on" || argument == "stream=off") {
-            stream = argument == "stream=on";
-        } else {
-            std::fprintf(stderr, "plugin: expected watch=FILE, out=FILE, timing=FILE or stream=on, found %s\n", argv[i]);
-            return 1;
-        }
-    }
-    if (entries.empty() || out_path.empty()) {
-        std::fprintf(stderr, "plugin: expected watch=FILE with at least one address, and out=FILE\n");
+    Options options;
+    if (!read_options(argc, argv, options)) {
         return 1;
     }
     std::unique_ptr<Timing> timing;
-    if (!request_path.empty()) {
+    if (!options.request_path.empty()) {
         try {
-            std::ifstream request(request_path);
-            timing = std::make_unique<Timing>(entries, timing::cores_of(timing::read_timing_request(request)), out_path);
+            std::ifstream request(options.request_path);
+            timing = std::make_unique<Timing>(options.entries, timing::cores_of(timing::read_timing_request(request)),
+                                              options.marks, options.times_path);
         } catch (const std::exception& error) {
             std::fprintf(stderr, "plugin: %s\n", error.what());
             return 1;
         }
     }
-    session = new Session{qemu::CallCounter(std::move(entries)), std::move(timing), std::move(out_path)};
-    qemu_plugin_register_vcpu_tb_trans_cb(id, stream ? translates_to_stream : translates_to_blocks);
+    qemu::CallCounter counter(options.entries);
+    session = new Session{std::move(options), std::move(counter), std::move(timing)};
+    qemu_plugin_register_vcpu_tb_trans_cb(id, translates);
     qemu_plugin_register_atexit_cb(id, ends, nullptr);
     return 0;
 }

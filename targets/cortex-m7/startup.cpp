@@ -19,6 +19,7 @@ extern Initialiser link_init_end[];
     auto* const cpacr = reinterpret_cast<volatile std::uint32_t*>(0xE000ED88U);
     *cpacr = *cpacr | (0xFU << 20);
     asm volatile("dsb\n isb" ::: "memory");
+    port::start();
     const std::uint32_t* source = link_data_source;
     for (std::uint32_t* word = link_data_begin; word < link_data_end;) {
         *word++ = *source++;

@@ -5,8 +5,13 @@
 // First the instrument's own check, `check <loop> <turns>` for loops of known counts (check_loops.S). Then, for each
 // row of the plan, `calls` calls from a cleared past and one more on a painted stack:
 //   row <n> <status> <hash of the outputs> <bytes of stack> <bytes of state> <bytes of coefficients>
+// Marks (marks.S) tell the timing model where a row begins and which of its calls it is to time.
 #include "cortex-m7/stack.hpp"
+#include "glsum/computes_in_double.hpp"
+#include "marks.hpp"
 #include "program.hpp"
+#include "timed_calls.hpp"
+#include "watched.hpp"
 
 extern "C" {
 void glsum_check_steps(std::uint32_t turns, std::uint32_t* word);
@@ -20,28 +25,6 @@ void glsum_check_nested(std::uint32_t turns, std::uint32_t* word);
 
 namespace {
 
-// One after the other in memory, as an array would be: rows of { name, its length, entry }. An array would need casts
-// of the entries, which no constant may hold, and the table must be there without running anything.
-template <class K, class... Rest>
-struct WatchTable {
-    const char* name = K::name().data();
-    std::uint32_t name_length = K::name().size();
-    typename K::Output (*entry)(typename K::State&, typename K::Sample) = &K::step;
-    WatchTable<Rest...> rest;
-};
-template <class K>
-struct WatchTable<K> {
-    const char* name = K::name().data();
-    std::uint32_t name_length = K::name().size();
-    typename K::Output (*entry)(typename K::State&, typename K::Sample) = &K::step;
-};
-template <class... Ks>
-constexpr WatchTable<Ks...> make_watch_table(glsum::KernelList<Ks...>) {
-    return {};
-}
-using Watched = decltype(make_watch_table(glsum::Registry{}));
-static_assert(sizeof(Watched) == 12 * glsum::Registry::count);
-
 using Check = void (*)(std::uint32_t, std::uint32_t*);
 struct NamedCheck {
     const char* name;
@@ -53,18 +36,35 @@ constexpr NamedCheck checks[] = {
     {"nested", glsum_check_nested},
 };
 
+// Marks the calls to time.
+class Marker {
+public:
+    explicit Marker(firmware::TimedCalls timed) : timed_(timed) {}
+    ~Marker() { switch_to(false); }
+    Marker(const Marker&) = delete;
+    Marker& operator=(const Marker&) = delete;
+    void before(std::size_t call) {
+        if (call == 0) {
+            glsum_mark_row();
+        }
+        switch_to(timed_.contains(call));
+    }
+
+private:
+    void switch_to(bool on) {
+        if (on != on_) {
+            (on ? glsum_mark_on : glsum_mark_off)();
+            on_ = on;
+        }
+    }
+    firmware::TimedCalls timed_;
+    bool on_ = false;
+};
+
 }  // namespace
 
-// The kernels' names and entries, for the host to read from the ELF.
-extern "C" {
-extern const Watched glsum_watched;
-extern const std::uint32_t glsum_watched_count;
-constinit const Watched glsum_watched = make_watch_table(glsum::Registry{});
-const std::uint32_t glsum_watched_count = glsum::Registry::count;
-}
-
 int firmware_main() {
-    asm volatile("" ::"r"(&glsum_watched), "r"(&glsum_watched_count));  // or the linker would drop them
+    firmware::keep_watch_table();
     std::uint32_t words[4] = {};
     for (const NamedCheck& check : checks) {
         for (const std::uint32_t turns : {1U, 10U, 1000U}) {
@@ -76,8 +76,12 @@ int firmware_main() {
         []<class K>(const firmware::PlanRow& row, firmware::Signal signal, firmware::Answer& answer) {
             typename K::State state;
             firmware::OutputHash hash;
-            if (!firmware::run_row<K>(row, signal, answer, state, hash)) {
-                return;
+            {
+                Marker marker({row.taps, glsum::computes_in_double<K>()});
+                if (!firmware::run_row<K>(row, signal, answer, state, hash,
+                                          [&](std::size_t call) { marker.before(call); })) {
+                    return;
+                }
             }
             const auto last = K::from_real(signal.at(row.calls));
             typename K::Output output;

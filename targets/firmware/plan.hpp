@@ -51,10 +51,10 @@ inline bool take_row(std::string_view& plan, PlanRow& row) {
     return whole;
 }
 
-/// One line of the answer: words with a space before each, then the line's end.
+/// One line of the answer: words with a separator before each number, then the line's end.
 class Answer {
 public:
-    explicit Answer(std::string_view first) { add(first); }
+    explicit Answer(std::string_view first, char separator = ' ') : separator_{separator} { add(first); }
     Answer& add(std::string_view word) {
         for (const char letter : word) {
             if (size_ < sizeof text_ - 1) {
@@ -66,7 +66,7 @@ public:
     Answer& number(std::uint64_t value, int base = 10) {
         char digits[24];
         const auto end = std::to_chars(digits, digits + sizeof digits, value, base);
-        return add(" ").add({digits, static_cast<std::size_t>(end.ptr - digits)});
+        return add({&separator_, 1}).add({digits, static_cast<std::size_t>(end.ptr - digits)});
     }
     void write() {
         text_[size_++] = '\n';
@@ -74,6 +74,7 @@ public:
     }
 
 private:
+    char separator_;
     char text_[256];
     std::size_t size_ = 0;
 };

@@ -3,31 +3,14 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
+#include "buffers.hpp"
 #include "glsum/registry.hpp"
 #include "output_hash.hpp"
 #include "plan.hpp"
 #include "port.hpp"
 
 namespace firmware {
-
-/// The buffers of the one kernel that is at work: room for 8192 taps of every kernel.
-template <class K>
-struct Buffers {
-    std::span<typename K::Coefficient> table;
-    std::span<typename K::Sample> past;
-};
-inline constexpr std::size_t buffer_bytes = 8192 * 2 * sizeof(double);
-alignas(64) inline std::byte table_bytes[buffer_bytes];
-alignas(64) inline std::byte past_bytes[buffer_bytes];
-template <class K>
-Buffers<K> buffers() {
-    using Coefficient = typename K::Coefficient;
-    using Sample = typename K::Sample;
-    return {{reinterpret_cast<Coefficient*>(table_bytes), buffer_bytes / sizeof(Coefficient)},
-            {reinterpret_cast<Sample*>(past_bytes), buffer_bytes / sizeof(Sample)}};
-}
 
 /// A record of the plan's signals, repeated without end.
 struct Signal {
@@ -37,16 +20,18 @@ struct Signal {
 };
 
 /// Prepares the row's kernel, adds the status to the answer and makes the row's calls from a cleared past, all outputs
-/// into the hash. \return false when `prepare` refused.
-template <class K>
-bool run_row(const PlanRow& row, Signal signal, Answer& answer, typename K::State& state, OutputHash& hash) {
-    const auto memory = buffers<K>();
+/// into the hash. \param before  called with the number of each call before it \return false when `prepare` refused.
+template <class K, class Before>
+bool run_row(const PlanRow& row, Signal signal, Answer& answer, typename K::State& state, OutputHash& hash,
+             Before before) {
+    const auto memory = buffers<K, 8192>();
     const glsum::Status status = K::prepare(state, {row.order, row.taps}, memory.table, memory.past);
     answer.number(static_cast<unsigned>(status));
     if (status != glsum::Status::ok) {
         return false;
     }
     for (std::size_t k = 0; k < row.calls; ++k) {
+        before(k);
         hash.add(K::step(state, K::from_real(signal.at(k))));
     }
     return true;

@@ -1,7 +1,10 @@
 // selftest: are the kernels right on this machine? For every kernel, exact cases that need no reference:
 // the differences x_k - x_(k-1) (order 1) and x_k - 2 x_(k-1) + x_(k-2) (order 2) of samples that are multiples of 1/8
 // are exact in every format, over several turns of every history. Exit status 0, or 1 with a line for each failure.
-#include "program.hpp"
+#include "buffers.hpp"
+#include "glsum/registry.hpp"
+#include "plan.hpp"
+#include "port.hpp"
 
 namespace {
 
@@ -9,7 +12,7 @@ double sample(std::size_t k) { return (static_cast<double>((k * k * 5 + 3 * k) %
 
 template <class K>
 bool differences_are_exact(double order, std::size_t taps) {
-    const auto buffers = firmware::buffers<K>();
+    const auto buffers = firmware::buffers<K, 64>();
     typename K::State state;
     if (K::prepare(state, {order, taps}, buffers.table, buffers.past) != glsum::Status::ok) {
         return false;

@@ -308,6 +308,20 @@ TEST(Gate, OtherConditionsAreNotComparable) {
     EXPECT_EQ(judge(run(), current, rules()).headline(), "compiler: GNU 12.2.0 in the baseline, (absent) now");
 }
 
+TEST(Gate, OfCoresThatOnlyOneRunModelledTheFileDoesNotMatter) {
+    Results baseline = run();
+    Results current = run();
+    baseline.context["core_file"] = "f746 sha256:1, h747 sha256:2";
+    current.context["core_file"] = "m7-ideal sha256:3, f746 sha256:1";
+    EXPECT_EQ(judge(baseline, current, rules()).status, Exit::good);
+    current.context["core_file"] = "m7-ideal sha256:3, f746 sha256:9";
+    const Verdict verdict = judge(baseline, current, rules());
+    EXPECT_EQ(verdict.status, Exit::not_comparable);
+    EXPECT_EQ(verdict.headline(), "core_file: f746 sha256:1 in the baseline, f746 sha256:9 now");
+    current.context["core_file"] = "none";
+    EXPECT_EQ(judge(baseline, current, rules()).status, Exit::not_comparable);
+}
+
 TEST(Gate, ConditionsOfRowsThatAreNotThereDoNotMatter) {
     const auto without_target = [](Results results) {
         drop(results, [](const std::string& name) { return name.find("/m7:") != std::string::npos; });

@@ -18,7 +18,7 @@ rows() { sed 's|^\([^,]*/host\),.*|\1|' "$1"; }
 bench "$folder/whole.json"
 [ "$failures" -eq 0 ] || exit 1
 rows "$folder/whole.csv" >"$folder/whole.rows"
-for aspect in /accuracy/ /amplitude: /m7:count /host peer_std; do
+for aspect in /accuracy/ /amplitude: /m7:count /m7:stm32f746-itcm /host peer_std; do
     grep -q "$aspect" "$folder/whole.rows" || fail "expected rows of $aspect"
 done
 for count in 1 2 3 7; do

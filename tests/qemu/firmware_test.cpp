@@ -124,6 +124,60 @@ TEST_F(FirmwareTest, BlocksAndTheWholeStreamGiveTheSameCounts) {
     }
 }
 
+// Cores side by side cost one emulation, and change nothing: neither what is counted nor each other's cycles; nor do
+// the rows before.
+TEST_F(FirmwareTest, ModelledCyclesDoNotDependOnWhatElseRuns) {
+    std::vector<qemu::PlannedRow> plan;
+    for (const char* kernel : {"shift_plain_f32", "ring_plain_q31", "mirror_smlald_q15", "ring_horner_f64"}) {
+        for (const std::size_t taps : {1U, 20U, 100U}) {
+            plan.push_back({kernel, 0.5, taps, 5, qemu::calls_to_measure(taps)});
+        }
+    }
+    const auto request_of = [](const std::vector<std::string>& cores) {
+        timing::TimingRequest request;
+        request.cores_folder = TEST_CORES;
+        for (const std::string& core : cores) {
+            request.cores.push_back({core, "", ""});
+        }
+        return request;
+    };
+    const auto measure = [&](const std::vector<qemu::PlannedRow>& rows, const std::vector<std::string>& cores) {
+        return qemu::measure(
+            board_, rows, signals_, [] {}, qemu::Counting::blocks, request_of(cores));
+    };
+    const std::vector<std::string> cores{"stm32f746-itcm", "m7-ideal", "stm32f746-flash-nocache"};
+    const auto counted = measure(plan, {});
+    const auto rows = measure(plan, cores);
+    const auto backward = measure({plan.rbegin(), plan.rend()}, {"stm32f746-flash-nocache"});
+    for (std::size_t i = 0; i < plan.size(); ++i) {
+        const std::string what = plan[i].kernel + " " + std::to_string(plan[i].taps);
+        const qemu::MeasuredRow& row = rows[i];
+        ASSERT_EQ(row.cores.size(), 3U);
+        qemu::MeasuredRow without = row;
+        without.cores.clear();
+        EXPECT_EQ(without, counted[i]) << what;
+        ASSERT_EQ(backward[plan.size() - 1 - i].cores.size(), 1U);
+        EXPECT_EQ(backward[plan.size() - 1 - i].cores[0], row.cores[2]) << what;
+        if (plan[i].kernel != "ring_horner_f64") {  // of which fewer calls are timed
+            EXPECT_EQ(row.cores[1].cycles, row.instructions / 2) << what;
+        }
+        EXPECT_EQ(row.cores[1].first_cycles, static_cast<double>(row.first.instructions) / 2) << what;
+        for (const qemu::ModelledCall& core : row.cores) {
+            double lost = 0;
+            for (const double share : core.lost) {
+                EXPECT_GE(share, 0.0) << what;
+                lost += share;
+            }
+            EXPECT_NEAR(core.cycles, row.cores[1].cycles + lost, 1e-9) << what;
+            EXPECT_LE(core.low, core.cycles) << what;
+            EXPECT_GE(core.high, core.cycles) << what;
+            EXPECT_GE(core.worst_cycles, core.cycles) << what;
+        }
+        // Cold, each line of 32 bytes comes from flash with 7 wait states.
+        EXPECT_GT(row.cores[2].cycles, row.cores[0].cycles) << what;
+    }
+}
+
 // What one count for all orders and signals rests on.
 TEST_F(FirmwareTest, CountsFollowFromThePathAloneButInSoftwareDouble) {
     std::vector<qemu::PlannedRow> plan;

@@ -1,0 +1,51 @@
+#include "qemu/marked_timer.hpp"
+
+#include <ostream>
+#include <utility>
+
+namespace qemu {
+
+MarkedTimer::Part::Part(const std::set<std::uint32_t>& entries, const std::vector<timing::CoreFile>& cores,
+                        std::ostream& log)
+    : writer(log), timer(entries, cores, [this](const timing::TimedCall& call) { writer.add(call); }) {}
+
+MarkedTimer::MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores,
+                         std::optional<Marks> marks, std::ostream& log)
+    : entries_(std::move(entries)), cores_(std::move(cores)), marks_(marks), log_(log), on_(!marks) {
+    if (on_) {
+        begin_part();
+    }
+}
+
+bool MarkedTimer::is_mark(std::uint32_t address) const {
+    return marks_ && (address == marks_->row || address == marks_->on || address == marks_->off);
+}
+
+void MarkedTimer::meets_mark(std::uint32_t address) {
+    if (address == marks_->row) {
+        finish();
+        begin_part();
+    } else if (address == marks_->on) {
+        on_ = part_ != nullptr;
+    } else if (on_) {
+        // What has been executed is known, what comes next is not: the model shall not take a jump for a branch.
+        part_->timer.finish();
+        on_ = false;
+    }
+}
+
+void MarkedTimer::executes(const Instruction& instruction) { part_->timer.executes(instruction); }
+void MarkedTimer::accesses(const Access& access) { part_->timer.accesses(access); }
+
+void MarkedTimer::finish() {
+    if (part_) {
+        part_->timer.finish();
+        part_->writer.finish(part_->timer);
+        part_.reset();
+    }
+    on_ = false;
+}
+
+void MarkedTimer::begin_part() { part_ = std::make_unique<Part>(entries_, cores_, log_); }
+
+}  // namespace qemu

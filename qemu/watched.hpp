@@ -1,0 +1,22 @@
+// What a firmware program offers to the instruments, read from its ELF.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+
+#include "qemu/elf.hpp"
+#include "qemu/marked_timer.hpp"
+
+namespace qemu {
+
+/// Address of a symbol that the program must have. \throws glsum::Failure (bad input) when it has not.
+[[nodiscard]] std::uint32_t address_of(const Elf& elf, const std::string& symbol);
+
+/// Entries of the registered kernels by name, as targets/firmware/watched.hpp lays them out.
+[[nodiscard]] std::map<std::string, std::uint32_t> watched_kernels(const Elf& elf);
+
+/// targets/firmware/marks.hpp
+[[nodiscard]] Marks marks_of(const Elf& elf);
+
+}  // namespace qemu

@@ -1,0 +1,51 @@
+// Which of the calls that `measure` makes of a kernel the timing model sees: it is slow, and most calls are alike. The
+// firmware marks them, the host reads their cycles in the same order.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+namespace firmware {
+
+/// Call 0 is the first, with cold caches and an untrained predictor. The next `taps` fill the past; of them only the
+/// last few are timed, so that caches and predictor have settled. Then comes a whole turn of a ring: the steady calls,
+/// and of a long turn some more, up to and over its wrap.
+struct TimedCalls {
+    std::size_t taps;
+    bool software_double;  ///< such a call takes some 40 times the instructions: fewer of them are timed
+
+    static constexpr std::size_t whole_turn = 64;  ///< a turn that is no longer is timed whole
+    static constexpr std::size_t groups = 4;       ///< of a longer one, so many groups of so many calls
+    static constexpr std::size_t group = 4;
+
+    /// How many calls let caches and predictor settle before the steady ones.
+    [[nodiscard]] constexpr std::size_t settling() const { return software_double ? 1 : 3; }
+    /// How many calls the steady figure is the mean of.
+    [[nodiscard]] constexpr std::size_t steady() const { return software_double ? 4 : 32; }
+    [[nodiscard]] constexpr bool is_steady(std::size_t call) const { return call > taps && call <= taps + steady(); }
+    /// Whether the past was full before this call.
+    [[nodiscard]] constexpr bool is_full(std::size_t call) const { return call > taps; }
+
+    [[nodiscard]] constexpr bool contains(std::size_t call) const {
+        if (call == 0 || is_steady(call)) {
+            return true;
+        }
+        if (!is_full(call)) {
+            return call + settling() > taps;
+        }
+        const std::size_t turn = std::max<std::size_t>(taps, 32);
+        const std::size_t behind = call - taps;  // 1 to turn
+        if (software_double) {
+            return behind == turn;
+        }
+        for (std::size_t g = 1; g <= groups; ++g) {
+            const std::size_t end = turn * g / groups;
+            if (behind <= end && behind + group > end) {
+                return true;
+            }
+        }
+        return turn <= whole_turn;
+    }
+};
+
+}  // namespace firmware

@@ -1,0 +1,250 @@
+#!/bin/sh
+# time: programs of one's own, compiled here for the emulated board, timed to the letter of the answer's form.
+# Arguments: the glsum program; the project's folder; the build folder of the emulated board's firmware.
+set -u
+program=$1 source=$2 firmware=$3
+. "$(dirname "$0")/expect.sh"
+need() {
+    command -v "$1" >/dev/null 2>&1 && return
+    echo "no $1"
+    [ -n "${GLSUM_REQUIRE_FIRMWARE:-}" ] && exit 1
+    exit 77
+}
+need arm-none-eabi-gcc
+need qemu-system-arm
+fail() { echo "$*"; failures=$((failures + 1)); }
+
+# A start-up file and a linker script as a user has them, and functions of every kind of ending.
+cat >"$folder/map.ld" <<'LD'
+MEMORY { CODE (rx) : ORIGIN = 0, LENGTH = 4M  DATA (rwx) : ORIGIN = 0x20000000, LENGTH = 4M }
+SECTIONS {
+    .text : { KEEP(*(.vectors)) *(.text*) *(.rodata*) } > CODE
+    .data : { *(.data*) } > DATA AT > CODE
+    .bss (NOLOAD) : { *(.bss*) *(COMMON) } > DATA
+    stack_top = ORIGIN(DATA) + LENGTH(DATA);
+}
+LD
+cat >"$folder/start.c" <<'C'
+extern char stack_top[];
+int main(void);
+static void leave(int status) {
+    unsigned arguments[2] = {0x20026, (unsigned)status};
+    register unsigned r0 __asm__("r0") = 0x20;
+    register void *r1 __asm__("r1") = arguments;
+    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+    for (;;) {}
+}
+void reset(void) {
+    *(volatile unsigned *)0xE000ED88 |= 0xFu << 20; /* FPU on */
+    leave(main());
+}
+void fault(void) { leave(70); }
+extern void tick(void) __attribute__((weak, alias("fault")));
+__attribute__((section(".vectors"), used)) void *const vectors[16] = {
+    stack_top, (void *)reset, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault,
+    (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)tick};
+C
+cat >"$folder/main.c" <<'C'
+#define KEEP __attribute__((noinline, noclone))
+volatile int sink;
+static float a[64], b[64];
+KEEP int leaf(int x) { __asm__ volatile("" : "+r"(x)); return x + 1; }
+KEEP int caller(int x) { return leaf(x) + leaf(x + 1); }
+KEEP int tail(int x) { __asm__ volatile("nop"); return leaf(x * 3); } /* ends in a jump to leaf */
+KEEP int fib(int n) { __asm__ volatile("" : "+r"(n)); return n < 2 ? n : fib(n - 1) + fib(n - 2); }
+KEEP float dot(const float *x, const float *y, int n) {
+    float sum = 0;
+    for (int i = 0; i < n; i++) sum += x[i] * y[i];
+    return sum;
+}
+KEEP int uneven(int n) { int s = 0; for (int i = 0; i < n; i++) { s += i; __asm__ volatile("" : "+r"(s)); } return s; }
+static inline __attribute__((always_inline)) int gone(int x) { return x ^ 5; }
+KEEP void never(void) { for (;;) sink++; }
+KEEP void uncalled(void) { sink = 7; }
+void (*volatile keep)(void) = uncalled;
+int main(int argc, char **argv) {
+    (void)argv;
+    for (int i = 0; i < 3; i++) sink = caller(i);
+    sink = tail(4);
+    sink = fib(6);
+    sink = (int)dot(a, b, 64);
+    for (int i = 1; i <= 4; i++) sink = uneven(10 * i);
+    sink = gone(sink);
+    for (int i = 0; i < MANY; i++) sink = leaf(i);
+#ifdef HANG
+    never();
+#endif
+    return STATUS;
+}
+C
+core="-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"
+build() {  # OUT OPTION...
+    out=$1
+    shift
+    arm-none-eabi-gcc $core -O2 -g0 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/map.ld" "$folder/start.c" \
+        "$@" -o "$folder/$out" 2>"$folder/said" || { cat "$folder/said"; exit 1; }
+}
+build own.elf "$folder/main.c"
+
+# What a word of the JSON is: field FILE PATH, by the compiler of JSON that every Debian with the build has: none. The form
+# is fixed, one value a line, so that lines can be held against it.
+has() { grep -qsF -e "$2" "$1" || fail "$(basename "$1"): expected $2; found: $(head -n 40 "$1" 2>&1 | tr -d '\n' | cut -c 1-600)"; }
+timed() {  # NAME OPTION...: into $folder/NAME.json
+    name=$1
+    shift
+    expect 0 "$name on " time --elf "$folder/own.elf" --function "$name" --json "$folder/$name.json" "$@"
+}
+
+# Callees count; three calls.
+timed caller
+for field in '"schema": "glsum-time-1"' '"elf_sha256": "'"$(sha256sum "$folder/own.elf" | cut -c 1-64)" '"function": "caller"' \
+    '"core": "stm32f746-itcm"' '"code": "itcm"' '"data": "dtcm"' '"calls": 3' '"instructions"' '"min"' '"median"' '"max"' \
+    '"model_cycles"' '"low"' '"high"' '"stalls"' '"branch_mispredict"' '"hot"' '"address": "0x' '"symbol": "leaf"' \
+    '"disassembly": "' '"cycles"' '"unknown_encodings": []'; do
+    has "$folder/caller.json" "$field"
+done
+# 2 calls of leaf (adds, bx) and what objdump says caller has.
+own=$(arm-none-eabi-objdump -d --disassemble=caller "$folder/own.elf" | grep -c '^ *[0-9a-f]*:')
+has "$folder/caller.json" "\"median\": $((own + 4)),"
+leaf=$(arm-none-eabi-objdump -d --no-show-raw-insn --disassemble=leaf "$folder/own.elf" | sed -n 's/^ *[0-9a-f]*:\t//p' | tr '\t' ' ' | head -n 1)
+has "$folder/caller.json" "\"disassembly\": \"$leaf\""
+
+# A tail call ends where control returns to the caller: tail's own instructions and leaf's two.
+timed tail
+own=$(arm-none-eabi-objdump -d --disassemble=tail "$folder/own.elf" | grep -c '^ *[0-9a-f]*:')
+has "$folder/tail.json" "\"median\": $((own + 2)),"
+has "$folder/tail.json" '"calls": 1,'
+
+# Recursion: the outer call alone, the inner ones in it, and it says so.
+timed fib
+has "$folder/fib.json" '"calls": 1,'
+grep -q 'calls itself' "$folder/said" || fail "fib: expected to be told of the recursion"
+
+# Calls of unequal length: min, median, max differ.
+timed uneven
+tr -d ' \n' <"$folder/uneven.json" | grep -qE '"calls":4,"instructions":\{"min":([0-9]+),"median":([0-9]+),"max":([0-9]+)\}' ||
+    fail "uneven: expected 4 calls; found $(tr -d ' \n' <"$folder/uneven.json" | cut -c 1-300)"
+
+# Placement: slower memories, more cycles; fetches from flash without a cache wait.
+median_of() { tr -d ' \n' <"$1" | sed 's/.*"model_cycles":{"min":[0-9.]*,"median":\([0-9.]*\).*/\1/'; }
+timed dot --place code=itcm --place data=dtcm
+fast=$(median_of "$folder/dot.json")
+timed dot --core stm32f746-flash-nocache
+slow=$(median_of "$folder/dot.json")
+has "$folder/dot.json" '"code": "flash"'
+timed dot --place code=axi --place data=axi
+has "$folder/dot.json" '"code": "axi"'
+has "$folder/dot.json" '"data": "axi"'
+[ "$(printf '%s\n%s\n' "$fast" "$slow" | sort -g | head -n 1)" = "$fast" ] && [ "$fast" != "$slow" ] ||
+    fail "dot: expected fewer cycles in ITCM ($fast) than in flash without caches ($slow)"
+timed dot --without fpu_latency
+expect 0 "m7-ideal" time --elf "$folder/own.elf" --function dot --core m7-ideal
+
+# Wrong use, each with one clear error.
+expect 2 "no function nowhere" time --elf "$folder/own.elf" --function nowhere
+expect 2 "inlined" time --elf "$folder/own.elf" --function gone
+expect 1 "never called" time --elf "$folder/own.elf" --function uncalled
+expect 2 "--place" time --elf "$folder/own.elf" --function dot --place stack=dtcm
+expect 2 "code" time --elf "$folder/own.elf" --function dot --place code=sram
+expect 2 "no such effect" time --elf "$folder/own.elf" --function dot --without magic
+expect 2 "no such core" time --elf "$folder/own.elf" --function dot --core no-such-core
+expect 2 "$folder/none.elf" time --elf "$folder/none.elf" --function dot
+expect 2 "$folder/start.c" time --elf "$folder/start.c" --function dot
+expect 2 "found" time --elf /bin/true --function main
+build status.elf -UMANY -DMANY=1 -USTATUS -DSTATUS=5 "$folder/main.c"
+expect 1 "5" time --elf "$folder/status.elf" --function dot
+
+# A function that does not return, in a program that never ends: told within the limit, not waited for.
+build hang.elf -DHANG "$folder/main.c"
+expect 1 "did not return" time --elf "$folder/hang.elf" --function never --timeout 2
+
+# Programs for other cores. The M0's code runs on an M7.
+other() {  # STATUS TEXT FLAG...
+    status=$1 text=$2
+    shift 2
+    echo 'int leaf(int x) { return x + 1; } void _start(void) { leaf(1); }' >"$folder/other.c"
+    arm-none-eabi-gcc "$@" -O1 -ffreestanding -nostdlib -Wl,-Ttext=0 "$folder/other.c" -o "$folder/other.elf" 2>/dev/null || return
+    expect "$status" "$text" time --elf "$folder/other.elf" --function leaf
+}
+other 2 "ARMv8-M mainline" -mcpu=cortex-m33 -mthumb
+other 2 "profile A" -mcpu=cortex-a9
+sed 's/sum += x\[i\] \* y\[i\]/sum += 2/' "$folder/main.c" >"$folder/m0.c"
+arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -O2 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/map.ld" \
+    "$folder/start.c" "$folder/m0.c" -o "$folder/m0.elf" -lgcc 2>"$folder/said" || cat "$folder/said"
+expect 0 "1 calls" time --elf "$folder/m0.elf" --function tail
+
+# Called 100 000 times.
+build many.elf -UMANY -DMANY=100000 "$folder/main.c"
+expect 0 "100007 calls" time --elf "$folder/many.elf" --function leaf
+
+# Assembly without sizes or attributes of C; a call through a register; a function that interrupts the caller's block.
+cat >"$folder/hand.S" <<'S'
+    .syntax unified
+    .cpu cortex-m7
+    .thumb
+    .section .vectors, "a"
+    .word 0x20010000, start + 1, 0, 0
+    .text
+    .thumb_func
+start:
+    ldr r4, =work + 1
+    movs r5, #3
+1:  blx r4
+    subs r5, r5, #1
+    bne 1b
+    movs r0, #0x20
+    ldr r1, =leave
+    bkpt 0xab
+    .thumb_func
+    .global work
+    .type work, %function
+work:
+    movs r0, #10
+2:  subs r0, r0, #1
+    it ne
+    addne r1, r1, #1
+    bne 2b
+    bx lr
+    .align 2
+leave:
+    .word 0x20026, 0
+S
+arm-none-eabi-gcc $core -nostdlib -T "$folder/map.ld" "$folder/hand.S" -o "$folder/hand.elf" 2>"$folder/said" || cat "$folder/said"
+expect 0 "3 calls" time --elf "$folder/hand.elf" --function work --json "$folder/hand.json"
+has "$folder/hand.json" '"median": 42,'
+
+# A function that an interrupt calls while the main program runs.
+cat >"$folder/interrupt.c" <<'C'
+#define KEEP __attribute__((noinline, noclone))
+volatile int ticks, sink;
+KEEP int handled(int x) { __asm__ volatile("" : "+r"(x)); return x + 3; }
+void tick(void) { ticks = handled(ticks) - 2; }
+KEEP int wait_for(int n) { while (ticks < n) sink++; return sink; }
+int main(void) {
+    *(volatile unsigned *)0xE000E014 = 500;
+    *(volatile unsigned *)0xE000E018 = 0;
+    *(volatile unsigned *)0xE000E010 = 7;
+    wait_for(5);
+    *(volatile unsigned *)0xE000E010 = 0;
+    return 0;
+}
+C
+build interrupt.elf "$folder/interrupt.c"
+expect 0 "handled on " time --elf "$folder/interrupt.elf" --function handled --json "$folder/handled.json"
+has "$folder/handled.json" '"median": 2,'
+expect 0 "wait_for on " time --elf "$folder/interrupt.elf" --function wait_for --json "$folder/wait.json"
+has "$folder/wait.json" '"calls": 1,'
+
+# The README's example.
+if [ -e "$firmware/targets/biquad.elf" ]; then
+    expect 0 "1000 calls" time --elf "$firmware/targets/biquad.elf" --function biquad_step
+    expect 0 "1 calls" time --elf "$firmware/targets/biquad.elf" --function firmware_main
+    expect 0 "1 calls" time --elf "$firmware/targets/biquad.elf" --function 'firmware_main()'
+fi
+
+# Twice the same, to the last digit.
+timed caller
+cp "$folder/caller.json" "$folder/once.json"
+timed caller
+cmp -s "$folder/once.json" "$folder/caller.json" || fail "expected the same JSON twice"
+[ "$failures" -eq 0 ]
