@@ -50,9 +50,9 @@ std::string disassemble(const std::filesystem::path& elf, std::uint32_t address)
         "arm-none-eabi-objdump -d --no-show-raw-insn --start-address={:#x} --stop-address={:#x} '{}' 2>/dev/null",
         address, address + 4, elf.string()));
     // "  1a4:\tadds\tr0, #1": as wide as the section's addresses need.
-    const std::string mark = fmt::format(" {:x}:\t", address);
+    const std::string mark = fmt::format("{:x}:\t", address);
     const std::size_t at = text.find(mark);
-    if (at == std::string::npos) {
+    if (at == 0 || at == std::string::npos || (text[at - 1] != ' ' && text[at - 1] != '\n')) {
         return "";
     }
     std::string line = text.substr(at + mark.size(), text.find('\n', at + mark.size()) - at - mark.size());
