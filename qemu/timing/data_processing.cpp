@@ -207,8 +207,12 @@ void long_product_sum(Decoded& d, uint32_t e) {
 void conditional_branch(Decoded& d, uint32_t e) {
     d.branch = Branch::conditional;
     d.condition = static_cast<std::uint8_t>(field(e, 22, 4));
+    d.backward = field(e, 26, 1) != 0;
 }
-void direct_branch(Decoded& d, uint32_t) { d.branch = d.condition == 0xE ? Branch::direct : Branch::conditional; }
+void direct_branch(Decoded& d, uint32_t e) {
+    d.branch = d.condition == 0xE ? Branch::direct : Branch::conditional;
+    d.backward = field(e, 26, 1) != 0;
+}
 void call(Decoded& d, uint32_t) {
     d.branch = Branch::call;
     d.write(registers::lr);

@@ -94,6 +94,7 @@ struct Decoded {
     std::uint8_t condition = 0xE;     ///< of the IT block that it stands in, or of B<c>
     std::uint8_t registers = 0;       ///< loaded or stored
     std::uint8_t access_bytes = 0;    ///< of one register
+    bool backward = false;            ///< a direct branch to a lower address
     bool sets_flags = false;          ///< writes N, Z, C or V
     bool uses_shifter = false;        ///< an inline shifted operand, or a constant that is a shifted byte
     bool fused = false;               ///< of an fp_mac: VFMA rather than VMLA

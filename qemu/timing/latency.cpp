@@ -1,6 +1,7 @@
 #include "qemu/timing/latency.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace timing {
 
@@ -55,11 +56,12 @@ Latencies::Latencies(const Figures& f) {
     staged(Producer::bitfield, f.result_bitfield);
     staged(Producer::base, f.result_base);
     staged(Producer::load_word, f.result_load_word);
-    set(Producer::load_word, Consumer::address,
-        f.result_load_word + f.result_load_to_address_extra - f.read_address);
     staged(Producer::load_narrow, f.result_load_narrow);
-    set(Producer::load_narrow, Consumer::address,
-        f.result_load_narrow + f.result_load_to_address_extra - f.read_address);
+    for (const auto& [producer, result] : {std::pair(Producer::load_word, f.result_load_word),
+                                           std::pair(Producer::load_narrow, f.result_load_narrow)}) {
+        set(producer, Consumer::address, result + f.result_load_to_address_extra - f.read_address);
+        set(producer, Consumer::multiplicand, result + f.result_load_to_multiplicand_extra - f.read_multiplicand);
+    }
     staged(Producer::multiply, f.result_multiply);
     set(Producer::multiply, Consumer::address,
         f.result_multiply + f.result_multiply_to_address_extra - f.read_address);

@@ -50,7 +50,6 @@ bool may_pair(const Decoded& older, const Decoded& younger, bool older_taken, co
     const auto fp_load_store = [](const Decoded& d) { return d.is_fp; };
     return !(both(older, younger, branches, f.issue_two_branches_pair != 0) ||
              both(older, younger, shifted, f.issue_two_shifted_operands_pair != 0) ||
-             both(older, younger, is(Kind::bitfield), f.issue_two_bitfields_pair != 0) ||
              both(older, younger, is(Kind::multiply), f.issue_two_multiplies_pair != 0) ||
              both(older, younger, is(Kind::load), f.issue_two_loads_pair != 0) ||
              both(older, younger, is(Kind::store), f.issue_two_stores_pair != 0) ||

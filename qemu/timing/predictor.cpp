@@ -29,10 +29,9 @@ Prediction Predictor::meet(const Decoded& branch, std::uint32_t address, std::ui
         prediction = Prediction::wrong;
     } else if (taken) {
         // The static rule: backward branches are taken, forward ones are not.
-        const bool guessed = !conditional || next < address;
-        prediction = guessed ? Prediction::right_without_entry : Prediction::wrong;
-    } else if (conditional && !taken) {
-        prediction = Prediction::right;
+        prediction = !conditional || branch.backward ? Prediction::right_without_entry : Prediction::wrong;
+    } else if (branch.backward) {
+        prediction = Prediction::wrong;
     }
 
     if (known) {

@@ -16,8 +16,9 @@ const std::filesystem::path cores(TEST_CORES);
 
 TEST(CoreFile, TheNamedCoresAreThere) {
     EXPECT_EQ(timing::core_names(cores),
-              (std::vector<std::string>{"m7-ideal", "stm32f746-flash", "stm32f746-flash-nocache", "stm32f746-itcm",
-                                        "stm32h747-axi", "stm32h747-dtcm"}));
+              (std::vector<std::string>{"m7-ideal", "stm32f746-flash", "stm32f746-flash-art",
+                                        "stm32f746-flash-nocache", "stm32f746-itcm", "stm32h747-axi",
+                                        "stm32h747-dtcm"}));
     for (const std::string& name : timing::core_names(cores)) {
         const timing::CoreFile core = timing::read_core(cores, name);
         EXPECT_GE(core.sets.size(), 2U) << name;

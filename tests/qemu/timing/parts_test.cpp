@@ -46,8 +46,10 @@ timing::Decoded branch(timing::Branch kind) {
 
 TEST(Predictor, ALoopIsMissedOnceAtItsEnd) {
     timing::Predictor predictor(64);
-    const auto bne = branch(timing::Branch::conditional);
-    EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right_without_entry);  // backward: taken
+    auto bne = branch(timing::Branch::conditional);
+    bne.backward = true;
+    EXPECT_EQ(predictor.meet(bne, 0x210, 0x212), timing::Prediction::wrong);                // backward: taken, it says
+    EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right_without_entry);  // and so it is
     for (int turn = 0; turn < 8; ++turn) {
         EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right);
     }

@@ -83,7 +83,11 @@ Setting core(const std::string& name) {
 }
 
 Outcome run(const std::string& assembly, const Setting& setting) {
-    const std::vector<listing::Line> lines = listing::assemble(assembly);
+    static std::map<std::string, std::vector<listing::Line>> assembled;
+    if (!assembled.contains(assembly)) {
+        assembled[assembly] = listing::assemble(assembly);
+    }
+    const std::vector<listing::Line>& lines = assembled[assembly];
     std::vector<timing::Prepared> prepared;
     timing::ItBlock it;
     for (const listing::Line& line : lines) {
@@ -123,7 +127,8 @@ Outcome run(const std::string& assembly, const Setting& setting) {
         if (d.branch == timing::Branch::direct || d.branch == timing::Branch::conditional) {
             const std::uint32_t target =
                 lines[i].address + static_cast<std::uint32_t>(branch_offset(lines[i].encoding, lines[i].bytes));
-            if (target <= lines[i].address && ++turns[i] < setting.turns) {
+            const bool backward = target <= lines[i].address;
+            if (backward ? ++turns[i] < setting.turns : d.branch == timing::Branch::direct) {
                 next = static_cast<std::size_t>(
                     std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.address == target; }) -
                     lines.begin());
@@ -146,6 +151,14 @@ double steady_cycles(const std::string& assembly, const Setting& setting) {
         }
         // Two bundles of their own make the end the same, whatever the last copy leaves behind.
         return run(text + "dsb\n", setting).positions.back();
+    };
+    return static_cast<double>(position_behind(24) - position_behind(16)) / 2.0 / 8.0;
+}
+
+double steady_turns(const std::string& assembly, Setting setting) {
+    const auto position_behind = [&](unsigned turns) {
+        setting.turns = turns;
+        return run(".p2align 3\n" + assembly + "\ndsb\n", setting).positions.back();
     };
     return static_cast<double>(position_behind(24) - position_behind(16)) / 2.0 / 8.0;
 }
