@@ -100,6 +100,9 @@ struct Decoded {
     bool fused = false;               ///< of an fp_mac: VFMA rather than VMLA
     bool is_double = false;           ///< works on f64
     bool is_fp = false;               ///< of the FPU's register file
+    bool both_fp_ports = false;       ///< VMOV of two registers, VMRS, VMSR
+    bool early_result = false;        ///< of a bitfield: REV, RBIT, which are done before the ALU
+    bool saturates = false;           ///< of a bitfield: its result passes the saturation behind the ALU
     bool in_it_block = false;
     std::uint8_t read_count = 0;
     std::uint8_t write_count = 0;

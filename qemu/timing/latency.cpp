@@ -54,6 +54,9 @@ Latencies::Latencies(const Figures& f) {
     staged(Producer::younger_add, f.result_late);
     set(Producer::younger_add, Consumer::address, f.result_younger_add_to_address - f.read_address);
     staged(Producer::bitfield, f.result_bitfield);
+    staged(Producer::reversed, f.result_reverse);
+    set(Producer::reversed, Consumer::address, f.result_bitfield - f.read_address);
+    staged(Producer::saturated, f.result_saturated);
     staged(Producer::base, f.result_base);
     staged(Producer::load_word, f.result_load_word);
     staged(Producer::load_narrow, f.result_load_narrow);

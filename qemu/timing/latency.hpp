@@ -17,6 +17,8 @@ enum class Producer : std::uint8_t {
     late,
     younger_add,
     bitfield,
+    reversed,
+    saturated,
     base,
     load_word,
     load_narrow,

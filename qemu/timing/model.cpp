@@ -236,7 +236,8 @@ Producer Model::producer_of(const Prepared& instruction) const {
             return younger_addition && figures_.result_add_in_younger_slot_early == 0 ? Producer::younger_add
                                                                                       : Producer::early;
         }
-        case Kind::bitfield: return Producer::bitfield;
+        case Kind::bitfield:
+            return d.early_result ? Producer::reversed : d.saturates ? Producer::saturated : Producer::bitfield;
         case Kind::multiply: return Producer::multiply;
         case Kind::divide: return Producer::divide;
         case Kind::fp_add: return d.is_double ? Producer::add64 : Producer::fp_add;

@@ -149,6 +149,7 @@ void extend(Decoded& d, uint32_t e) {
     d.read(Role::operand, middle(e));
 }
 void reverse(Decoded& d, uint32_t e) {
+    d.early_result = true;
     d.write(low(e));
     d.read(Role::shifted, middle(e));
 }

@@ -19,6 +19,9 @@ bool either_way(const Decoded& a, const Decoded& b, IsOne one, IsOther other, bo
 }  // namespace
 
 bool issues_alone(const Decoded& d, const Figures& f) {
+    if (d.both_fp_ports && f.fp_both_ports_pair == 0) {
+        return true;
+    }
     switch (d.kind) {
         case Kind::unknown:
         case Kind::system:

@@ -15,7 +15,7 @@ public:
         : figures_(figures), entries_(std::clamp<std::int64_t>(figures.store_entries, 1, depth)) {}
 
     /// The first cycle in which an entry is free for one more store.
-    [[nodiscard]] std::int64_t free_from() const { return done_[(next_ + depth - entries_) % depth]; }
+    [[nodiscard]] std::int64_t free_from() const { return *std::min_element(done_.begin(), done_.begin() + entries_); }
 
     /// One store of 1 to 8 bytes, issued at a cycle. \param extra  cycles that its memory adds
     void add(std::int64_t cycle, std::uint32_t address, unsigned bytes, std::int64_t extra) {
@@ -30,19 +30,15 @@ public:
             done = std::max(cycle, free_[bank]) + (bytes < 4 ? figures_.store_narrow : figures_.store_word) + extra;
             free_[bank] = done;
         }
-        // Entries leave in order.
-        newest_ = std::max(newest_, done);
-        done_[next_ % depth] = newest_;
-        ++next_;
+        // Each bank takes its stores in order, and an entry is free once its own is done: the other bank does not wait.
+        *std::min_element(done_.begin(), done_.begin() + entries_) = done;
     }
 
 private:
     static constexpr std::int64_t depth = 16;
     const Figures& figures_;
     std::int64_t entries_;
-    std::int64_t next_ = depth;
-    std::int64_t newest_ = 0;
-    std::array<std::int64_t, depth> done_{};
+    std::array<std::int64_t, depth> done_{};  // cycle in which each entry is free
     std::array<std::int64_t, 2> free_{};
 };
 

@@ -75,6 +75,36 @@ std::int32_t branch_offset(std::uint32_t e, std::uint8_t bytes) {
     return 4 + 2 * sign(s << 23 | i1 << 22 | i2 << 21 | (e >> 16 & 0x3FF) << 11 | (e & 0x7FF), 24);
 }
 
+bool accesses_data(const Decoded& d) { return d.registers > 0 && d.branch == timing::Branch::none; }
+
+struct Text {
+    std::vector<listing::Line> lines;
+    std::vector<timing::Prepared> prepared;
+    std::vector<Place> places;  // of those that access memory
+};
+
+// Each text is assembled and decoded once.
+const Text& text_of(const std::string& assembly) {
+    static std::map<std::string, Text> texts;
+    const auto [at, is_new] = texts.try_emplace(assembly);
+    Text& text = at->second;
+    if (is_new) {
+        text.lines = listing::assemble(assembly);
+        timing::ItBlock it;
+        for (const listing::Line& line : text.lines) {
+            text.prepared.emplace_back(timing::decode(line.encoding, line.bytes, it.condition(), it.inside()));
+            const Decoded& d = text.prepared.back().decoded;
+            text.places.push_back(accesses_data(d) ? place_of(line, d) : Place{});
+            if (d.kind == timing::Kind::if_then) {
+                it.begin(line.encoding);
+            } else {
+                it.advance();
+            }
+        }
+    }
+    return text;
+}
+
 }  // namespace
 
 Setting core(const std::string& name) {
@@ -83,21 +113,7 @@ Setting core(const std::string& name) {
 }
 
 Outcome run(const std::string& assembly, const Setting& setting) {
-    static std::map<std::string, std::vector<listing::Line>> assembled;
-    if (!assembled.contains(assembly)) {
-        assembled[assembly] = listing::assemble(assembly);
-    }
-    const std::vector<listing::Line>& lines = assembled[assembly];
-    std::vector<timing::Prepared> prepared;
-    timing::ItBlock it;
-    for (const listing::Line& line : lines) {
-        prepared.emplace_back(timing::decode(line.encoding, line.bytes, it.condition(), it.inside()));
-        if (prepared.back().decoded.kind == timing::Kind::if_then) {
-            it.begin(line.encoding);
-        } else {
-            it.advance();
-        }
-    }
+    const auto& [lines, prepared, places] = text_of(assembly);
     std::map<unsigned, std::uint32_t> registers;
     for (unsigned reg = 0; reg < 13; ++reg) {
         registers[reg] = 0x20000000U + 0x100 * reg;
@@ -114,8 +130,8 @@ Outcome run(const std::string& assembly, const Setting& setting) {
         const Decoded& d = prepared[i].decoded;
         outcome.unknown += d.kind == timing::Kind::unknown ? 1 : 0;
         std::vector<qemu::Access> accesses;
-        if (d.registers > 0 && d.branch == timing::Branch::none) {
-            const Place place = place_of(lines[i], d);
+        if (accesses_data(d)) {
+            const Place& place = places[i];
             const std::uint32_t first = registers[place.base] + static_cast<std::uint32_t>(place.before);
             const bool one_of_eight = std::string(d.mnemonic) == "vldr" && d.registers == 2;
             for (unsigned n = 0; n < (one_of_eight ? 1U : d.registers); ++n) {

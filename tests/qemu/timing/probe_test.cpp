@@ -61,6 +61,11 @@ constexpr Probe probes[] = {
     {"5.5", "sadd16 r0,r0,r1", 1},
     {"5.6", "ubfx r0,r0,#1,#4", 2},                               // reads its source early
     {"5.7", "uxtb.w r0,r1; nop.w; ldr.w r2,[r0]; nop.w", 3},
+    {"5.8", "rev.w r0,r1; eor.w r2,r0,r3", 1},                    // reversed before the ALU
+    {"5.9", "rev.w r0,r1; nop.w; ldr.w r2,[r0]; nop.w", 3},       // and yet no address in the next cycle
+    {"5.10", "ubfx r0,r1,#1,#4; eor.w r2,r0,r3", 2},
+    {"5.11", "qadd r0,r0,r1", 2},
+    {"5.12", "ssat r0,#16,r0", 3},                                // reads early, too
     // 6: products
     {"6.1", "smlal r0,r1,r2,r3", 1},
     {"6.2", "smlad r0,r1,r2,r0", 1},
@@ -100,6 +105,7 @@ constexpr Probe probes[] = {
     {"8.5", "stm r0,{r1,r2,r3,r4}", 2},
     {"8.6", "stm r0!,{r1,r2,r3}; stm r0!,{r1,r2,r3,r4}; add.w r5,r5,r6; str r7,[r0],#4", 6},  // 2; 3, as its place is odd; 1
     {"8.7", "vldm r0,{s0-s7}", 4},
+    {"8.8", "ldm r0,{r1,r2,r3,r4}; eor.w r5,r4,r6", 3},           // the last register is there when it has issued
     // 9: stores
     {"9.1", "str.w r0,[r1]; str.w r2,[r3,#4]", 2},
     {"9.2", "ldr.w r0,[r1]; str.w r2,[r3]", 1},
@@ -107,7 +113,10 @@ constexpr Probe probes[] = {
     {"9.4", "strb.w r0,[r1]", 4},
     {"9.5", "strb.w r0,[r1]; strb.w r0,[r1,#4]", 4},
     {"9.6", "strh.w r0,[r1],#2", 2},
-    {"9.7", "strb.w r0,[r1],#1", 2.125},                          // 2.4 on silicon
+    {"9.7", "strb.w r0,[r1],#1", 2},                              // runs of four on either bank, four cycles each
+    // His twenty copies go over five words and begin anew: 12 of 20 on one bank, 48 cycles; 10 of 20 of halves.
+    {"9.10", "1: .rept 19; strb.w r0,[r1],#1; .endr; strb.w r0,[r1],#-19; bne 1b", 48, "stm32f746-itcm", How::turns},
+    {"9.11", "1: .rept 19; strh.w r0,[r1],#2; .endr; strh.w r0,[r1],#-38; bne 1b", 40, "stm32f746-itcm", How::turns},
     {"9.8", "str.w r0,[r1,#1]", 4},
     {"9.9", "str.w r0,[r1]; ldr.w r2,[r1]", 4},
     // 10: single precision
@@ -149,9 +158,12 @@ constexpr Probe probes[] = {
     {"10.36", "vcvt.f32.s32 s0,s0", 3},
     {"10.37", "vmov.f32 s0,s1; nop.w; vadd.f32 s2,s0,s3; nop.w", 4},
     {"10.38", "vmov.f32 s0,#1.0; nop.w; vadd.f32 s2,s0,s3; nop.w", 4},
-    {"10.39", "vcmp.f32 s0,s1; nop.w; vmrs apsr_nzcv,fpscr; nop.w", 2},
+    {"10.39", "vcmp.f32 s0,s1; nop.w; vmrs apsr_nzcv,fpscr; nop.w", 3},  // VMRS alone
     {"10.40", "vfma.f32 s0,s1,s2; nop.w; nop.w; vmov s3,r0; vfma.f32 s4,s5,s6; nop.w; nop.w; vmov s7,r0", 6},
     {"10.41", "vfma.f32 s0,s1,s2; vldr s1,[r0]", 6},
+    {"10.42", "vmov s0,s1,r0,r1; nop.w", 2},                        // both ports: alone
+    {"10.43", "vfma.f32 s0,s1,s2; vstr s5,[r0]; .rept 7; nop.w; .endr", 5},  // not beside a MAC, though it be the first
+    {"10.44", "vldm r0,{s0-s3}; vfma.f32 s3,s10,s11", 9},           // s3 comes a cycle later, 3 to the accumulator; 5
     // 11: double precision, other exponents
     {"11.1", "vadd.f64 d0,d1,d2", 2},
     {"11.2", "vmul.f64 d0,d1,d2", 5},
@@ -172,7 +184,8 @@ constexpr Probe probes[] = {
     {"12.5", "9: subs.w r6,r6,#1; bne 9b", 9},                     // not taken, against the static guess
     {"12.6", "9: subs.w r6,r6,#1; nop.w; nop.w; nop.w; nop.w; nop.w; bne 9b", 10},  // the flags are known by then
     {"12.7", "b 9f; nop.w; 9:", 3},                                // met for the first time
-    {"12.8", "beq 9f; beq 9f; 9:", 2},
+    {"12.8", "beq 9f; beq 9f; nop.w; 9:", 2},
+    {"12.9", "beq 9f; add.w r0,r1,r2; add.w r3,r4,r5; 9:", 1.5},   // no slot is lost behind a branch that is not taken
     // 13: fetching
     {"13.1", ".p2align 3; nop; nop; nop; 1: nop; nop.w; nop.w; bne 1b", 3, "stm32f746-itcm", How::turns},
     {"13.2", "nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w", 16, "stm32f746-flash"},
