@@ -121,7 +121,7 @@ void run(const Options& options) {
                                                      {function.name}, {function.address}, request, {});
 
     Distribution instructions;
-    std::vector<Distribution> half_cycles(core.sets.size());
+    std::vector<Distribution> half_cycles(3);  // nominal, low, high
     std::vector<Distribution> losses(timing::effect_count);
     std::uint64_t calls = 0;
     for (const timing::TimedRun& run : log.runs) {

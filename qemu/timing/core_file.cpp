@@ -85,7 +85,7 @@ Origin read_row(const std::string& key, const toml::node& node) {
 // Rows of all sections of a table: "issue" = { two_loads_pair = {..} } becomes "issue.two_loads_pair".
 void read_sections(const toml::table& sections, std::map<std::string, Origin>& rows) {
     for (const auto& [section, node] : sections) {
-        if (section == "note") {
+        if (section == "note" || section == "fits") {
             continue;  // of a rival set
         }
         const toml::table* table = node.as_table();
@@ -104,6 +104,7 @@ void read_sections(const toml::table& sections, std::map<std::string, Origin>& r
 
 struct Rival {
     std::string note;
+    bool fits = true;
     std::map<std::string, Origin> rows;
 };
 
@@ -135,7 +136,21 @@ void read_rivals(const toml::node& node, Collected& into) {
         }
         Rival rival;
         rival.note = text_of(*set, "note");
+        if (const toml::node* fits = set->get("fits")) {
+            if (!fits->is_boolean()) {
+                reject(*fits, "fits: expected true or false");
+            }
+            rival.fits = fits->as_boolean()->get();
+        }
         read_sections(*set, rival.rows);
+        for (const auto& [key, row] : rival.rows) {
+            // Memories and the predictor are the chip's: one for all sets.
+            if (key.starts_with("cache.") || key.starts_with("memory.") || key.starts_with("band.") ||
+                key.starts_with("measurement.") || key == "fetch.bytes" || key == "branch.target_entries") {
+                throw Failure(Exit::bad_input, row.file + ":" + std::to_string(row.line) + ": " + key +
+                                                   ": no row that a rival set may change");
+            }
+        }
         into.rivals.insert_or_assign(std::string(name.str()), std::move(rival));
     }
 }
@@ -254,7 +269,7 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
         throw Failure(Exit::bad_input, file.string() + ": expected placement = { code = \"..\", data = \"..\" }");
     }
     core.placement = *collected.placement;
-    core.sets.push_back({"nominal", "", {}});
+    core.sets.push_back({"nominal", "", {}, true});
     for (const Key& key : keys) {
         const auto row = collected.rows.find(key.name);
         if (row == collected.rows.end()) {
@@ -264,11 +279,15 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
         core.origins.push_back(row->second);
     }
     for (const auto& [rival_name, rival] : collected.rivals) {
-        RuleSet set{rival_name, rival.note, core.sets[0].figures};
+        RuleSet set{rival_name, rival.note, core.sets[0].figures, rival.fits};
         for (const auto& [key, row] : rival.rows) {
             set.figures.*find_key(key)->figure = row.value;
         }
         core.sets.push_back(set);
+    }
+    if (core.sets.size() > CoreFile::most_sets) {
+        throw Failure(Exit::bad_input, file.string() + ": expected at most " + std::to_string(CoreFile::most_sets - 1) +
+                                           " rival sets, found " + std::to_string(core.sets.size() - 1));
     }
     return core;
 }

@@ -57,9 +57,11 @@ struct RuleSet {
     std::string name;  ///< "nominal", or the rival's
     std::string note;
     Figures figures;
+    bool fits = true;  ///< silicon; false: refuted, kept to tell how much of a figure is fitted
 };
 
 struct CoreFile {
+    static constexpr std::size_t most_sets = 8;
     std::string name;
     std::string note;
     Placement placement;
