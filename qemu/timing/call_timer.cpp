@@ -26,8 +26,8 @@ CallTimer::Site& CallTimer::site_of(const qemu::Instruction& instruction) {
     Site& site = sites_[instruction.index];
     if (!site.prepared) {
         const bool inside = it_block_.inside();
-        site.prepared = std::make_unique<Prepared>(
-            decode(instruction.encoding, instruction.bytes, it_block_.condition(), inside));
+        site.prepared =
+            std::make_unique<Prepared>(decode(instruction.encoding, instruction.bytes, it_block_.condition(), inside));
         site.address = instruction.address;
         site.entry = entries_.contains(instruction.address);
         site.half_cycles.resize(cores_.size());
@@ -113,8 +113,8 @@ void CallTimer::flush(std::uint32_t next) {
     }
     last_ = pending_;
     sequential_ = site.address + d.bytes;
-    last_called_ = (d.branch == Branch::call || (d.branch == Branch::indirect && d.write_count > 0 &&
-                                                 d.writes[0].reg == registers::lr)) &&
+    last_called_ = (d.branch == Branch::call ||
+                    (d.branch == Branch::indirect && d.write_count > 0 && d.writes[0].reg == registers::lr)) &&
                    next != sequential_;
 }
 

@@ -28,7 +28,8 @@ constexpr Key keys[] = {
 };
 
 const Key* find_key(const std::string& name) {
-    const auto* found = std::find_if(std::begin(keys), std::end(keys), [&](const Key& key) { return key.name == name; });
+    const auto* found =
+        std::find_if(std::begin(keys), std::end(keys), [&](const Key& key) { return key.name == name; });
     return found == std::end(keys) ? nullptr : found;
 }
 
@@ -79,7 +80,8 @@ Origin read_row(const std::string& key, const toml::node& node) {
         reject(*value, key + ": expected a number of at least 0, found " + std::to_string(number));
     }
     const std::string mark = text_of(*row, "mark");
-    return {key, number, mark_named(*row, mark), text_of(*row, "source"), *node.source().path, node.source().begin.line};
+    return {
+        key, number, mark_named(*row, mark), text_of(*row, "source"), *node.source().path, node.source().begin.line};
 }
 
 // Rows of all sections of a table: "issue" = { two_loads_pair = {..} } becomes "issue.two_loads_pair".
@@ -274,6 +276,13 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
         const auto row = collected.rows.find(key.name);
         if (row == collected.rows.end()) {
             throw Failure(Exit::bad_input, file.string() + ": expected the row " + key.name);
+        }
+        const std::string name_of_row = key.name;
+        const bool is_width = name_of_row.ends_with("_bytes") || name_of_row == "fetch.bytes";
+        const auto value = static_cast<std::uint64_t>(row->second.value);
+        if (is_width && (value & (value - 1)) != 0) {
+            throw Failure(Exit::bad_input, row->second.file + ":" + std::to_string(row->second.line) + ": " + key.name +
+                                               ": expected a power of two, found " + std::to_string(value));
         }
         core.sets[0].figures.*key.figure = row->second.value;
         core.origins.push_back(row->second);

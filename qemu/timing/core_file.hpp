@@ -65,10 +65,10 @@ struct CoreFile {
     std::string name;
     std::string note;
     Placement placement;
-    Effects off;                 ///< effects that cost nothing in this core
-    std::vector<RuleSet> sets;   ///< the nominal one first
-    std::vector<Origin> origins; ///< of the nominal set, in the order of rows.def
-    std::string text;            ///< of all files that it was read from, for its hash
+    Effects off;                  ///< effects that cost nothing in this core
+    std::vector<RuleSet> sets;    ///< the nominal one first
+    std::vector<Origin> origins;  ///< of the nominal set, in the order of rows.def
+    std::string text;             ///< of all files that it was read from, for its hash
 };
 
 /// Reads `<folder>/<name>.toml`, and what it is based on.

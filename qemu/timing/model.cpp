@@ -235,19 +235,30 @@ Producer Pipeline::producer_of(const Prepared& instruction) const {
         }
         case Kind::bitfield:
             return d.early_result ? Producer::reversed : d.saturates ? Producer::saturated : Producer::bitfield;
-        case Kind::multiply: return Producer::multiply;
-        case Kind::divide: return Producer::divide;
-        case Kind::fp_add: return d.is_double ? Producer::add64 : Producer::fp_add;
-        case Kind::fp_mul: return d.is_double ? Producer::mul64 : Producer::fp_mul;
-        case Kind::fp_mac: return d.is_double ? Producer::mac64 : d.fused ? Producer::fma : Producer::mla;
+        case Kind::multiply:
+            return Producer::multiply;
+        case Kind::divide:
+            return Producer::divide;
+        case Kind::fp_add:
+            return d.is_double ? Producer::add64 : Producer::fp_add;
+        case Kind::fp_mul:
+            return d.is_double ? Producer::mul64 : Producer::fp_mul;
+        case Kind::fp_mac:
+            return d.is_double ? Producer::mac64 : d.fused ? Producer::fma : Producer::mla;
         case Kind::fp_divide:
         case Kind::fp_sqrt:
-        case Kind::fp_convert: return Producer::fp_convert;
-        case Kind::fp_move: return Producer::fp_move;
-        case Kind::fp_from_core: return Producer::core_to_fp;
-        case Kind::fp_to_core: return Producer::to_core;
-        case Kind::fp_move_immediate: return Producer::fp_immediate;
-        default: return Producer::late;
+        case Kind::fp_convert:
+            return Producer::fp_convert;
+        case Kind::fp_move:
+            return Producer::fp_move;
+        case Kind::fp_from_core:
+            return Producer::core_to_fp;
+        case Kind::fp_to_core:
+            return Producer::to_core;
+        case Kind::fp_move_immediate:
+            return Producer::fp_immediate;
+        default:
+            return Producer::late;
     }
 }
 
@@ -255,7 +266,7 @@ void Pipeline::write_results(const Prepared& instruction) {
     const Decoded& d = instruction.decoded;
     const std::int32_t cycle = state.position / 2;
     const Producer result = producer_of(instruction);
-    const Producer loaded = d.is_fp                  ? Producer::fp_load
+    const Producer loaded = d.is_fp               ? Producer::fp_load
                             : d.access_bytes == 4 ? Producer::load_word
                                                   : Producer::load_narrow;
     std::int64_t nth = 0;
@@ -271,12 +282,15 @@ void Pipeline::write_results(const Prepared& instruction) {
                 }
                 break;
             case Source::loaded:
-                value = {cycle + static_cast<std::int32_t>(
-                                     nth / std::max<std::int64_t>(1, figures_.issue_registers_per_cycle) + result_delay_),
-                         loaded};
+                value = {
+                    cycle + static_cast<std::int32_t>(
+                                nth / std::max<std::int64_t>(1, figures_.issue_registers_per_cycle) + result_delay_),
+                    loaded};
                 ++nth;
                 break;
-            case Source::base: value = {cycle, Producer::base}; break;
+            case Source::base:
+                value = {cycle, Producer::base};
+                break;
             case Source::flags:
                 value = {cycle, d.kind == Kind::fp_add ? Producer::compare : Producer::flags};
                 break;
@@ -288,7 +302,8 @@ void Pipeline::write_results(const Prepared& instruction) {
 void Pipeline::occupy(const Decoded& d, const Event& event) {
     const std::int32_t cycle = state.position / 2;
     if ((d.kind == Kind::load_multiple || d.kind == Kind::store_multiple) && figures_.issue_registers_per_cycle > 0) {
-        std::int64_t cycles = (d.registers + figures_.issue_registers_per_cycle - 1) / figures_.issue_registers_per_cycle;
+        std::int64_t cycles =
+            (d.registers + figures_.issue_registers_per_cycle - 1) / figures_.issue_registers_per_cycle;
         if (d.kind == Kind::store_multiple && d.registers % 2 == 0 && event.accesses > 0 && event.off_eight) {
             cycles += figures_.issue_unaligned_multiple_extra;
         }
@@ -336,7 +351,8 @@ void Pipeline::access_memory(const Decoded& d, const Event& event) {
 void Pipeline::follow_branch(const Decoded& d, const Event& event) {
     const std::int32_t cycle = state.position / 2;
     switch (event.prediction) {
-        case Prediction::right: break;
+        case Prediction::right:
+            break;
         case Prediction::right_without_entry:
             hold_next(Effect::branch_mispredict,
                       2 * (cycle + 1 + static_cast<std::int32_t>(figures_.branch_taken_without_entry)));
@@ -345,8 +361,8 @@ void Pipeline::follow_branch(const Decoded& d, const Event& event) {
             const State::Value& flags = state.values[registers::flags];
             const bool conditional = d.branch == Branch::conditional && d.condition != 0xE;
             const bool known = conditional && cycle - flags.cycle >= figures_.branch_flags_known_after;
-            const auto cycles = static_cast<std::int32_t>(known ? figures_.branch_mispredict_flags_known
-                                                                : figures_.branch_mispredict);
+            const auto cycles =
+                static_cast<std::int32_t>(known ? figures_.branch_mispredict_flags_known : figures_.branch_mispredict);
             hold_next(Effect::branch_mispredict, 2 * (cycle + 1 + cycles));
             if (!off_[index(Effect::branch_mispredict)]) {
                 state.fetch_ready = std::max(state.fetch_ready, cycle + cycles);
@@ -385,8 +401,9 @@ void Pipeline::note_fpu(const Decoded& d) {
     }
     const bool divides = d.kind == Kind::fp_divide || d.kind == Kind::fp_sqrt;
     if (divides) {
-        const std::int64_t cycles = d.kind == Kind::fp_divide ? (d.is_double ? figures_.fp64_divide : figures_.fp_divide)
-                                                              : (d.is_double ? figures_.fp64_sqrt : figures_.fp_sqrt);
+        const std::int64_t cycles = d.kind == Kind::fp_divide
+                                        ? (d.is_double ? figures_.fp64_divide : figures_.fp_divide)
+                                        : (d.is_double ? figures_.fp64_sqrt : figures_.fp_sqrt);
         state.fp_blocks_from = cycle;
         state.fp_blocks_until = cycle + static_cast<std::int32_t>(cycles);
     }
@@ -396,7 +413,7 @@ void Pipeline::note_fpu(const Decoded& d) {
             cycles = figures_.fp64_mul;
         } else if (d.kind == Kind::fp_mac) {
             cycles = state.mac64_before ? (d.fused ? figures_.fp64_fma_chained : figures_.fp64_mla_chained)
-                                   : (d.fused ? figures_.fp64_fma : figures_.fp64_mla);
+                                        : (d.fused ? figures_.fp64_fma : figures_.fp64_mla);
         }
         state.fp_busy_until = cycle + static_cast<std::int32_t>(cycles);
     }

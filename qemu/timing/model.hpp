@@ -54,7 +54,7 @@ struct State {
     bool older_has_banks = false;
     bool mac64_before = false;
 
-    std::int32_t position = -1;  // of the instruction at work; before that, of its predecessor
+    std::int32_t position = -1;        // of the instruction at work; before that, of its predecessor
     std::array<Hold, 4> next_holds{};  // what the last instruction makes the next one wait for
     std::size_t next_hold_count = 0;
 
@@ -70,10 +70,10 @@ struct State {
     std::int32_t fp_blocks_from = 0;
 
     // Fetching.
-    std::int32_t fetch_ready = -1;              // cycle in which the word at hand is there
-    std::array<std::int32_t, 8> fetch_used{};   // cycles in which the last words were first used, the newest first
+    std::int32_t fetch_ready = -1;             // cycle in which the word at hand is there
+    std::array<std::int32_t, 8> fetch_used{};  // cycles in which the last words were first used, the newest first
 
-    std::array<std::int32_t, stores_watched> stored;         // cycles of the last stores, the newest first
+    std::array<std::int32_t, stores_watched> stored;          // cycles of the last stores, the newest first
     std::array<std::int32_t, 2> late_fp_store{never, never};  // by bank: cycle of an FP store not yet met
     StoreBuffer store_buffer;
 
@@ -94,9 +94,8 @@ public:
     /// One executed instruction: moves `state` on, and adds to `losses`.
     void execute(const Prepared& instruction, const Event& event);
 
-    /// Sets the clock back so that the state's position is 0 or 1, and forgets what can hold nothing any more: two states
-    /// that become equal behave alike for ever.
-    /// \return cycles that it was set back by
+    /// Sets the clock back so that the state's position is 0 or 1, and forgets what can hold nothing any more: two
+    /// states that become equal behave alike for ever. \return cycles that it was set back by
     std::int32_t settle();
 
     State state;

@@ -69,9 +69,9 @@ std::uint64_t Replay::hash(const Joint& joint) {
                                      static_cast<std::uint32_t>(value.cycle));
             }
         }
-        for (const std::int32_t cycle : {state.last_mac, state.last_fp_load, state.last_fp_store, state.fetch_ready,
-                                         state.fetch_used[0], state.fetch_used[1], state.stored[0],
-                                         state.store_buffer.done[0], state.store_buffer.done[3]}) {
+        for (const std::int32_t cycle :
+             {state.last_mac, state.last_fp_load, state.last_fp_store, state.fetch_ready, state.fetch_used[0],
+              state.fetch_used[1], state.stored[0], state.store_buffer.done[0], state.store_buffer.done[3]}) {
             hash = mix(hash, static_cast<std::uint64_t>(cycle));
         }
     }

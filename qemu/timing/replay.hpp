@@ -1,8 +1,8 @@
 // A core under all its rule sets at once, fast: what it did before in the same state, it does again.
 //
-// The pipeline's next state depends on its state, the instruction and the event alone. So each step is computed once and
-// kept under these three; a step met again is looked up. Nothing is skipped or estimated: equal keys are equal in every
-// bit, and the state of a key is the whole state (`Pipeline::settle`).
+// The pipeline's next state depends on its state, the instruction and the event alone. So each step is computed once
+// and kept under these three; a step met again is looked up. Nothing is skipped or estimated: equal keys are equal in
+// every bit, and the state of a key is the whole state (`Pipeline::settle`).
 #pragma once
 
 #include <array>
@@ -59,8 +59,8 @@ private:
     std::vector<std::unique_ptr<Pipeline>> pipelines_;
     std::vector<Joint> states_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> numbers_;  // of states, by hash
-    std::uint32_t state_ = 0;   // the present one
-    std::uint32_t loaded_ = 0;  // the one that the pipelines hold
+    std::uint32_t state_ = 0;                                        // the present one
+    std::uint32_t loaded_ = 0;                                       // the one that the pipelines hold
 
     std::vector<Step> steps_;            // the first is none
     std::vector<std::uint32_t> places_;  // by hash, open addressing; 0: free

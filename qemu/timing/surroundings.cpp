@@ -1,18 +1,21 @@
 #include "qemu/timing/surroundings.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace timing {
 namespace {
 
 bool is_aligned(const qemu::Access& access) { return access.address % std::min<unsigned>(access.bytes, 4) == 0; }
-std::uint16_t narrowed(std::int64_t cycles) { return static_cast<std::uint16_t>(std::min<std::int64_t>(cycles, 0xFFFF)); }
+std::uint16_t narrowed(std::int64_t cycles) {
+    return static_cast<std::uint16_t>(std::min<std::int64_t>(cycles, 0xFFFF));
+}
 
 }  // namespace
 
 Surroundings::Surroundings(const Figures& figures, Placement placement)
     : figures_(figures),
-      fetch_bytes_(static_cast<std::uint32_t>(figures.fetch_bytes)),
+      fetch_shift_(static_cast<unsigned>(std::countr_zero(static_cast<std::uint32_t>(figures.fetch_bytes)))),
       memory_(figures_, placement),
       predictor_(figures.branch_target_entries) {
     stored_words_.fill(0xFFFFFFFFU);
@@ -54,13 +57,13 @@ const Event& Surroundings::meet(const Decoded& d, std::uint32_t address, std::sp
 }
 
 void Surroundings::fetch(const Decoded& d, std::uint32_t address) {
-    const std::uint32_t last = (address + d.bytes - 1) / fetch_bytes_;
-    for (std::uint32_t word = address / fetch_bytes_; word <= last; ++word) {
+    const std::uint32_t last = (address + d.bytes - 1) >> fetch_shift_;
+    for (std::uint32_t word = address >> fetch_shift_; word <= last; ++word) {
         if (word == fetched_) {
             continue;
         }
         fetched_ = word;
-        const Delay delay = memory_.fetch(word * fetch_bytes_);
+        const Delay delay = memory_.fetch(word << fetch_shift_);
         if (delay.cycles > 0) {
             event_.fetch_effect = delay.effect;
         }
@@ -90,7 +93,9 @@ void Surroundings::store(std::span<const qemu::Access> accesses) {
             event_.store_effect = delay.effect;
             event_.store_delays[nth % event_.store_delays.size()] = narrowed(delay.cycles);
         }
-        std::copy_backward(stored_words_.begin(), stored_words_.end() - 1, stored_words_.end());
+        for (std::size_t n = stored_words_.size() - 1; n > 0; --n) {
+            stored_words_[n] = stored_words_[n - 1];
+        }
         stored_words_[0] = access.address >> 2;
         ++nth;
     }

@@ -20,17 +20,17 @@ inline constexpr std::size_t stores_watched = 8;
 
 /// All that one execution of an instruction brings to the core, beside the instruction itself.
 struct Event {
-    std::uint8_t accesses = 0;       ///< really made
-    std::uint8_t access_bytes = 0;   ///< of each
-    bool odd_word = false;           ///< of the first access: its bank
-    bool off_eight = false;          ///< the first address is no multiple of 8
+    std::uint8_t accesses = 0;      ///< really made
+    std::uint8_t access_bytes = 0;  ///< of each
+    bool odd_word = false;          ///< of the first access: its bank
+    bool off_eight = false;         ///< the first address is no multiple of 8
     bool unaligned = false;
-    bool has_banks = false;          ///< of the memory that the first access goes to
+    bool has_banks = false;  ///< of the memory that the first access goes to
     bool in_dtcm = false;
-    std::uint8_t meets = 0;          ///< bit n: a load of the word that the last store but n wrote
-    bool taken = false;              ///< what is executed next does not stand behind this
+    std::uint8_t meets = 0;  ///< bit n: a load of the word that the last store but n wrote
+    bool taken = false;      ///< what is executed next does not stand behind this
     Prediction prediction = Prediction::right;
-    std::uint8_t words = 0;          ///< of the fetch, taken up for this instruction
+    std::uint8_t words = 0;  ///< of the fetch, taken up for this instruction
     Effect fetch_effect = Effect::icache_misses;
     Effect load_effect = Effect::dcache_misses;
     Effect store_effect = Effect::dcache_misses;
@@ -56,7 +56,7 @@ private:
     void store(std::span<const qemu::Access> accesses);
 
     const Figures figures_;  // memory_ refers to it
-    std::uint32_t fetch_bytes_;
+    unsigned fetch_shift_;
     Memory memory_;
     Predictor predictor_;
     std::uint32_t fetched_ = 0xFFFFFFFFU;  // number of the word at hand
