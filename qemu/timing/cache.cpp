@@ -9,17 +9,12 @@ Cache::Cache(std::int64_t bytes, std::int64_t ways, std::int64_t line_bytes) {
     if (bytes > 0) {
         ways_ = static_cast<std::uint32_t>(std::max<std::int64_t>(ways, 1));
         line_shift_ = static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(line_bytes)));
-        sets_ = std::max(1U, static_cast<std::uint32_t>(bytes) / ways_ >> line_shift_);
+        sets_ = std::bit_floor(std::max(1U, static_cast<std::uint32_t>(bytes) / ways_ >> line_shift_));
         lines_.resize(std::size_t{sets_} * ways_);
     }
 }
 
-Cache::Touch Cache::touch(std::uint32_t address, bool store) {
-    if (lines_.empty()) {
-        return {false, false};
-    }
-    const std::uint32_t tag = address >> line_shift_;
-    Line* const first = &lines_[std::size_t{tag % sets_} * ways_];
+Cache::Touch Cache::touch_older(Line* first, std::uint32_t tag, bool store) {
     Line* const last = first + ways_;
     Line* const found = std::find_if(first, last, [&](const Line& line) { return line.tag == tag; });
     if (found != last) {

@@ -16,7 +16,18 @@ public:
         bool writes_back;  ///< a modified line leaves
     };
     /// Looks the line up, and brings it in if it is not there.
-    Touch touch(std::uint32_t address, bool store);
+    Touch touch(std::uint32_t address, bool store) {
+        if (lines_.empty()) {
+            return {false, false};
+        }
+        const std::uint32_t tag = address >> line_shift_;
+        Line& newest = lines_[std::size_t{tag & (sets_ - 1)} * ways_];
+        if (newest.tag == tag) {
+            newest.modified = newest.modified || store;
+            return {true, false};
+        }
+        return touch_older(&newest, tag, store);
+    }
     [[nodiscard]] bool on() const { return !lines_.empty(); }
 
 private:
@@ -24,8 +35,10 @@ private:
         std::uint32_t tag = 0xFFFFFFFFU;
         bool modified = false;
     };
+    Touch touch_older(Line* first, std::uint32_t tag, bool store);
+
     std::uint32_t line_shift_ = 0;
-    std::uint32_t sets_ = 1;
+    std::uint32_t sets_ = 1;  // a power of two: the index is a field of the address
     std::uint32_t ways_ = 1;
     std::vector<Line> lines_;  // of each set together, the most recently used first
 };

@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <utility>
 
+#include "qemu/timing/band.hpp"
+
 namespace timing {
+
+CallTimer::Core::Core(const CoreFile& core)
+    : file(core), surroundings(core.sets[0].figures, core.placement), replay(core) {}
 
 CallTimer::CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
                      std::function<void(const TimedCall&)> done)
-    : entries_(std::move(entries)), done_(std::move(done)), positions_(cores.size()) {
+    : entries_(std::move(entries)), done_(std::move(done)) {
     for (const CoreFile& core : cores) {
-        models_.emplace_back();
-        for (const RuleSet& set : core.sets) {
-            models_.back().push_back(std::make_unique<Model>(set.figures, core.placement, core.off));
-        }
-        call_.cores.emplace_back().half_cycles.resize(core.sets.size());
+        cores_.push_back(std::make_unique<Core>(core));
+        call_.cores.emplace_back().half_cycles.resize(3);
     }
 }
 
@@ -24,11 +26,11 @@ CallTimer::Site& CallTimer::site_of(const qemu::Instruction& instruction) {
     Site& site = sites_[instruction.index];
     if (!site.prepared) {
         const bool inside = it_block_.inside();
-        site.prepared = std::make_unique<Prepared>(
-            decode(instruction.encoding, instruction.bytes, it_block_.condition(), inside));
+        site.prepared =
+            std::make_unique<Prepared>(decode(instruction.encoding, instruction.bytes, it_block_.condition(), inside));
         site.address = instruction.address;
         site.entry = entries_.contains(instruction.address);
-        site.half_cycles.resize(models_.size());
+        site.half_cycles.resize(cores_.size());
     }
     return site;
 }
@@ -80,28 +82,19 @@ void CallTimer::flush(std::uint32_t next) {
     if (d.kind == Kind::unknown) {
         ++unknown_[site.address];
     }
-    for (std::size_t c = 0; c < models_.size(); ++c) {
-        CoreTime& time = call_.cores[c];
-        for (std::size_t s = 0; s < models_[c].size(); ++s) {
-            Model& model = *models_[c][s];
-            const std::int64_t position = model.execute(*site.prepared, site.address, accesses_, next);
-            if (s == 0) {
-                if (inside_) {
-                    (ends ? sites_[last_] : site).half_cycles[c] += position - positions_[c];
-                }
-                positions_[c] = position;
-                if (ends) {
-                    for (std::size_t e = 0; e < effect_count; ++e) {
-                        time.losses[e] = model.losses()[e] - time.losses[e];
-                    }
-                }
-            }
-            if (ends) {
-                time.half_cycles[s] = position - time.half_cycles[s];
-            }
+    for (std::size_t c = 0; c < cores_.size(); ++c) {
+        Core& core = *cores_[c];
+        const std::int64_t before = core.replay.positions()[0];
+        core.replay.execute(static_cast<std::uint32_t>(pending_), *site.prepared,
+                            core.surroundings.meet(d, site.address, accesses_, next));
+        if (inside_) {
+            (ends ? sites_[last_] : site).half_cycles[c] += core.replay.positions()[0] - before;
         }
     }
     if (ends) {
+        for (std::size_t c = 0; c < cores_.size(); ++c) {
+            end_call(*cores_[c], call_.cores[c]);
+        }
         inside_ = false;
         done_(call_);
     }
@@ -110,11 +103,9 @@ void CallTimer::flush(std::uint32_t next) {
         depth_ = returns_.size();
         call_.entry = site.address;
         call_.instructions = 0;
-        for (std::size_t c = 0; c < models_.size(); ++c) {
-            for (std::size_t s = 0; s < models_[c].size(); ++s) {
-                call_.cores[c].half_cycles[s] = models_[c][s]->position();
-            }
-            call_.cores[c].losses = models_[c][0]->losses();
+        for (std::size_t c = 0; c < cores_.size(); ++c) {
+            cores_[c]->begun = cores_[c]->replay.positions();
+            call_.cores[c].losses = cores_[c]->replay.losses();
         }
     }
     if (inside_) {
@@ -122,13 +113,25 @@ void CallTimer::flush(std::uint32_t next) {
     }
     last_ = pending_;
     sequential_ = site.address + d.bytes;
-    last_called_ = (d.branch == Branch::call || (d.branch == Branch::indirect && d.write_count > 0 &&
-                                                 d.writes[0].reg == registers::lr)) &&
+    last_called_ = (d.branch == Branch::call ||
+                    (d.branch == Branch::indirect && d.write_count > 0 && d.writes[0].reg == registers::lr)) &&
                    next != sequential_;
 }
 
+void CallTimer::end_call(const Core& core, CoreTime& time) {
+    std::array<std::int64_t, CoreFile::most_sets> taken{};
+    for (std::size_t s = 0; s < taken.size(); ++s) {
+        taken[s] = core.replay.positions()[s] - core.begun[s];
+    }
+    const Band band = band_of(core.file, std::span(taken).first(core.file.sets.size()));
+    time.half_cycles = {taken[0], band.low, band.high};
+    for (std::size_t e = 0; e < effect_count; ++e) {
+        time.losses[e] = core.replay.losses()[e] - time.losses[e];
+    }
+}
+
 std::vector<std::map<std::uint32_t, std::int64_t>> CallTimer::hot() const {
-    std::vector<std::map<std::uint32_t, std::int64_t>> tables(models_.size());
+    std::vector<std::map<std::uint32_t, std::int64_t>> tables(cores_.size());
     for (const Site& site : sites_) {
         for (std::size_t c = 0; c < site.half_cycles.size(); ++c) {
             if (site.half_cycles[c] != 0) {

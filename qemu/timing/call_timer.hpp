@@ -13,13 +13,14 @@
 
 #include "qemu/stream.hpp"
 #include "qemu/timing/decode.hpp"
-#include "qemu/timing/model.hpp"
+#include "qemu/timing/replay.hpp"
+#include "qemu/timing/surroundings.hpp"
 
 namespace timing {
 
 /// What one core takes for one call.
 struct CoreTime {
-    std::vector<std::int64_t> half_cycles;  ///< under each rule set, the nominal one first
+    std::vector<std::int64_t> half_cycles;  ///< nominal, and the low and high edge of its band
     Losses losses{};                        ///< half cycles, of the nominal set
 };
 
@@ -57,12 +58,20 @@ private:
         bool entry = false;
         std::vector<std::int64_t> half_cycles;  // by core
     };
+    struct Core {
+        CoreFile file;
+        Surroundings surroundings;
+        Replay replay;
+        std::array<std::int64_t, CoreFile::most_sets> begun{};  // positions at the call's beginning
+        explicit Core(const CoreFile& core);
+    };
     Site& site_of(const qemu::Instruction& instruction);
     void flush(std::uint32_t next);
     void follow_calls(const Site& site);
+    static void end_call(const Core& core, CoreTime& time);
 
     std::set<std::uint32_t> entries_;
-    std::vector<std::vector<std::unique_ptr<Model>>> models_;  // by core and rule set
+    std::vector<std::unique_ptr<Core>> cores_;
     std::function<void(const TimedCall&)> done_;
     std::vector<Site> sites_;
     ItBlock it_block_;
@@ -80,7 +89,6 @@ private:
     bool inside_ = false;
     std::size_t depth_ = 0;  // of returns_ at the entry
     TimedCall call_;
-    std::vector<std::int64_t> positions_;  // of each core's nominal set, of the last instruction
     std::map<std::uint32_t, std::uint64_t> unknown_;
     bool recursive_ = false;
 };

@@ -28,7 +28,8 @@ constexpr Key keys[] = {
 };
 
 const Key* find_key(const std::string& name) {
-    const auto* found = std::find_if(std::begin(keys), std::end(keys), [&](const Key& key) { return key.name == name; });
+    const auto* found =
+        std::find_if(std::begin(keys), std::end(keys), [&](const Key& key) { return key.name == name; });
     return found == std::end(keys) ? nullptr : found;
 }
 
@@ -79,13 +80,14 @@ Origin read_row(const std::string& key, const toml::node& node) {
         reject(*value, key + ": expected a number of at least 0, found " + std::to_string(number));
     }
     const std::string mark = text_of(*row, "mark");
-    return {key, number, mark_named(*row, mark), text_of(*row, "source"), *node.source().path, node.source().begin.line};
+    return {
+        key, number, mark_named(*row, mark), text_of(*row, "source"), *node.source().path, node.source().begin.line};
 }
 
 // Rows of all sections of a table: "issue" = { two_loads_pair = {..} } becomes "issue.two_loads_pair".
 void read_sections(const toml::table& sections, std::map<std::string, Origin>& rows) {
     for (const auto& [section, node] : sections) {
-        if (section == "note") {
+        if (section == "note" || section == "fits") {
             continue;  // of a rival set
         }
         const toml::table* table = node.as_table();
@@ -104,6 +106,7 @@ void read_sections(const toml::table& sections, std::map<std::string, Origin>& r
 
 struct Rival {
     std::string note;
+    bool fits = true;
     std::map<std::string, Origin> rows;
 };
 
@@ -135,7 +138,21 @@ void read_rivals(const toml::node& node, Collected& into) {
         }
         Rival rival;
         rival.note = text_of(*set, "note");
+        if (const toml::node* fits = set->get("fits")) {
+            if (!fits->is_boolean()) {
+                reject(*fits, "fits: expected true or false");
+            }
+            rival.fits = fits->as_boolean()->get();
+        }
         read_sections(*set, rival.rows);
+        for (const auto& [key, row] : rival.rows) {
+            // Memories and the predictor are the chip's: one for all sets.
+            if (key.starts_with("cache.") || key.starts_with("memory.") || key.starts_with("band.") ||
+                key.starts_with("measurement.") || key == "fetch.bytes" || key == "branch.target_entries") {
+                throw Failure(Exit::bad_input, row.file + ":" + std::to_string(row.line) + ": " + key +
+                                                   ": no row that a rival set may change");
+            }
+        }
         into.rivals.insert_or_assign(std::string(name.str()), std::move(rival));
     }
 }
@@ -254,21 +271,32 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
         throw Failure(Exit::bad_input, file.string() + ": expected placement = { code = \"..\", data = \"..\" }");
     }
     core.placement = *collected.placement;
-    core.sets.push_back({"nominal", "", {}});
+    core.sets.push_back({"nominal", "", {}, true});
     for (const Key& key : keys) {
         const auto row = collected.rows.find(key.name);
         if (row == collected.rows.end()) {
             throw Failure(Exit::bad_input, file.string() + ": expected the row " + key.name);
         }
+        const std::string name_of_row = key.name;
+        const bool is_width = name_of_row.ends_with("_bytes") || name_of_row == "fetch.bytes";
+        const auto value = static_cast<std::uint64_t>(row->second.value);
+        if (is_width && (value & (value - 1)) != 0) {
+            throw Failure(Exit::bad_input, row->second.file + ":" + std::to_string(row->second.line) + ": " + key.name +
+                                               ": expected a power of two, found " + std::to_string(value));
+        }
         core.sets[0].figures.*key.figure = row->second.value;
         core.origins.push_back(row->second);
     }
     for (const auto& [rival_name, rival] : collected.rivals) {
-        RuleSet set{rival_name, rival.note, core.sets[0].figures};
+        RuleSet set{rival_name, rival.note, core.sets[0].figures, rival.fits};
         for (const auto& [key, row] : rival.rows) {
             set.figures.*find_key(key)->figure = row.value;
         }
         core.sets.push_back(set);
+    }
+    if (core.sets.size() > CoreFile::most_sets) {
+        throw Failure(Exit::bad_input, file.string() + ": expected at most " + std::to_string(CoreFile::most_sets - 1) +
+                                           " rival sets, found " + std::to_string(core.sets.size() - 1));
     }
     return core;
 }

@@ -57,16 +57,18 @@ struct RuleSet {
     std::string name;  ///< "nominal", or the rival's
     std::string note;
     Figures figures;
+    bool fits = true;  ///< silicon; false: refuted, kept to tell how much of a figure is fitted
 };
 
 struct CoreFile {
+    static constexpr std::size_t most_sets = 8;
     std::string name;
     std::string note;
     Placement placement;
-    Effects off;                 ///< effects that cost nothing in this core
-    std::vector<RuleSet> sets;   ///< the nominal one first
-    std::vector<Origin> origins; ///< of the nominal set, in the order of rows.def
-    std::string text;            ///< of all files that it was read from, for its hash
+    Effects off;                  ///< effects that cost nothing in this core
+    std::vector<RuleSet> sets;    ///< the nominal one first
+    std::vector<Origin> origins;  ///< of the nominal set, in the order of rows.def
+    std::string text;             ///< of all files that it was read from, for its hash
 };
 
 /// Reads `<folder>/<name>.toml`, and what it is based on.

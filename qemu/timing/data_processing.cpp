@@ -104,6 +104,7 @@ void move_top(Decoded& d, uint32_t e) {
     d.read(Role::operand, rd(e));
 }
 void saturate(Decoded& d, uint32_t e) {
+    d.saturates = true;
     d.write(rd(e));
     d.read(Role::shifted, rn(e));
 }
@@ -164,13 +165,25 @@ void parallel(Decoded& d, uint32_t e) {
     if (field(e, 4, 2) == 0) {  // neither saturating nor halving
         d.write(registers::ge, Source::flags);
     }
+    d.saturates = field(e, 4, 2) == 1;
 }
 void two_operands(Decoded& d, uint32_t e) {
     d.write(rd(e));
     d.read(Role::operand, rn(e));
     d.read(Role::operand, rm(e));
 }
+void saturating_sum(Decoded& d, uint32_t e) {
+    d.saturates = true;
+    two_operands(d, e);
+}
+void doubled_saturating_sum(Decoded& d, uint32_t e) {  // Rm plus or minus twice Rn
+    d.saturates = true;
+    d.write(rd(e));
+    d.read(Role::shifted, rn(e));
+    d.read(Role::shifted, rm(e));
+}
 void reverse(Decoded& d, uint32_t e) {
+    d.early_result = true;
     d.write(rd(e));
     d.read(Role::shifted, rm(e));
 }
@@ -207,8 +220,12 @@ void long_product_sum(Decoded& d, uint32_t e) {
 void conditional_branch(Decoded& d, uint32_t e) {
     d.branch = Branch::conditional;
     d.condition = static_cast<std::uint8_t>(field(e, 22, 4));
+    d.backward = field(e, 26, 1) != 0;
 }
-void direct_branch(Decoded& d, uint32_t) { d.branch = d.condition == 0xE ? Branch::direct : Branch::conditional; }
+void direct_branch(Decoded& d, uint32_t e) {
+    d.branch = d.condition == 0xE ? Branch::direct : Branch::conditional;
+    d.backward = field(e, 26, 1) != 0;
+}
 void call(Decoded& d, uint32_t) {
     d.branch = Branch::call;
     d.write(registers::lr);
@@ -238,10 +255,10 @@ constexpr EncodingRow rows[] = {
     {0xFFE0F0F0, 0xFA60F000, "ror", Kind::shift, shift_by_register},
     {0xFF80F0C0, 0xFA00F080, "", Kind::bitfield, extend},
     {0xFF80F080, 0xFA80F000, "", Kind::bitfield, parallel},
-    {0xFFF0F0F0, 0xFA80F080, "qadd", Kind::bitfield, two_operands},
-    {0xFFF0F0F0, 0xFA80F090, "qdadd", Kind::bitfield, two_operands},
-    {0xFFF0F0F0, 0xFA80F0A0, "qsub", Kind::bitfield, two_operands},
-    {0xFFF0F0F0, 0xFA80F0B0, "qdsub", Kind::bitfield, two_operands},
+    {0xFFF0F0F0, 0xFA80F080, "qadd", Kind::bitfield, saturating_sum},
+    {0xFFF0F0F0, 0xFA80F090, "qdadd", Kind::bitfield, doubled_saturating_sum},
+    {0xFFF0F0F0, 0xFA80F0A0, "qsub", Kind::bitfield, saturating_sum},
+    {0xFFF0F0F0, 0xFA80F0B0, "qdsub", Kind::bitfield, doubled_saturating_sum},
     {0xFFF0F0F0, 0xFA90F080, "rev", Kind::bitfield, reverse},
     {0xFFF0F0F0, 0xFA90F090, "rev16", Kind::bitfield, reverse},
     {0xFFF0F0F0, 0xFA90F0A0, "rbit", Kind::bitfield, reverse},

@@ -94,11 +94,15 @@ struct Decoded {
     std::uint8_t condition = 0xE;     ///< of the IT block that it stands in, or of B<c>
     std::uint8_t registers = 0;       ///< loaded or stored
     std::uint8_t access_bytes = 0;    ///< of one register
+    bool backward = false;            ///< a direct branch to a lower address
     bool sets_flags = false;          ///< writes N, Z, C or V
     bool uses_shifter = false;        ///< an inline shifted operand, or a constant that is a shifted byte
     bool fused = false;               ///< of an fp_mac: VFMA rather than VMLA
     bool is_double = false;           ///< works on f64
     bool is_fp = false;               ///< of the FPU's register file
+    bool both_fp_ports = false;       ///< VMOV of two registers, VMRS, VMSR
+    bool early_result = false;        ///< of a bitfield: REV, RBIT, which are done before the ALU
+    bool saturates = false;           ///< of a bitfield: its result passes the saturation behind the ALU
     bool in_it_block = false;
     std::uint8_t read_count = 0;
     std::uint8_t write_count = 0;

@@ -145,6 +145,7 @@ void half_of_double(Decoded& d, uint32_t e) {
 }
 void two_core_registers(Decoded& d, uint32_t e) {
     d.is_fp = true;
+    d.both_fp_ports = true;
     const unsigned first = first_single(e, 0, 5, is_double(e));
     if (beyond(e, 5, is_double(e)) || first == registers::s0 + 31) {
         d.kind = Kind::unknown;
@@ -164,6 +165,7 @@ void two_core_registers(Decoded& d, uint32_t e) {
 }
 void status_to_core(Decoded& d, uint32_t e) {
     d.is_fp = true;
+    d.both_fp_ports = true;
     d.read(Role::condition, registers::fp_flags);
     if (field(e, 12, 4) == registers::pc) {
         d.sets_flags = true;
@@ -173,6 +175,7 @@ void status_to_core(Decoded& d, uint32_t e) {
 }
 void status_from_core(Decoded& d, uint32_t e) {
     d.is_fp = true;
+    d.both_fp_ports = true;
     d.write(registers::fp_flags, Source::flags);
     d.read(Role::operand, field(e, 12, 4));
 }

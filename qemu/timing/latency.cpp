@@ -1,6 +1,7 @@
 #include "qemu/timing/latency.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace timing {
 
@@ -8,8 +9,10 @@ Effect effect_of(Producer producer) {
     switch (producer) {
         case Producer::load_word:
         case Producer::load_narrow:
-        case Producer::fp_load: return Effect::load_use;
-        case Producer::multiply: return Effect::mac_latency;
+        case Producer::fp_load:
+            return Effect::load_use;
+        case Producer::multiply:
+            return Effect::mac_latency;
         case Producer::to_core:
         case Producer::compare:
         case Producer::fp_add:
@@ -22,8 +25,10 @@ Effect effect_of(Producer producer) {
         case Producer::fp_immediate:
         case Producer::add64:
         case Producer::mul64:
-        case Producer::mac64: return Effect::fpu_latency;
-        default: return Effect::result_latency;
+        case Producer::mac64:
+            return Effect::fpu_latency;
+        default:
+            return Effect::result_latency;
     }
 }
 
@@ -36,11 +41,11 @@ Latencies::Latencies(const Figures& f) {
         std::int64_t stage;
     };
     const Stage stages[] = {
-        {Consumer::address, f.read_address},           {Consumer::shifted, f.read_shifted},
-        {Consumer::operand, f.read_operand},           {Consumer::multiplicand, f.read_multiplicand},
-        {Consumer::accumulator, f.read_accumulator},   {Consumer::store_data, f.read_store_data},
-        {Consumer::condition, f.read_condition},       {Consumer::fp_operand, f.read_operand},
-        {Consumer::fma_accumulator, f.read_operand},   {Consumer::mla_accumulator, f.read_operand},
+        {Consumer::address, f.read_address},         {Consumer::shifted, f.read_shifted},
+        {Consumer::operand, f.read_operand},         {Consumer::multiplicand, f.read_multiplicand},
+        {Consumer::accumulator, f.read_accumulator}, {Consumer::store_data, f.read_store_data},
+        {Consumer::condition, f.read_condition},     {Consumer::fp_operand, f.read_operand},
+        {Consumer::fma_accumulator, f.read_operand}, {Consumer::mla_accumulator, f.read_operand},
         {Consumer::fp_store, f.read_store_data},
     };
     const auto staged = [&](Producer producer, std::int64_t result) {
@@ -53,16 +58,19 @@ Latencies::Latencies(const Figures& f) {
     staged(Producer::younger_add, f.result_late);
     set(Producer::younger_add, Consumer::address, f.result_younger_add_to_address - f.read_address);
     staged(Producer::bitfield, f.result_bitfield);
+    staged(Producer::reversed, f.result_reverse);
+    set(Producer::reversed, Consumer::address, f.result_bitfield - f.read_address);
+    staged(Producer::saturated, f.result_saturated);
     staged(Producer::base, f.result_base);
     staged(Producer::load_word, f.result_load_word);
-    set(Producer::load_word, Consumer::address,
-        f.result_load_word + f.result_load_to_address_extra - f.read_address);
     staged(Producer::load_narrow, f.result_load_narrow);
-    set(Producer::load_narrow, Consumer::address,
-        f.result_load_narrow + f.result_load_to_address_extra - f.read_address);
+    for (const auto& [producer, result] :
+         {std::pair(Producer::load_word, f.result_load_word), std::pair(Producer::load_narrow, f.result_load_narrow)}) {
+        set(producer, Consumer::address, result + f.result_load_to_address_extra - f.read_address);
+        set(producer, Consumer::multiplicand, result + f.result_load_to_multiplicand_extra - f.read_multiplicand);
+    }
     staged(Producer::multiply, f.result_multiply);
-    set(Producer::multiply, Consumer::address,
-        f.result_multiply + f.result_multiply_to_address_extra - f.read_address);
+    set(Producer::multiply, Consumer::address, f.result_multiply + f.result_multiply_to_address_extra - f.read_address);
     staged(Producer::divide, f.result_late);
     staged(Producer::flags, f.result_flags);
     staged(Producer::to_core, f.fp_to_core);
@@ -103,17 +111,23 @@ Latencies::Latencies(const Figures& f) {
 
 Consumer consumer_of(const Decoded& reader, Role role) {
     switch (role) {
-        case Role::address: return Consumer::address;
-        case Role::shifted: return Consumer::shifted;
-        case Role::condition: return Consumer::condition;
-        case Role::store_data: return reader.is_fp ? Consumer::fp_store : Consumer::store_data;
-        case Role::multiplicand: return reader.is_fp ? Consumer::fp_operand : Consumer::multiplicand;
+        case Role::address:
+            return Consumer::address;
+        case Role::shifted:
+            return Consumer::shifted;
+        case Role::condition:
+            return Consumer::condition;
+        case Role::store_data:
+            return reader.is_fp ? Consumer::fp_store : Consumer::store_data;
+        case Role::multiplicand:
+            return reader.is_fp ? Consumer::fp_operand : Consumer::multiplicand;
         case Role::accumulator:
             if (!reader.is_fp) {
                 return Consumer::accumulator;
             }
             return reader.fused ? Consumer::fma_accumulator : Consumer::mla_accumulator;
-        case Role::operand: break;
+        case Role::operand:
+            break;
     }
     return reader.is_fp_arithmetic() || reader.kind == Kind::fp_move || reader.kind == Kind::fp_to_core
                ? Consumer::fp_operand

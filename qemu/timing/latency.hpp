@@ -1,6 +1,7 @@
 // From which result to which use it takes how many cycles: one table, filled from the rows of a core file.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -17,6 +18,8 @@ enum class Producer : std::uint8_t {
     late,
     younger_add,
     bitfield,
+    reversed,
+    saturated,
     base,
     load_word,
     load_narrow,
@@ -64,6 +67,12 @@ public:
     /// The consumer may issue so many cycles after the producer; 0: with it.
     [[nodiscard]] std::int64_t between(Producer producer, Consumer consumer) const {
         return table_[static_cast<std::size_t>(producer)][static_cast<std::size_t>(consumer)];
+    }
+
+    /// Of all its consumers.
+    [[nodiscard]] std::int64_t longest(Producer producer) const {
+        const auto& row = table_[static_cast<std::size_t>(producer)];
+        return *std::max_element(row.begin(), row.end());
     }
 
 private:

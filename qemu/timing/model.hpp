@@ -16,9 +16,8 @@
 #include "qemu/timing/decoded.hpp"
 #include "qemu/timing/effects.hpp"
 #include "qemu/timing/latency.hpp"
-#include "qemu/timing/memory.hpp"
-#include "qemu/timing/predictor.hpp"
 #include "qemu/timing/store_buffer.hpp"
+#include "qemu/timing/surroundings.hpp"
 
 namespace timing {
 
@@ -32,96 +31,122 @@ struct Prepared {
     explicit Prepared(const Decoded& d);
 };
 
-class Model {
-public:
-    Model(const Figures& figures, Placement placement, Effects off);
-    Model(const Model&) = delete;
-    Model& operator=(const Model&) = delete;
+/// All that the core remembers of the instructions before. Cycles, but for the positions.
+struct State {
+    static constexpr std::int32_t never = -1000;
 
-    /// One executed instruction. \param next  address of the one that was executed after it
-    /// \return the half cycle in which it issues
-    std::int64_t execute(const Prepared& instruction, std::uint32_t address, std::span<const qemu::Access> accesses,
-                         std::uint32_t next);
-
-    /// Half cycle in which the last instruction issued.
-    [[nodiscard]] std::int64_t position() const { return position_; }
-    [[nodiscard]] const Losses& losses() const { return losses_; }
-
-private:
     struct Value {
-        std::int64_t cycle = -1000;  // its producer's, or for what comes later in one instruction, that much later
+        std::int32_t cycle = never;  // its producer's, or for what comes later in one instruction, that much later
         Producer producer = Producer::nothing;
+        bool operator==(const Value&) const = default;
     };
     struct Hold {
-        std::int64_t until = 0;  // half cycle
+        std::int32_t until = 0;  // position
         Effect effect = Effect::single_issue;
+        bool operator==(const Hold&) const = default;
     };
 
-    void hold(Effect effect, std::int64_t until);
-    void hold_next(Effect effect, std::int64_t until);
-    void hold_cycle(Effect effect, std::int64_t cycle) { hold(effect, 2 * cycle); }
+    // The instruction in the older slot, if the younger is still open.
+    const Decoded* older = nullptr;
+    bool older_taken = false;
+    bool older_accesses = false;
+    bool older_odd_word = false;
+    bool older_has_banks = false;
+    bool mac64_before = false;
 
-    void wait_for_bytes(const Decoded& d, std::uint32_t address);
+    std::int32_t position = -1;        // of the instruction at work; before that, of its predecessor
+    std::array<Hold, 4> next_holds{};  // what the last instruction makes the next one wait for
+    std::size_t next_hold_count = 0;
+
+    // The FPU.
+    std::int32_t last_mac = never;
+    std::int32_t mac_before = never;  // the one before the last
+    std::int32_t last_mla = never;
+    std::int32_t last_fp_load = never;
+    std::int32_t last_fp_store = never;
+    std::int32_t last_move = never;
+    std::int32_t fp_busy_until = 0;    // for arithmetic alone
+    std::int32_t fp_blocks_until = 0;  // for everything, from the cycle behind its issue
+    std::int32_t fp_blocks_from = 0;
+
+    // Fetching.
+    std::int32_t fetch_ready = -1;             // cycle in which the word at hand is there
+    std::array<std::int32_t, 8> fetch_used{};  // cycles in which the last words were first used, the newest first
+
+    std::array<std::int32_t, stores_watched> stored;          // cycles of the last stores, the newest first
+    std::array<std::int32_t, 2> late_fp_store{never, never};  // by bank: cycle of an FP store not yet met
+    StoreBuffer store_buffer;
+
+    std::array<std::int32_t, 32> multiplicand_of_mac;  // cycle in which a MAC read each register
+    std::array<Value, registers::count> values{};
+
+    State();
+    bool operator==(const State&) const = default;
+};
+
+/// The core under one rule set.
+class Pipeline {
+public:
+    Pipeline(const Figures& figures, Effects off);
+    Pipeline(const Pipeline&) = delete;
+    Pipeline& operator=(const Pipeline&) = delete;
+
+    /// One executed instruction: moves `state` on, and adds to `losses`.
+    void execute(const Prepared& instruction, const Event& event);
+
+    /// Sets the clock back so that the state's position is 0 or 1, and forgets what can hold nothing any more: two
+    /// states that become equal behave alike for ever. \return cycles that it was set back by
+    std::int32_t settle();
+
+    State state;
+    Losses losses{};
+
+private:
+    void hold(Effect effect, std::int32_t until);
+    void hold_next(Effect effect, std::int32_t until);
+    void hold_cycle(Effect effect, std::int64_t cycle) { hold(effect, static_cast<std::int32_t>(2 * cycle)); }
+
+    void wait_for_bytes(const Event& event);
     void wait_for_operands(const Prepared& instruction);
     void wait_for_fpu(const Decoded& d);
     void wait_for_division();
-    void wait_for_stores(const Decoded& d, std::span<const qemu::Access> accesses);
-    void wait_for_a_slot(const Decoded& d, std::span<const qemu::Access> accesses);
-    [[nodiscard]] bool banks_conflict(std::span<const qemu::Access> accesses) const;
+    void wait_for_stores(const Decoded& d, const Event& event);
+    void wait_for_a_slot(const Decoded& d, const Event& event);
+    [[nodiscard]] bool banks_conflict(const Event& event) const;
 
     [[nodiscard]] Producer producer_of(const Prepared& instruction) const;
     void write_results(const Prepared& instruction);
-    void occupy(const Decoded& d, std::span<const qemu::Access> accesses);
-    void access_memory(const Decoded& d, std::span<const qemu::Access> accesses);
-    void follow_branch(const Decoded& d, std::uint32_t address, std::uint32_t next);
+    void occupy(const Decoded& d, const Event& event);
+    void access_memory(const Decoded& d, const Event& event);
+    void follow_branch(const Decoded& d, const Event& event);
     void note_fpu(const Decoded& d);
 
     Figures figures_;
     Effects off_;
     Latencies latencies_;
-    Memory memory_;
-    Predictor predictor_;
-    StoreBuffer store_buffer_;
+    std::int32_t fp_memory_;         // cycles behind which no rule looks back at an FP instruction
+    std::int64_t result_delay_ = 0;  // cycles that the loads of the instruction at work come late
+};
 
-    Losses losses_{};
-    std::int64_t position_ = -1;  // of the instruction at work; before that, of its predecessor
-    std::array<Value, registers::count> values_{};
-    std::array<Hold, 8> next_holds_{};  // what the last instruction makes the next one wait for
-    std::size_t next_hold_count_ = 0;
-    std::int64_t result_delay_ = 0;  // cycles that the loads of this instruction come late
+/// The core with its surroundings, each instruction computed as it comes. `Replay` (replay.hpp) gives the same, faster.
+/// For short programs: its positions end after 10^9 cycles.
+class Model {
+public:
+    Model(const Figures& figures, Placement placement, Effects off)
+        : surroundings_(figures, placement), pipeline_(figures, off) {}
 
-    // The instruction in the older slot, if the younger is still open.
-    const Decoded* older_ = nullptr;
-    bool older_taken_ = false;
-    bool older_has_access_ = false;
-    qemu::Access older_access_{};
+    /// One executed instruction. \param next  address of the one that was executed after it
+    /// \return the half cycle in which it issues
+    std::int64_t execute(const Prepared& instruction, std::uint32_t address, std::span<const qemu::Access> accesses,
+                         std::uint32_t next) {
+        pipeline_.execute(instruction, surroundings_.meet(instruction.decoded, address, accesses, next));
+        return pipeline_.state.position;
+    }
+    [[nodiscard]] const Losses& losses() const { return pipeline_.losses; }
 
-    // The FPU.
-    std::int64_t last_mac_ = -1000;
-    std::int64_t mac_before_ = -1000;  // the one before the last
-    std::int64_t last_mla_ = -1000;
-    std::int64_t last_fp_load_ = -1000;
-    std::int64_t last_move_ = -1000;
-    std::int64_t fp_busy_until_ = 0;      // for arithmetic alone
-    std::int64_t fp_blocks_until_ = 0;    // for everything, from the cycle behind its issue
-    std::int64_t fp_blocks_from_ = 0;
-    bool mac64_before_ = false;
-    std::array<std::int64_t, 32> multiplicand_of_mac_{};  // cycle in which a MAC read each register
-
-    // Fetching.
-    std::uint32_t fetched_ = 0xFFFFFFFFU;  // number of the word at hand
-    std::int64_t fetch_ready_ = -1;        // cycle in which it is there
-    std::array<std::int64_t, 8> fetch_used_{};  // cycles in which the last words were first used
-    std::size_t fetch_count_ = 0;
-
-    // Stores that a load may meet.
-    struct Stored {
-        std::uint32_t word = 0xFFFFFFFFU;
-        std::int64_t cycle = -1000;
-    };
-    std::array<Stored, 8> stored_{};
-    std::size_t stored_count_ = 0;
-    std::array<std::int64_t, 2> late_fp_store_{-1000, -1000};  // by bank: cycle of an FP store not yet met
+private:
+    Surroundings surroundings_;
+    Pipeline pipeline_;
 };
 
 }  // namespace timing

@@ -149,6 +149,7 @@ void extend(Decoded& d, uint32_t e) {
     d.read(Role::operand, middle(e));
 }
 void reverse(Decoded& d, uint32_t e) {
+    d.early_result = true;
     d.write(low(e));
     d.read(Role::shifted, middle(e));
 }
@@ -199,8 +200,12 @@ void compare_and_branch(Decoded& d, uint32_t e) {
 void branch_if(Decoded& d, uint32_t e) {
     d.branch = Branch::conditional;
     d.condition = static_cast<std::uint8_t>(field(e, 8, 4));
+    d.backward = field(e, 7, 1) != 0;
 }
-void branch(Decoded& d, uint32_t) { d.branch = d.condition == 0xE ? Branch::direct : Branch::conditional; }
+void branch(Decoded& d, uint32_t e) {
+    d.branch = d.condition == 0xE ? Branch::direct : Branch::conditional;
+    d.backward = field(e, 10, 1) != 0;
+}
 void nothing(Decoded&, uint32_t) {}
 
 constexpr EncodingRow rows[] = {

@@ -19,6 +19,9 @@ bool either_way(const Decoded& a, const Decoded& b, IsOne one, IsOther other, bo
 }  // namespace
 
 bool issues_alone(const Decoded& d, const Figures& f) {
+    if (d.both_fp_ports && f.fp_both_ports_pair == 0) {
+        return true;
+    }
     switch (d.kind) {
         case Kind::unknown:
         case Kind::system:
@@ -50,7 +53,6 @@ bool may_pair(const Decoded& older, const Decoded& younger, bool older_taken, co
     const auto fp_load_store = [](const Decoded& d) { return d.is_fp; };
     return !(both(older, younger, branches, f.issue_two_branches_pair != 0) ||
              both(older, younger, shifted, f.issue_two_shifted_operands_pair != 0) ||
-             both(older, younger, is(Kind::bitfield), f.issue_two_bitfields_pair != 0) ||
              both(older, younger, is(Kind::multiply), f.issue_two_multiplies_pair != 0) ||
              both(older, younger, is(Kind::load), f.issue_two_loads_pair != 0) ||
              both(older, younger, is(Kind::store), f.issue_two_stores_pair != 0) ||

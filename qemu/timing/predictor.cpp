@@ -1,18 +1,22 @@
 #include "qemu/timing/predictor.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace timing {
 
 Predictor::Predictor(std::int64_t entries)
-    : entries_(static_cast<std::size_t>(std::max<std::int64_t>(1, entries / static_cast<std::int64_t>(ways))) * ways) {}
+    : entries_(std::bit_floor(
+                   static_cast<std::size_t>(std::max<std::int64_t>(1, entries / static_cast<std::int64_t>(ways)))) *
+               ways),
+      last_set_(entries_.size() / ways - 1) {}
 
 Prediction Predictor::meet(const Decoded& branch, std::uint32_t address, std::uint32_t next) {
     const bool taken = next != address + branch.bytes;
-    Entry* const first = &entries_[(address >> 1) % (entries_.size() / ways) * ways];
+    Entry* const first = &entries_[(address >> 1 & last_set_) * ways];
     Entry* const found = std::find_if(first, first + ways, [&](const Entry& one) { return one.address == address; });
     const bool known = found != first + ways;
-    if (known || taken) {
+    if (found != first && (known || taken)) {
         std::rotate(first, known ? found : first + ways - 1, (known ? found : first + ways - 1) + 1);
     }
     Entry& entry = *first;
@@ -29,10 +33,9 @@ Prediction Predictor::meet(const Decoded& branch, std::uint32_t address, std::ui
         prediction = Prediction::wrong;
     } else if (taken) {
         // The static rule: backward branches are taken, forward ones are not.
-        const bool guessed = !conditional || next < address;
-        prediction = guessed ? Prediction::right_without_entry : Prediction::wrong;
-    } else if (conditional && !taken) {
-        prediction = Prediction::right;
+        prediction = !conditional || branch.backward ? Prediction::right_without_entry : Prediction::wrong;
+    } else if (branch.backward) {
+        prediction = Prediction::wrong;
     }
 
     if (known) {

@@ -28,7 +28,8 @@ private:
         int confidence = 0;  // 0 to 3; from 2 on: taken
     };
     static constexpr std::size_t ways = 4;
-    std::vector<Entry> entries_;  // of each set together, the most recently used first
+    std::vector<Entry> entries_;  // of each set together, the most recently used first; a power of two of sets
+    std::size_t last_set_;
 };
 
 }  // namespace timing

@@ -46,8 +46,10 @@ timing::Decoded branch(timing::Branch kind) {
 
 TEST(Predictor, ALoopIsMissedOnceAtItsEnd) {
     timing::Predictor predictor(64);
-    const auto bne = branch(timing::Branch::conditional);
-    EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right_without_entry);  // backward: taken
+    auto bne = branch(timing::Branch::conditional);
+    bne.backward = true;
+    EXPECT_EQ(predictor.meet(bne, 0x210, 0x212), timing::Prediction::wrong);                // backward: taken, it says
+    EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right_without_entry);  // and so it is
     for (int turn = 0; turn < 8; ++turn) {
         EXPECT_EQ(predictor.meet(bne, 0x110, 0x100), timing::Prediction::right);
     }
@@ -73,14 +75,14 @@ TEST(Predictor, AReturnGoesWhereItWentLast) {
 TEST(StoreBuffer, IsFullWhenItsBankFallsBehind) {
     timing::Figures figures = probe::core("stm32f746-itcm").figures;
     figures.store_entries = 4;
-    timing::StoreBuffer buffer(figures);
+    timing::StoreBuffer buffer;
     for (int cycle = 0; cycle < 4; ++cycle) {
-        EXPECT_LE(buffer.free_from(), cycle);
-        buffer.add(cycle, 0x20000000, 1, 0);  // 4 cycles each, all on one bank: done at 4, 8, 12, 16
+        EXPECT_LE(buffer.free_from(figures), cycle);
+        buffer.add(figures, cycle, 0, false, 1, 0);  // 4 cycles each, all on one bank: done at 4, 8, 12, 16
     }
-    EXPECT_EQ(buffer.free_from(), 4);
-    buffer.add(4, 0x20000000, 1, 0);
-    EXPECT_EQ(buffer.free_from(), 8);
+    EXPECT_EQ(buffer.free_from(figures), 4);
+    buffer.add(figures, 4, 0, false, 1, 0);
+    EXPECT_EQ(buffer.free_from(figures), 8);
 }
 
 TEST(ItBlock, GivesEachMemberItsCondition) {

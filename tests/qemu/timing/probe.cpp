@@ -75,6 +75,36 @@ std::int32_t branch_offset(std::uint32_t e, std::uint8_t bytes) {
     return 4 + 2 * sign(s << 23 | i1 << 22 | i2 << 21 | (e >> 16 & 0x3FF) << 11 | (e & 0x7FF), 24);
 }
 
+bool accesses_data(const Decoded& d) { return d.registers > 0 && d.branch == timing::Branch::none; }
+
+struct Text {
+    std::vector<listing::Line> lines;
+    std::vector<timing::Prepared> prepared;
+    std::vector<Place> places;  // of those that access memory
+};
+
+// Each text is assembled and decoded once.
+const Text& text_of(const std::string& assembly) {
+    static std::map<std::string, Text> texts;
+    const auto [at, is_new] = texts.try_emplace(assembly);
+    Text& text = at->second;
+    if (is_new) {
+        text.lines = listing::assemble(assembly);
+        timing::ItBlock it;
+        for (const listing::Line& line : text.lines) {
+            text.prepared.emplace_back(timing::decode(line.encoding, line.bytes, it.condition(), it.inside()));
+            const Decoded& d = text.prepared.back().decoded;
+            text.places.push_back(accesses_data(d) ? place_of(line, d) : Place{});
+            if (d.kind == timing::Kind::if_then) {
+                it.begin(line.encoding);
+            } else {
+                it.advance();
+            }
+        }
+    }
+    return text;
+}
+
 }  // namespace
 
 Setting core(const std::string& name) {
@@ -83,17 +113,7 @@ Setting core(const std::string& name) {
 }
 
 Outcome run(const std::string& assembly, const Setting& setting) {
-    const std::vector<listing::Line> lines = listing::assemble(assembly);
-    std::vector<timing::Prepared> prepared;
-    timing::ItBlock it;
-    for (const listing::Line& line : lines) {
-        prepared.emplace_back(timing::decode(line.encoding, line.bytes, it.condition(), it.inside()));
-        if (prepared.back().decoded.kind == timing::Kind::if_then) {
-            it.begin(line.encoding);
-        } else {
-            it.advance();
-        }
-    }
+    const auto& [lines, prepared, places] = text_of(assembly);
     std::map<unsigned, std::uint32_t> registers;
     for (unsigned reg = 0; reg < 13; ++reg) {
         registers[reg] = 0x20000000U + 0x100 * reg;
@@ -110,8 +130,8 @@ Outcome run(const std::string& assembly, const Setting& setting) {
         const Decoded& d = prepared[i].decoded;
         outcome.unknown += d.kind == timing::Kind::unknown ? 1 : 0;
         std::vector<qemu::Access> accesses;
-        if (d.registers > 0 && d.branch == timing::Branch::none) {
-            const Place place = place_of(lines[i], d);
+        if (accesses_data(d)) {
+            const Place& place = places[i];
             const std::uint32_t first = registers[place.base] + static_cast<std::uint32_t>(place.before);
             const bool one_of_eight = std::string(d.mnemonic) == "vldr" && d.registers == 2;
             for (unsigned n = 0; n < (one_of_eight ? 1U : d.registers); ++n) {
@@ -123,7 +143,8 @@ Outcome run(const std::string& assembly, const Setting& setting) {
         if (d.branch == timing::Branch::direct || d.branch == timing::Branch::conditional) {
             const std::uint32_t target =
                 lines[i].address + static_cast<std::uint32_t>(branch_offset(lines[i].encoding, lines[i].bytes));
-            if (target <= lines[i].address && ++turns[i] < setting.turns) {
+            const bool backward = target <= lines[i].address;
+            if (backward ? ++turns[i] < setting.turns : d.branch == timing::Branch::direct) {
                 next = static_cast<std::size_t>(
                     std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.address == target; }) -
                     lines.begin());
@@ -146,6 +167,14 @@ double steady_cycles(const std::string& assembly, const Setting& setting) {
         }
         // Two bundles of their own make the end the same, whatever the last copy leaves behind.
         return run(text + "dsb\n", setting).positions.back();
+    };
+    return static_cast<double>(position_behind(24) - position_behind(16)) / 2.0 / 8.0;
+}
+
+double steady_turns(const std::string& assembly, Setting setting) {
+    const auto position_behind = [&](unsigned turns) {
+        setting.turns = turns;
+        return run(".p2align 3\n" + assembly + "\ndsb\n", setting).positions.back();
     };
     return static_cast<double>(position_behind(24) - position_behind(16)) / 2.0 / 8.0;
 }

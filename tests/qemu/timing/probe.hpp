@@ -2,7 +2,7 @@
 //
 // Registers hold addresses only as far as loads and stores move them: r0 to r9 begin at 0x20000000 + 0x100 * n, sp at
 // 0x20010000; a written-back base moves. Nothing else is computed. A backward branch is taken on every turn but the
-// last, a forward one never.
+// last, a forward one if it is unconditional.
 #pragma once
 
 #include <cstdint>
@@ -38,5 +38,8 @@ struct Setting {
 /// Cycles that one more copy of the text takes, in a steady run of copies: 24 against 16 of them. A copy has labels of
 /// its own if it uses local numeric ones.
 [[nodiscard]] double steady_cycles(const std::string& assembly, const Setting& setting);
+
+/// Cycles that one more turn of the loop takes, in a steady run: 24 against 16 turns.
+[[nodiscard]] double steady_turns(const std::string& assembly, Setting setting);
 
 }  // namespace probe

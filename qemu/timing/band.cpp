@@ -1,0 +1,32 @@
+#include "qemu/timing/band.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+namespace timing {
+
+Band band_of(const CoreFile& core, std::span<const std::int64_t> figures) {
+    const auto nominal = static_cast<double>(figures[0]);
+    double low = nominal;
+    double high = nominal;
+    double furthest = 0.0;  // of the set without fitted rules, too
+    for (std::size_t s = 0; s < figures.size(); ++s) {
+        const auto figure = static_cast<double>(figures[s]);
+        furthest = std::max(furthest, std::abs(figure - nominal));
+        if (core.sets[s].fits) {
+            low = std::min(low, figure);
+            high = std::max(high, figure);
+        }
+    }
+    const double published = static_cast<double>(core.sets[0].figures.band_published_permille) / 1000.0;
+    const double fitted = static_cast<double>(core.sets[0].figures.band_fitted_permille) / 1000.0;
+    const double share = nominal > 0.0 ? furthest / nominal : 0.0;
+    const double margin = std::min(published + share, std::max(fitted, published));
+    const double middle = (low + high) / 2.0;
+    const double half = std::min((high - low) / 2.0 + margin * middle, std::max(fitted, margin) * nominal);
+    const double centre = std::clamp(middle, nominal - half, nominal + half);
+    return {static_cast<std::int64_t>(std::floor(centre - half)), static_cast<std::int64_t>(std::ceil(centre + half))};
+}
+
+}  // namespace timing

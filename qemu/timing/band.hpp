@@ -1,0 +1,23 @@
+// How far a predicted figure may be from silicon.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "qemu/timing/core_file.hpp"
+
+namespace timing {
+
+struct Band {
+    std::int64_t low;
+    std::int64_t high;
+};
+
+/// From what the rule sets of a core say of the same call: the spread of those that fit silicon, and to both sides what
+/// predictions missed silicon by: `band.published_permille` where published rules decide alone, up to
+/// `band.fitted_permille` as far as fitted rules change the figure. No wider than twice that, of the nominal
+/// figure, which lies inside.
+/// \param figures  any unit, under each set of the core, in their order
+[[nodiscard]] Band band_of(const CoreFile& core, std::span<const std::int64_t> figures);
+
+}  // namespace timing
