@@ -16,12 +16,12 @@ struct TimedCalls {
 
     static constexpr std::size_t whole_turn = 64;  ///< a turn that is no longer is timed whole
     static constexpr std::size_t groups = 4;       ///< of a longer one, so many groups of so many calls
-    static constexpr std::size_t group = 4;
+    static constexpr std::size_t group = 2;
 
     /// How many calls let caches and predictor settle before the steady ones.
-    [[nodiscard]] constexpr std::size_t settling() const { return software_double ? 1 : 3; }
+    [[nodiscard]] constexpr std::size_t settling() const { return software_double ? 0 : 2; }
     /// How many calls the steady figure is the mean of.
-    [[nodiscard]] constexpr std::size_t steady() const { return software_double ? 4 : 32; }
+    [[nodiscard]] constexpr std::size_t steady() const { return software_double ? 1 : 8; }
     [[nodiscard]] constexpr bool is_steady(std::size_t call) const { return call > taps && call <= taps + steady(); }
     /// Whether the past was full before this call.
     [[nodiscard]] constexpr bool is_full(std::size_t call) const { return call > taps; }

@@ -32,7 +32,7 @@ bare=$seconds
 status=0
 for core in "$@"; do
     printf 'folder %s\ncore %s - - 1\n' "$root/qemu/cores" "$core" >"$work/request"
-    run "$plugin,watch=$work/watch,out=$work/log,timing=$work/request"
+    run "$plugin,watch=$work/watch,timing=$work/request,times=$work/log"
     instructions=$(awk '/^calls/ { n += $2 * $4 } END { print n }' "$work/log")
     awk -v core="$core" -v n="$instructions" -v bare="$bare" -v s="$seconds" 'BEGIN {
         printf "%-24s %6.1f million instructions, %6.2f s: %6.1f million a second (without the model %.2f s)\n",
