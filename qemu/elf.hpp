@@ -46,7 +46,7 @@ private:
     std::filesystem::path path_;
     std::vector<Section> sections_;
     std::map<std::string, std::uint32_t> symbols_;
-    std::vector<unsigned char> attributes_;  // .ARM.attributes
+    std::vector<unsigned char> attributes_;        // .ARM.attributes
     std::map<std::uint32_t, Function> functions_;  // by address
 };
 

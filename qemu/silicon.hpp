@@ -22,7 +22,8 @@ struct MeasuredCycles {
     unsigned line;
 };
 
-/// \throws glsum::Failure (bad input) with file and line for a column that is missing, a ragged row, a word or number that
+/// \throws glsum::Failure (bad input) with file and line for a column that is missing, a ragged row, a word or number
+/// that
 ///         is none, and a file without rows
 [[nodiscard]] std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& file);
 
@@ -41,7 +42,8 @@ struct SiliconProgram {
 
 /// Predictions, row by row, on a core of the folder with each row's placement.
 /// A kernel is a loop of the program's (targets/firmware/silicon_loops.def), or else one of the registry's.
-/// \throws glsum::Failure (bad input) naming file and line for a kernel that the program does not have, and for more taps
+/// \throws glsum::Failure (bad input) naming file and line for a kernel that the program does not have, and for more
+/// taps
 ///         than it takes
 [[nodiscard]] std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::filesystem::path& file,
                                                    const std::vector<MeasuredCycles>& rows, const std::string& core,

@@ -26,9 +26,9 @@ std::uint32_t cycles();
 
 /// Where kernels and their data lie, in the words of a file of measured cycles.
 struct Memories {
-    std::string_view code;  ///< flash_cached, flash or itcm
-    std::string_view data;  ///< dtcm or axi
-    bool maintenance;       ///< whether each call's timing is to hold a clean and invalidate of the data cache
+    std::string_view code;   ///< flash_cached, flash or itcm
+    std::string_view data;   ///< dtcm or axi
+    bool maintenance;        ///< whether each call's timing is to hold a clean and invalidate of the data cache
     std::string_view setup;  ///< what else a measurement depends on, in one word
 };
 Memories memories();

@@ -75,10 +75,10 @@ struct Reach {
     ErrorAt best;
 };
 
-/// Finds the shortest length that meets the limit. Truncation guides: every length up to the first whose truncation meets
-/// it, and that rounding within its bound can bring there, is measured, from the shortest on. If rounding is in the way
-/// beyond, a ladder is tried (each rung a quarter longer than the last, up to full memory) and the lengths below the
-/// first rung that meets the limit; a kernel that misses it by more than a quarter at every rung is given up.
+/// Finds the shortest length that meets the limit. Truncation guides: every length up to the first whose truncation
+/// meets it, and that rounding within its bound can bring there, is measured, from the shortest on. If rounding is in
+/// the way beyond, a ladder is tried (each rung a quarter longer than the last, up to full memory) and the lengths
+/// below the first rung that meets the limit; a kernel that misses it by more than a quarter at every rung is given up.
 [[nodiscard]] Reach reach(ErrorSource& errors, const std::string& kernel, double limit);
 
 /// Chooses among `kernels`. \param jobs  threads for the errors \param progress  whether to show it

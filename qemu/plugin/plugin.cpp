@@ -210,8 +210,9 @@ bool read_options(int argc, char** argv, Options& options) {
     }
     if (options.entries.empty() || (options.out_path.empty() && options.times_path.empty()) ||
         options.times_path.empty() != options.request_path.empty()) {
-        std::fprintf(stderr,
-                     "plugin: expected watch=FILE with at least one address, and out=FILE, timing= and times=, or all\n");
+        std::fprintf(
+            stderr,
+            "plugin: expected watch=FILE with at least one address, and out=FILE, timing= and times=, or all\n");
         return false;
     }
     return true;

@@ -21,10 +21,10 @@ struct Alias {
     const char* without_first;
 };
 constexpr Alias aliases[16] = {
-    {"and", "tst", nullptr}, {"bic", nullptr, nullptr}, {"orr", nullptr, "mov"}, {"orn", nullptr, "mvn"},
-    {"eor", "teq", nullptr}, {nullptr, nullptr, nullptr}, {"pkhbt", nullptr, nullptr}, {nullptr, nullptr, nullptr},
-    {"add", "cmn", nullptr}, {nullptr, nullptr, nullptr}, {"adc", nullptr, nullptr}, {"sbc", nullptr, nullptr},
-    {nullptr, nullptr, nullptr}, {"sub", "cmp", nullptr}, {"rsb", nullptr, nullptr}, {nullptr, nullptr, nullptr},
+    {"and", "tst", nullptr},     {"bic", nullptr, nullptr},   {"orr", nullptr, "mov"},     {"orn", nullptr, "mvn"},
+    {"eor", "teq", nullptr},     {nullptr, nullptr, nullptr}, {"pkhbt", nullptr, nullptr}, {nullptr, nullptr, nullptr},
+    {"add", "cmn", nullptr},     {nullptr, nullptr, nullptr}, {"adc", nullptr, nullptr},   {"sbc", nullptr, nullptr},
+    {nullptr, nullptr, nullptr}, {"sub", "cmp", nullptr},     {"rsb", nullptr, nullptr},   {nullptr, nullptr, nullptr},
 };
 enum Operation : unsigned { pack = 6, add = 8, adc = 10, sbc = 11, sub = 13 };
 

@@ -25,12 +25,17 @@ bool issues_alone(const Decoded& d, const Figures& f) {
     switch (d.kind) {
         case Kind::unknown:
         case Kind::system:
-        case Kind::barrier: return f.issue_system_pairs == 0;
+        case Kind::barrier:
+            return f.issue_system_pairs == 0;
         case Kind::load_multiple:
-        case Kind::store_multiple: return f.issue_multiple_pairs == 0;
-        case Kind::divide: return f.issue_divide_pairs == 0;
-        case Kind::if_then: return f.issue_if_then_pairs == 0;
-        default: return false;
+        case Kind::store_multiple:
+            return f.issue_multiple_pairs == 0;
+        case Kind::divide:
+            return f.issue_divide_pairs == 0;
+        case Kind::if_then:
+            return f.issue_if_then_pairs == 0;
+        default:
+            return false;
     }
 }
 
@@ -39,7 +44,8 @@ bool may_pair(const Decoded& older, const Decoded& younger, bool older_taken, co
         return false;
     }
     if (older.branch != Branch::none) {
-        const bool allowed = older_taken ? f.issue_taken_branch_pairs_with_target != 0 : f.issue_untaken_branch_pairs != 0;
+        const bool allowed =
+            older_taken ? f.issue_taken_branch_pairs_with_target != 0 : f.issue_untaken_branch_pairs != 0;
         if (!allowed) {
             return false;
         }
@@ -51,17 +57,18 @@ bool may_pair(const Decoded& older, const Decoded& younger, bool older_taken, co
     const auto branches = [](const Decoded& d) { return d.branch != Branch::none; };
     const auto shifted = [](const Decoded& d) { return d.uses_shifter; };
     const auto fp_load_store = [](const Decoded& d) { return d.is_fp; };
-    return !(both(older, younger, branches, f.issue_two_branches_pair != 0) ||
-             both(older, younger, shifted, f.issue_two_shifted_operands_pair != 0) ||
-             both(older, younger, is(Kind::multiply), f.issue_two_multiplies_pair != 0) ||
-             both(older, younger, is(Kind::load), f.issue_two_loads_pair != 0) ||
-             both(older, younger, is(Kind::store), f.issue_two_stores_pair != 0) ||
-             both(older, younger, [](const Decoded& d) { return d.is_fp_arithmetic(); },
-                  f.fp_two_arithmetic_pair != 0) ||
-             both(older, younger, moves_between_files, f.fp_two_moves_pair != 0) ||
-             either_way(older, younger, is(Kind::multiply), is(Kind::store), f.issue_multiply_pairs_with_store != 0) ||
-             either_way(older, younger, is(Kind::load), is(Kind::store), f.issue_load_pairs_with_store != 0) ||
-             either_way(older, younger, is_fp_division, fp_load_store, false));
+    return !(
+        both(older, younger, branches, f.issue_two_branches_pair != 0) ||
+        both(older, younger, shifted, f.issue_two_shifted_operands_pair != 0) ||
+        both(older, younger, is(Kind::multiply), f.issue_two_multiplies_pair != 0) ||
+        both(older, younger, is(Kind::load), f.issue_two_loads_pair != 0) ||
+        both(older, younger, is(Kind::store), f.issue_two_stores_pair != 0) ||
+        both(
+            older, younger, [](const Decoded& d) { return d.is_fp_arithmetic(); }, f.fp_two_arithmetic_pair != 0) ||
+        both(older, younger, moves_between_files, f.fp_two_moves_pair != 0) ||
+        either_way(older, younger, is(Kind::multiply), is(Kind::store), f.issue_multiply_pairs_with_store != 0) ||
+        either_way(older, younger, is(Kind::load), is(Kind::store), f.issue_load_pairs_with_store != 0) ||
+        either_way(older, younger, is_fp_division, fp_load_store, false));
 }
 
 }  // namespace timing

@@ -16,9 +16,8 @@ const std::filesystem::path cores(TEST_CORES);
 
 TEST(CoreFile, TheNamedCoresAreThere) {
     EXPECT_EQ(timing::core_names(cores),
-              (std::vector<std::string>{"m7-ideal", "stm32f746-flash", "stm32f746-flash-art",
-                                        "stm32f746-flash-nocache", "stm32f746-itcm", "stm32h747-axi",
-                                        "stm32h747-dtcm"}));
+              (std::vector<std::string>{"m7-ideal", "stm32f746-flash", "stm32f746-flash-art", "stm32f746-flash-nocache",
+                                        "stm32f746-itcm", "stm32h747-axi", "stm32h747-dtcm"}));
     for (const std::string& name : timing::core_names(cores)) {
         const timing::CoreFile core = timing::read_core(cores, name);
         EXPECT_GE(core.sets.size(), 2U) << name;
@@ -75,8 +74,9 @@ TEST(CoreFile, DamageIsNamedWithFileAndLine) {
     EXPECT_NE(message_after(base, "[rows.read]", "[rows.read").find("_cortex-m7.toml:"), std::string::npos);
     EXPECT_NE(message_after(base, "store_data = ", "# ").find("expected the row read.store_data"), std::string::npos);
     EXPECT_NE(message_after(base, "fits = false", "fits = 0").find("fits: expected true or false"), std::string::npos);
-    EXPECT_NE(message_after(base, "store.late_fp_cost = ", "memory.clock_hz = ").find("no row that a rival set may change"),
-              std::string::npos);
+    EXPECT_NE(
+        message_after(base, "store.late_fp_cost = ", "memory.clock_hz = ").find("no row that a rival set may change"),
+        std::string::npos);
     EXPECT_NE(message_after("_stm32f746.toml", "line_bytes = { value = 32", "line_bytes = { value = 33")
                   .find("_stm32f746.toml:9: cache.line_bytes: expected a power of two, found 33"),
               std::string::npos);
@@ -85,7 +85,8 @@ TEST(CoreFile, DamageIsNamedWithFileAndLine) {
     EXPECT_NE(message_after("stm32f746-itcm.toml", "\"dtcm\"", "\"tcm\"").find("expected dtcm or axi, found tcm"),
               std::string::npos);
     EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "notes").find("notes: no such key"), std::string::npos);
-    EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "effects_off = [\"friction\"]\nnote").find("no such effect: friction"),
+    EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "effects_off = [\"friction\"]\nnote")
+                  .find("no such effect: friction"),
               std::string::npos);
 }
 

@@ -27,7 +27,7 @@ struct Setting {
     timing::Placement placement;
     timing::Effects off;
     std::map<unsigned, std::uint32_t> registers = {};  ///< addresses other than the usual ones
-    unsigned turns = 1;                                 ///< of a backward branch
+    unsigned turns = 1;                                ///< of a backward branch
 };
 
 /// The nominal set of a core of qemu/cores.
