@@ -21,7 +21,7 @@ struct TimedCalls {
     /// How many calls let caches and predictor settle before the steady ones.
     [[nodiscard]] constexpr std::size_t settling() const { return software_double ? 0 : 2; }
     /// How many calls the steady figure is the mean of.
-    [[nodiscard]] constexpr std::size_t steady() const { return software_double ? 1 : 8; }
+    [[nodiscard]] constexpr std::size_t steady() const { return software_double ? 1 : taps <= whole_turn ? 32 : 8; }
     [[nodiscard]] constexpr bool is_steady(std::size_t call) const { return call > taps && call <= taps + steady(); }
     /// Whether the past was full before this call.
     [[nodiscard]] constexpr bool is_full(std::size_t call) const { return call > taps; }
