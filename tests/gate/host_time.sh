@@ -25,8 +25,8 @@ mkdir -p "$folder"
 [ -x "$folder/glsum" ] || cp "$program" "$folder/glsum"
 program=$folder/glsum
 
-# The planted copy: the plain loop of 64-bit accumulators does a part of its work twice, as much as makes it 10.3 % slower on
-# the Xeon (AVX-512, 2.5 GHz) where it was tuned. The sum itself is untouched, so its answers stay right.
+# The planted copy: the plain loop of 64-bit accumulators does a part of its work twice, as much as made it 10.3 % slower
+# where it was tuned; where the linker puts the loop moves that, up to 30 % was seen: check what the copy takes before believing. The sum itself is untouched, so its answers stay right.
 plant() {
     copy=$folder/slower/source
     planted=kernels/glsum/technique/plain.hpp
