@@ -26,7 +26,8 @@ mkdir -p "$folder"
 program=$folder/glsum
 
 # The planted copy: the plain loop of 64-bit accumulators does a part of its work twice, as much as made it 10.3 % slower
-# where it was tuned; where the linker puts the loop moves that, up to 30 % was seen: check what the copy takes before believing. The sum itself is untouched, so its answers stay right.
+# where it was tuned. Where the linker puts the loop moves that, up to 30 % was seen: check what the copy takes before
+# believing. The sum itself is untouched, so its answers stay right.
 plant() {
     copy=$folder/slower/source
     planted=kernels/glsum/technique/plain.hpp
