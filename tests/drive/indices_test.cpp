@@ -15,15 +15,15 @@ namespace {
 TEST(Indices, OfAConstantErrorAreItsIntegrals) {
     std::vector<double> time, measured, modelled;
     for (int k = 0; k <= 1000; ++k) {
-        time.push_back(2.0 + 0.002 * k);  // time counts from the first stamp
+        time.push_back(2.0 + 0.003 * k);  // time counts from the first stamp
         measured.push_back(1.0 + 0.001 * k);
         modelled.push_back(measured.back() - 0.5);
     }
     const auto found = drive::compute_indices(time, measured, modelled);
-    EXPECT_NEAR(found.ise, 0.25 * 2.0, 1e-12);
-    EXPECT_NEAR(found.iae, 0.5 * 2.0, 1e-12);
-    EXPECT_NEAR(found.itse, 0.25 * 2.0, 1e-12);
-    EXPECT_NEAR(found.itae, 0.5 * 2.0, 1e-12);
+    EXPECT_NEAR(found.ise, 0.25 * 3.0, 1e-12);
+    EXPECT_NEAR(found.iae, 0.5 * 3.0, 1e-12);
+    EXPECT_NEAR(found.itse, 0.25 * 4.5, 1e-12);
+    EXPECT_NEAR(found.itae, 0.5 * 4.5, 1e-12);
     EXPECT_NEAR(found.max_ape, 0.5, 1e-12);
     EXPECT_NEAR(found.rmse, 0.5, 1e-12);
     EXPECT_NEAR(found.nrmse_printed, 1.0 - 0.5 * std::sqrt(1001.0) / 1001.0, 1e-12);

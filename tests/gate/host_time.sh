@@ -2,8 +2,8 @@
 # host_time.sh [--gates N] [--slower M] [--folder DIR]: how often the gate's host time raises an alarm, by real runs of five
 # kernels, about 4 s each on an idle machine, longer on a busy one.
 #   --gates N    (200) nothing has changed: each of N + 1 runs is gated against the one before, and against the first
-#   --slower M   (100) runs of a copy of the project in which ring_plain_q31 is planted to work a tenth longer, each gated
-#                against the run of this build beside it, until M were judged
+#   --slower M   (100) runs of a copy of the project in which ring_plain_q31 is planted to work a tenth longer where it is
+#                told to, each gated against a run of the same copy beside it that was not, until M were judged
 # The runs stay in DIR (build/gate); a series that was stopped goes on where it was. Prints each alarm, then the counts.
 # Every run sits on the machine as it is: how busy it is belongs to the answer.
 set -eu
@@ -25,20 +25,29 @@ mkdir -p "$folder"
 [ -x "$folder/glsum" ] || cp "$program" "$folder/glsum"
 program=$folder/glsum
 
-# The planted copy: the plain loop of 64-bit accumulators does a part of its work twice, as much as made it 10.3 % slower
-# where it was tuned. Where the linker puts the loop moves that, up to 30 % was seen: check what the copy takes before
-# believing. The sum itself is untouched, so its answers stay right.
+# The planted copy: where SLOWER is in its environment, ring_plain_q31 sums every tenth sample twice. One program for both:
+# another build lays its loops elsewhere, which alone moved them by up to 30 %. The sum itself is untouched.
 plant() {
     copy=$folder/slower/source
-    planted=kernels/glsum/technique/plain.hpp
+    planted=kernels/glsum/sum.cpp
     [ ! -x "$folder/slower/glsum" ] || return 0
     (cd "$root" && git ls-files) | while IFS= read -r file; do
         [ -f "$root/$file" ] || continue
         mkdir -p "$copy/$(dirname "$file")"
         cp -p "$root/$file" "$copy/$file"
     done
-    perl -0pi -e 's/(static typename Format::Accumulator sum\(const typename Format::Coefficient\* table,\s+const Window<typename Format::Sample>& window,\s+typename Format::Sample newest, const typename Format::Scale& scale\) \{\n)/$1        if constexpr (std::is_same_v<typename Format::Accumulator, long> \&\& sizeof(typename Format::Sample) == 4) {\n            auto again = Format::start(newest, scale);\n            for (std::size_t i = 0; i < (window.newer_count + window.older_count) \/ 7; ++i) {\n                again = accumulate<Format, false>(again, table[i], window.newer[0]);\n                asm volatile("" : "+r"(again));\n            }\n        }\n/' "$copy/$planted"
-    ! cmp -s "$root/$planted" "$copy/$planted" || { echo "host_time.sh: the plant does not match in $planted" >&2; exit 2; }
+    perl -0pi -e '
+        s/(#include <limits>\n)/#include <cstdlib>\n$1/ &&
+        s/(template <class History, class Technique, class Format>\nauto Sum<History, Technique, Format>::step)/
+            "namespace {\nconst bool slower = std::getenv(\"SLOWER\") != nullptr;\nunsigned turn = 0;\n" .
+            "template <class Technique, class Format, class... Arguments>\n[[gnu::noinline]] auto sum_of(const Arguments&... of) {\n" .
+            "    return Technique::template sum<Format>(of...);\n}\n}  \/\/ namespace\n\n$1"/e &&
+        s/const auto sum = Technique::template sum<Format>(\(state\.table, window, newest, state\.scale\));/
+            "if constexpr (std::is_same_v<History, Ring> && std::is_same_v<Technique, Plain> && std::is_same_v<Format, Q31>) {\n" .
+            "    if (slower && ++turn % 10 == 0) {\n        auto again = sum_of<Technique, Format>$1;\n" .
+            "        asm volatile(\"\" : : \"r\"(again) : \"memory\");\n    }\n}\n" .
+            "const auto sum = sum_of<Technique, Format>$1;"/e or exit 1' "$copy/$planted" ||
+        { echo "host_time.sh: the plant does not match in $planted" >&2; exit 2; }
     cmake -S "$copy" -B "$folder/slower/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
         cmake --build "$folder/slower/build" --target glsum_cli >"$folder/log" || { tail "$folder/log" >&2; exit 1; }
     cp "$folder/slower/build/cli/glsum" "$folder/slower/glsum"
@@ -67,19 +76,20 @@ gate() {
 
 [ "$slower" -eq 0 ] || plant
 alarms=0 against_first=0 moved=0 tried=0 caught=0 named=0 slower_moved=0
-record "$program" run0
+[ "$gates" -eq 0 ] || record "$program" run0
 i=1
 while [ $i -le "$gates" ] || [ $tried -lt "$slower" ]; do
-    record "$program" "run$i"
     if [ $i -le "$gates" ]; then
+        record "$program" "run$i"
         gate "run$((i - 1))" "run$i" || { alarms=$((alarms + 1)); cat "$folder/said"; }
         [ $unsettled = no ] || moved=$((moved + 1))
         gate run0 "run$i" || against_first=$((against_first + 1))
     fi
     if [ $tried -lt "$slower" ]; then
-        record "$folder/slower/glsum" "slower$i"
+        record "$folder/slower/glsum" "asis$i"
+        SLOWER=1 record "$folder/slower/glsum" "slower$i"
         alarm=no
-        gate "run$i" "slower$i" || alarm=yes
+        gate "asis$i" "slower$i" || alarm=yes
         if [ $unsettled = yes ]; then
             slower_moved=$((slower_moved + 1))
         else
@@ -90,7 +100,7 @@ while [ $i -le "$gates" ] || [ $tried -lt "$slower" ]; do
     fi
     i=$((i + 1))
 done
-echo "nothing changed: $alarms of $gates gates against the run before raise an alarm, $against_first of $gates against the first run;" \
+[ "$gates" -eq 0 ] || echo "nothing changed: $alarms of $gates gates against the run before raise an alarm, $against_first of $gates against the first run;" \
     "in $moved of $gates the machine moved and times were not judged"
 [ "$slower" -eq 0 ] || echo "a tenth slower: $caught of $slower gates raise an alarm, $named name the kernel;" \
     "$slower_moved more were not judged, as the machine moved"
