@@ -1,130 +1,22 @@
 #include "bench/choose/search.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <tuple>
 #include <utility>
 
+#include "bench/choose/relax.hpp"
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
 
 namespace choose {
 namespace {
 
-// How many lengths in a row are measured one by one; a longer gap is bisected first.
-constexpr std::size_t longest_scan = 512;
 // Where code of equal kind repeats in groups (of 2, 4, 8 taps), a slightly longer one can cost less, by no more than
 // the rest of a group: so many instructions, so many taps.
 constexpr double group_cost = 64.0;
 constexpr std::size_t group_taps = 7;
 // A kernel that is known to be dear is tried at this length first.
 constexpr std::size_t short_taps = 64;
-
-class Reacher {
-public:
-    Reacher(ErrorSource& errors, const std::string& kernel, double limit)
-        : errors_(errors), kernel_(kernel), limit_(limit) {}
-
-    Reach run() {
-        const std::size_t first = next_possible(1);
-        // Shorter ones whose rounding makes good what truncation costs.
-        reach_.shortest = scan(1, first, limit_ + errors_.rounding_bound(kernel_, first));
-        if (!reach_.shortest) {
-            const ErrorAt there = whole(first);
-            if (there.fault.empty() && there.error <= limit_) {
-                reach_.shortest = first;
-            } else {
-                climb(first);
-            }
-        }
-        return reach_;
-    }
-
-private:
-    ErrorAt whole(std::size_t taps) {
-        const ErrorAt at = errors_.error(kernel_, taps);
-        if (reach_.best_taps == 0 || (at.fault.empty() && at.error < reach_.best.error)) {
-            reach_.best = at;
-            reach_.best_taps = taps;
-        }
-        return at;
-    }
-
-    // The first length from `taps` on whose truncation alone meets the limit: full memory does.
-    std::size_t next_possible(std::size_t taps) const {
-        while (taps < errors_.longest() && errors_.truncation(taps) > limit_) {
-            ++taps;
-        }
-        return taps;
-    }
-
-    // The first of [from, to) that meets the limit, of those whose truncation is at most `possible`.
-    std::optional<std::size_t> scan(std::size_t from, std::size_t to, double possible) {
-        for (std::size_t taps = from; taps < to; ++taps) {
-            if (errors_.truncation(taps) <= possible && errors_.meets(kernel_, taps, limit_)) {
-                return taps;
-            }
-        }
-        return std::nullopt;
-    }
-
-    // Truncation would do, rounding is in the way: a ladder to full memory, then every length below the first rung that
-    // meets the limit or, if none does, about the best rung when that is near.
-    void climb(std::size_t first) {
-        std::vector<std::size_t> rungs = {first};
-        while (rungs.back() < errors_.longest()) {
-            const std::size_t taps = rungs.back();
-            rungs.push_back(next_possible(std::min(errors_.longest(), taps + std::max<std::size_t>(1, taps / 4))));
-            const ErrorAt at = whole(rungs.back());
-            if (at.fault.empty() && at.error <= limit_) {
-                descend(first, rungs[rungs.size() - 2], rungs.back());
-                return;
-            }
-        }
-        if (reach_.best.fault.empty() && reach_.best.error <= 1.25 * limit_) {
-            const auto best = std::find(rungs.begin(), rungs.end(), reach_.best_taps);
-            const std::size_t from = best == rungs.begin() ? first : *(best - 1);
-            const std::size_t to = best + 1 == rungs.end() ? *best : *(best + 1);
-            reach_.shortest = scan(from, std::min(to, from + 2 * longest_scan), limit_);
-        }
-    }
-
-    // `meets` is a length that does, `fails` the rung before it that does not.
-    void descend(std::size_t first, std::size_t fails, std::size_t meets) {
-        if (meets - first <= longest_scan) {
-            fails = first;
-        }
-        std::size_t below = fails;
-        while (meets - below > longest_scan) {
-            const std::size_t middle = below + (meets - below) / 2;
-            if (errors_.meets(kernel_, middle, limit_)) {
-                meets = middle;
-            } else {
-                below = middle;
-            }
-        }
-        const std::size_t from = std::max(fails, meets > longest_scan ? meets - longest_scan : 1);
-        reach_.shortest = scan(from, meets, limit_).value_or(meets);
-    }
-
-    ErrorSource& errors_;
-    const std::string& kernel_;
-    double limit_;
-    Reach reach_;
-};
-
-bool within(const std::optional<double>& limit, double value) { return !limit || value <= *limit; }
-
-bool fits(const Candidate& candidate, const Limits& limits) {
-    return candidate.error.fault.empty() && candidate.cost.fault.empty() && candidate.error.error <= limits.max_error &&
-           within(limits.max_cost, candidate.cost.limited) && within(limits.max_bytes, candidate.cost.bytes);
-}
-
-bool dominates(const Candidate& a, const Candidate& b) {
-    return a.error.error <= b.error.error && a.cost.value <= b.cost.value && a.cost.bytes <= b.cost.bytes &&
-           (a.error.error < b.error.error || a.cost.value < b.cost.value || a.cost.bytes < b.cost.bytes);
-}
 
 // One search: the kernels' fates grow as errors, then costs become known.
 class Search {
@@ -143,7 +35,7 @@ public:
         find_costs();
         judge();
         if (!choice_.chosen) {
-            relax();
+            choice_.relaxed = relax(errors_, costs_, limits_, choice_.kernels);
         }
         return choice_;
     }
@@ -199,17 +91,6 @@ private:
         return {kernel, taps, errors_.error(kernel, taps), {}};
     }
 
-    void measure(std::vector<Candidate*> candidates) {
-        std::vector<Case> cases;
-        for (const Candidate* candidate : candidates) {
-            cases.emplace_back(candidate->kernel, candidate->taps);
-        }
-        const std::vector<Cost> found = costs_.costs(cases);
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            candidates[i]->cost = found[i];
-        }
-    }
-
     // The least cost of what fits so far.
     [[nodiscard]] double least() const {
         double least = std::numeric_limits<double>::infinity();
@@ -233,7 +114,7 @@ private:
                 now.push_back(&*fared.best);
             }
         }
-        measure(now);
+        measure(costs_, now);
         const double so_far = least();
         now.clear();
         for (Fared* fared : dear) {
@@ -244,7 +125,7 @@ private:
             }
         }
         if (!now.empty()) {
-            measure(now);
+            measure(costs_, now);
         }
         if (costs_.exact()) {
             look_behind();
@@ -277,7 +158,7 @@ private:
         for (Candidate& candidate : longer) {
             now.push_back(&candidate);
         }
-        measure(now);
+        measure(costs_, now);
         for (const Candidate& candidate : longer) {
             for (Fared& fared : choice_.kernels) {
                 if (fared.kernel != candidate.kernel || !candidate.cost.fault.empty()) {
@@ -345,158 +226,6 @@ private:
         return Fate::dearer;
     }
 
-    void add_relaxed(const char* limit, double from, const std::optional<Candidate>& found, double to) {
-        if (found) {
-            choice_.relaxed.push_back({limit, from, to, *found});
-        }
-    }
-
-    void relax() {
-        // A kernel that was too dear at a short length already: how dear it is where it would do.
-        std::vector<Candidate*> unknown;
-        for (Fared& fared : choice_.kernels) {
-            if (fared.already) {
-                unknown.push_back(&*fared.best);
-            }
-        }
-        const bool nothing_meets = std::none_of(choice_.kernels.begin(), choice_.kernels.end(),
-                                                [](const Fared& fared) { return fared.best && !fared.already; });
-        if (nothing_meets && !unknown.empty()) {
-            measure(unknown);
-        }
-        std::optional<Candidate> cost;
-        std::optional<Candidate> bytes;
-        for (const Fared& fared : choice_.kernels) {
-            if (!fared.best || !fared.best->cost.fault.empty() || (fared.already && !nothing_meets)) {
-                continue;
-            }
-            if (within(limits_.max_bytes, fared.best->cost.bytes) &&
-                (!cost || fared.best->cost.limited < cost->cost.limited)) {
-                cost = fared.best;
-            }
-            if (within(limits_.max_cost, fared.best->cost.limited) &&
-                (!bytes || fared.best->cost.bytes < bytes->cost.bytes)) {
-                bytes = fared.best;
-            }
-        }
-        if (limits_.max_cost) {
-            add_relaxed("max_cost", *limits_.max_cost, cost, cost ? cost->cost.limited : 0.0);
-        }
-        if (limits_.max_bytes) {
-            add_relaxed("max_bytes", *limits_.max_bytes, bytes, bytes ? bytes->cost.bytes : 0.0);
-        }
-        const std::optional<Candidate> error = most_accurate();
-        add_relaxed("max_error", limits_.max_error, error, error ? error->error.error : 0.0);
-        std::stable_sort(choice_.relaxed.begin(), choice_.relaxed.end(),
-                         [](const Relaxed& a, const Relaxed& b) { return a.factor() < b.factor(); });
-    }
-
-    // The most accurate of what the other limits allow: each kernel at the longest length within them, and at its best
-    // measured length if that is no longer.
-    std::optional<Candidate> most_accurate() {
-        Limits others = limits_;
-        others.max_error = std::numeric_limits<double>::infinity();
-        std::vector<Candidate> candidates;
-        for (const Fared& fared : choice_.kernels) {
-            if (fared.fate != Fate::wrong) {
-                candidates.push_back({fared.kernel, 0, {}, {}});
-            }
-        }
-        if (limits_.max_cost || limits_.max_bytes) {
-            find_longest(candidates, others);
-        }
-        for (const Fared& fared : choice_.kernels) {
-            if (fared.short_of) {
-                candidates.push_back(*fared.short_of);
-            }
-        }
-        std::erase_if(candidates, [](const Candidate& candidate) { return candidate.taps == 0; });
-        std::optional<Candidate> best;
-        for (Candidate& candidate : candidates) {
-            candidate.error = errors_.error(candidate.kernel, candidate.taps);
-        }
-        std::stable_sort(candidates.begin(), candidates.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.error.error < b.error.error; });
-        for (Candidate& candidate : candidates) {
-            if (candidate.error.fault.empty()) {
-                measure({&candidate});
-                if (fits(candidate, others)) {
-                    return candidate;
-                }
-            }
-        }
-        return std::nullopt;
-    }
-
-    // Sets `taps` to the longest length within the limits, 0 if none is; costs rise with the length, nearly straight.
-    void find_longest(std::vector<Candidate>& candidates, const Limits& limits) {
-        struct Bracket {
-            std::size_t fits = 0;
-            std::size_t fails;
-            Candidate probe;
-        };
-        std::vector<Bracket> brackets;
-        for (const Candidate& candidate : candidates) {
-            brackets.push_back({0, errors_.longest() + 1, {candidate.kernel, 0, {}, {}}});
-        }
-        for (int round = 0; round < 24; ++round) {
-            std::vector<Candidate*> now;
-            for (std::size_t i = 0; i < brackets.size(); ++i) {
-                Bracket& bracket = brackets[i];
-                bracket.probe.taps = next_probe(bracket.probe, bracket.fits, bracket.fails, limits, round);
-                if (bracket.probe.taps != 0) {
-                    now.push_back(&bracket.probe);
-                }
-            }
-            if (now.empty()) {
-                break;
-            }
-            measure(now);
-            for (Bracket& bracket : brackets) {
-                if (bracket.probe.taps != 0) {
-                    const bool inside = bracket.probe.cost.fault.empty() &&
-                                        within(limits.max_cost, bracket.probe.cost.limited) &&
-                                        within(limits.max_bytes, bracket.probe.cost.bytes);
-                    (inside ? bracket.fits : bracket.fails) = bracket.probe.taps;
-                }
-            }
-        }
-        for (std::size_t i = 0; i < candidates.size(); ++i) {
-            candidates[i].taps = brackets[i].fits;
-        }
-    }
-
-    // Where to look next, 0 when there is nothing left between: in proportion to what the last probe cost, by halves
-    // every third time.
-    std::size_t next_probe(const Candidate& last, std::size_t fits, std::size_t fails, const Limits& limits,
-                           int round) const {
-        if (const auto known = costs_.lengths(last.kernel)) {
-            std::vector<std::size_t> between;
-            std::copy_if(known->begin(), known->end(), std::back_inserter(between),
-                         [&](std::size_t taps) { return taps > fits && taps < fails; });
-            return between.empty() ? 0 : between[between.size() / 2];
-        }
-        if (fails - fits <= 1) {
-            return 0;
-        }
-        if (round == 0) {
-            return std::min<std::size_t>(32, fits + (fails - fits) / 2);
-        }
-        double share = std::numeric_limits<double>::infinity();
-        if (limits.max_cost && last.cost.limited > 0.0) {
-            share = std::min(share, *limits.max_cost / last.cost.limited);
-        }
-        if (limits.max_bytes && last.cost.bytes > 0.0) {
-            share = std::min(share, *limits.max_bytes / last.cost.bytes);
-        }
-        std::size_t taps = fits + (fails - fits) / 2;
-        if (round % 3 != 2 && std::isfinite(share) && last.taps != 0) {
-            const double guess = std::min(1e6, static_cast<double>(last.taps) * share);
-            taps = static_cast<std::size_t>(guess) + (last.taps == static_cast<std::size_t>(guess) ? 1 : 0);
-        }
-        return std::clamp(taps, fits + 1, fails - 1);
-    }
-
     ErrorSource& errors_;
     CostSource& costs_;
     Limits limits_;
@@ -505,36 +234,6 @@ private:
 };
 
 }  // namespace
-
-std::string to_text(Fate fate) {
-    switch (fate) {
-        case Fate::chosen:
-            return "chosen";
-        case Fate::runner_up:
-            return "runner-up";
-        case Fate::dominated:
-            return "dominated";
-        case Fate::dearer:
-            return "dearer";
-        case Fate::too_dear:
-            return "too dear";
-        case Fate::too_large:
-            return "too large";
-        case Fate::inaccurate:
-            return "too inaccurate";
-        case Fate::wrong:
-            return "wrong";
-    }
-    return "unknown";
-}
-
-bool better(const Candidate& a, const Candidate& b) {
-    return std::tie(a.cost.value, a.cost.bytes, a.error.error) < std::tie(b.cost.value, b.cost.bytes, b.error.error);
-}
-
-Reach reach(ErrorSource& errors, const std::string& kernel, double limit) {
-    return Reacher(errors, kernel, limit).run();
-}
 
 Choice choose(ErrorSource& errors, CostSource& costs, const std::vector<std::string>& kernels, const Limits& limits,
               unsigned jobs, bool progress) {

@@ -105,7 +105,7 @@ std::vector<std::string> names() {
     return all;
 }
 
-bool fits(const Candidate& candidate, const Limits& limits) {
+bool allowed(const Candidate& candidate, const Limits& limits) {
     return candidate.error.error <= limits.max_error && candidate.cost.limited <= limits.max_cost.value_or(1e300) &&
            candidate.cost.bytes <= limits.max_bytes.value_or(1e300);
 }
@@ -130,7 +130,7 @@ TEST(Search, AgreesWithAPlainLoopOverEveryKernelAndLength) {
         for (const std::string& kernel : names()) {
             for (std::size_t taps = 1; taps <= longest; ++taps) {
                 const Candidate candidate{kernel, taps, errors.error(kernel, taps), costs.cost(kernel, taps)};
-                if (fits(candidate, limits) && (!best || choose::better(candidate, *best))) {
+                if (allowed(candidate, limits) && (!best || choose::better(candidate, *best))) {
                     best = candidate;
                 }
             }
@@ -148,7 +148,7 @@ TEST(Search, AgreesWithAPlainLoopOverEveryKernelAndLength) {
                 (relaxed.limit == "max_error"  ? wider.max_error
                  : relaxed.limit == "max_cost" ? *wider.max_cost
                                                : *wider.max_bytes) = relaxed.to;
-                EXPECT_TRUE(fits(relaxed.fits, wider)) << budget << " " << relaxed.limit;
+                EXPECT_TRUE(allowed(relaxed.fits, wider)) << budget << " " << relaxed.limit;
             }
         }
     }

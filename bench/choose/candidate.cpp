@@ -1,0 +1,32 @@
+#include "bench/choose/candidate.hpp"
+
+#include <tuple>
+
+namespace choose {
+
+bool fits(const Candidate& candidate, const Limits& limits) {
+    return candidate.error.fault.empty() && candidate.cost.fault.empty() && candidate.error.error <= limits.max_error &&
+           within(limits.max_cost, candidate.cost.limited) && within(limits.max_bytes, candidate.cost.bytes);
+}
+
+bool dominates(const Candidate& a, const Candidate& b) {
+    return a.error.error <= b.error.error && a.cost.value <= b.cost.value && a.cost.bytes <= b.cost.bytes &&
+           (a.error.error < b.error.error || a.cost.value < b.cost.value || a.cost.bytes < b.cost.bytes);
+}
+
+bool better(const Candidate& a, const Candidate& b) {
+    return std::tie(a.cost.value, a.cost.bytes, a.error.error) < std::tie(b.cost.value, b.cost.bytes, b.error.error);
+}
+
+void measure(CostSource& costs, const std::vector<Candidate*>& candidates) {
+    std::vector<Case> cases;
+    for (const Candidate* candidate : candidates) {
+        cases.emplace_back(candidate->kernel, candidate->taps);
+    }
+    const std::vector<Cost> found = costs.costs(cases);
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        candidates[i]->cost = found[i];
+    }
+}
+
+}  // namespace choose
