@@ -35,7 +35,6 @@ void MarkedTimer::meets_mark(std::uint32_t address) {
 }
 
 void MarkedTimer::executes(const Instruction& instruction) { part_->timer.executes(instruction); }
-void MarkedTimer::accesses(const Access& access) { part_->timer.accesses(access); }
 
 void MarkedTimer::finish() {
     if (part_) {

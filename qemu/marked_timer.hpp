@@ -26,7 +26,7 @@ struct Marks {
     std::uint32_t off;
 };
 
-class MarkedTimer : public StreamConsumer {
+class MarkedTimer final : public StreamConsumer {
 public:
     /// \param entries  addresses of the functions to time
     /// \param marks    without: the whole program is one part, timed from the start
@@ -40,7 +40,9 @@ public:
     /// Whether the model is to see what is executed.
     [[nodiscard]] bool on() const { return on_; }
     void executes(const Instruction& instruction) override;
-    void accesses(const Access& access) override;
+    void accesses(const Access& access) override { part_->timer.accesses(access); }
+    /// In place of `executes`, see `timing::CallTimer`.
+    void executes_block(const Block& block, std::size_t done) { part_->timer.executes_block(block, done); }
     /// The program has ended.
     void finish();
 

@@ -24,6 +24,7 @@ struct Access {
     std::uint32_t address;
     std::uint8_t bytes;
     bool store;
+    std::uint16_t by = 0;  ///< which instruction of its block makes it, where blocks are told
 };
 
 /// Called before each instruction, those included whose condition is false, and after that for each of its accesses:

@@ -43,6 +43,8 @@ void qemu_plugin_register_vcpu_tb_exec_cb(struct qemu_plugin_tb*, qemu_plugin_vc
                                           enum qemu_plugin_cb_flags, void* userdata);
 void qemu_plugin_register_vcpu_insn_exec_cb(struct qemu_plugin_insn*, qemu_plugin_vcpu_udata_cb_t,
                                             enum qemu_plugin_cb_flags, void* userdata);
+void qemu_plugin_register_vcpu_insn_exec_inline(struct qemu_plugin_insn*, enum qemu_plugin_op, void* counter,
+                                                uint64_t added);
 void qemu_plugin_register_vcpu_mem_cb(struct qemu_plugin_insn*, qemu_plugin_vcpu_mem_cb_t, enum qemu_plugin_cb_flags,
                                       enum qemu_plugin_mem_rw, void* userdata);
 void qemu_plugin_register_vcpu_mem_inline(struct qemu_plugin_insn*, enum qemu_plugin_mem_rw, enum qemu_plugin_op,

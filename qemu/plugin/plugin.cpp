@@ -34,6 +34,8 @@ namespace {
 struct Timing {
     std::ofstream log;
     qemu::MarkedTimer timer;
+    std::uint64_t executed = 0;  // instructions, but for the first of each block
+    std::uint64_t before = 0;    // the present block
     Timing(const std::set<std::uint32_t>& entries, std::vector<timing::CoreFile> cores,
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path), timer(entries, std::move(cores), marks, log) {}
@@ -77,13 +79,13 @@ qemu::Instruction* instruction_at(const qemu_plugin_insn* translated) {
     return slot.get();
 }
 
-qemu::Block* block_at(const qemu_plugin_tb* translated) {
-    const std::size_t count = qemu_plugin_tb_n_insns(translated);
+// \param from, to  of the translated block's instructions
+qemu::Block* block_at(const qemu_plugin_tb* translated, std::size_t from, std::size_t to) {
     const auto index = static_cast<std::uint32_t>(session->blocks.size());
-    auto& slot = session->blocks[{instruction_at(qemu_plugin_tb_get_insn(translated, 0))->address, count}];
+    auto& slot = session->blocks[{instruction_at(qemu_plugin_tb_get_insn(translated, from))->address, to - from}];
     if (!slot) {
         slot = std::make_unique<qemu::Block>(qemu::Block{{}, index});
-        for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t i = from; i < to; ++i) {
             slot->instructions.push_back(*instruction_at(qemu_plugin_tb_get_insn(translated, i)));
         }
     }
@@ -101,16 +103,19 @@ void executes(unsigned int, void* instruction) {
 void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
     session->counter.accesses(to_access(info, address));
 }
-void times(unsigned int, void* instruction) {
-    qemu::MarkedTimer& timer = session->timing->timer;
-    if (timer.on()) {
-        timer.executes(*static_cast<qemu::Instruction*>(instruction));
+void times_block(unsigned int, void* block) {
+    Timing& timing = *session->timing;
+    if (timing.timer.on()) {
+        timing.timer.executes_block(*static_cast<qemu::Block*>(block), 1 + timing.executed - timing.before);
+        timing.before = timing.executed;
     }
 }
-void times_access(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
+void times_access(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void* nth) {
     qemu::MarkedTimer& timer = session->timing->timer;
     if (timer.on()) {
-        timer.accesses(to_access(info, address));
+        qemu::Access access = to_access(info, address);
+        access.by = static_cast<std::uint16_t>(reinterpret_cast<std::uintptr_t>(nth));
+        timer.accesses(access);
     }
 }
 void meets_mark(unsigned int, void* instruction) {
@@ -130,7 +135,8 @@ void counts_by_stream(qemu_plugin_tb* block) {
 
 void counts_by_blocks(qemu_plugin_tb* block) {
     qemu::AccessTotals& totals = session->counter.totals();
-    qemu_plugin_register_vcpu_tb_exec_cb(block, executes_block, QEMU_PLUGIN_CB_NO_REGS, block_at(block));
+    qemu_plugin_register_vcpu_tb_exec_cb(block, executes_block, QEMU_PLUGIN_CB_NO_REGS,
+                                         block_at(block, 0, qemu_plugin_tb_n_insns(block)));
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
         qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
         // Not by QEMU_PLUGIN_MEM_R and _W: QEMU 7.2 counts stores for the first, and every access for the second.
@@ -139,14 +145,30 @@ void counts_by_blocks(qemu_plugin_tb* block) {
     }
 }
 
-void times_stream(qemu_plugin_tb* block) {
-    for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
-        qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
-        qemu::Instruction* instruction = instruction_at(translated);
-        const bool mark = session->timing->timer.is_mark(instruction->address);
-        qemu_plugin_register_vcpu_insn_exec_cb(translated, mark ? meets_mark : times, QEMU_PLUGIN_CB_NO_REGS,
-                                               instruction);
-        qemu_plugin_register_vcpu_mem_cb(translated, times_access, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
+// Cut where a watched function or a mark begins. What is counted without a call tells how far a block came that a fault
+// ended.
+void times_blocks(qemu_plugin_tb* block) {
+    const std::size_t count = qemu_plugin_tb_n_insns(block);
+    const auto address = [&](std::size_t i) { return instruction_at(qemu_plugin_tb_get_insn(block, i))->address; };
+    Timing& timing = *session->timing;
+    for (std::size_t from = 0, to = 0; from < count; from = to) {
+        const bool mark = timing.timer.is_mark(address(from));
+        to = from + 1;
+        while (!mark && to < count && !timing.timer.is_mark(address(to)) &&
+               !session->options.entries.contains(address(to))) {
+            ++to;
+        }
+        qemu_plugin_insn* first = qemu_plugin_tb_get_insn(block, from);
+        void* data = mark ? static_cast<void*>(instruction_at(first)) : block_at(block, from, to);
+        qemu_plugin_register_vcpu_insn_exec_cb(first, mark ? meets_mark : times_block, QEMU_PLUGIN_CB_NO_REGS, data);
+        for (std::size_t i = from; i < to; ++i) {
+            qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
+            qemu_plugin_register_vcpu_mem_cb(translated, times_access, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW,
+                                             reinterpret_cast<void*>(i - from));
+            if (i > from) {
+                qemu_plugin_register_vcpu_insn_exec_inline(translated, QEMU_PLUGIN_INLINE_ADD_U64, &timing.executed, 1);
+            }
+        }
     }
 }
 
@@ -155,7 +177,7 @@ void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
         session->options.stream ? counts_by_stream(block) : counts_by_blocks(block);
     }
     if (session->timing) {
-        times_stream(block);
+        times_blocks(block);
     }
 }
 

@@ -28,6 +28,16 @@ public:
         }
         return touch_older(&newest, tag, store);
     }
+    /// Whether all lines from this address to that are the ones that their sets had last: touching them changes
+    /// nothing.
+    [[nodiscard]] bool newest(std::uint32_t first, std::uint32_t last) const {
+        for (std::uint32_t tag = first >> line_shift_; tag <= last >> line_shift_; ++tag) {
+            if (lines_[std::size_t{tag & (sets_ - 1)} * ways_].tag != tag) {
+                return false;
+            }
+        }
+        return true;
+    }
     [[nodiscard]] bool on() const { return !lines_.empty(); }
 
 private:

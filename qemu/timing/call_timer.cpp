@@ -19,123 +19,183 @@ CallTimer::CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile
     }
 }
 
-CallTimer::Site& CallTimer::site_of(const qemu::Instruction& instruction) {
-    if (instruction.index >= sites_.size()) {
-        sites_.resize(instruction.index + 1);
+const Prepared* CallTimer::prepared(const qemu::Instruction& instruction) {
+    if (instruction.index >= prepared_.size()) {
+        prepared_.resize(instruction.index + std::size_t{1});
+        addresses_.resize(prepared_.size());
     }
-    Site& site = sites_[instruction.index];
-    if (!site.prepared) {
-        const bool inside = it_block_.inside();
-        site.prepared =
-            std::make_unique<Prepared>(decode(instruction.encoding, instruction.bytes, it_block_.condition(), inside));
-        site.address = instruction.address;
-        site.entry = entries_.contains(instruction.address);
-        site.half_cycles.resize(cores_.size());
+    std::unique_ptr<Prepared>& one = prepared_[instruction.index];
+    if (!one) {
+        one = std::make_unique<Prepared>(
+            decode(instruction.encoding, instruction.bytes, it_block_.condition(), it_block_.inside()));
+        addresses_[instruction.index] = instruction.address;
     }
-    return site;
-}
-
-void CallTimer::executes(const qemu::Instruction& instruction) {
-    if (has_pending_) {
-        flush(instruction.address);
-    }
-    const Site& site = site_of(instruction);
     // Members of an IT block follow it; it is never entered in the middle.
-    if (site.prepared->decoded.kind == Kind::if_then) {
+    if (one->decoded.kind == Kind::if_then) {
         it_block_.begin(instruction.encoding);
     } else {
         it_block_.advance();
     }
-    pending_ = instruction.index;
-    has_pending_ = true;
-    accesses_.clear();
+    return one.get();
 }
 
-void CallTimer::accesses(const qemu::Access& access) { accesses_.push_back(access); }
+CallTimer::Piece& CallTimer::piece_of(std::vector<std::unique_ptr<Piece>>& pieces, std::uint32_t index,
+                                      std::span<const qemu::Instruction> instructions) {
+    if (index >= pieces.size()) {
+        pieces.resize(index + std::size_t{1});
+    }
+    std::unique_ptr<Piece>& piece = pieces[index];
+    if (piece) {
+        it_block_ = piece->it_block_behind;
+        return *piece;
+    }
+    piece = std::make_unique<Piece>();
+    piece->code.index = index;
+    piece->entry = entries_.contains(instructions.front().address);
+    piece->met.resize(cores_.size());
+    for (const qemu::Instruction& instruction : instructions) {
+        const Prepared* one = prepared(instruction);
+        piece->code.lines.push_back({one, instruction.index, instruction.address});
+        if (one->decoded.kind == Kind::unknown) {
+            piece->unknown.push_back(instruction.address);
+        }
+    }
+    piece->it_block_behind = it_block_;
+    return *piece;
+}
 
-void CallTimer::finish() {
-    if (has_pending_) {
-        flush(sites_[pending_].address + sites_[pending_].prepared->decoded.bytes);
-        has_pending_ = false;
+void CallTimer::executes(const qemu::Instruction& instruction) {
+    if (pending_ != nullptr) {
+        flush(1, instruction.address);
+    }
+    accesses_.clear();
+    pending_ = &piece_of(singles_, instruction.index, std::span(&instruction, 1));
+}
+
+void CallTimer::executes_block(const qemu::Block& block, std::size_t done) {
+    if (pending_ != nullptr) {
+        flush(done, block.instructions.front().address);
+    }
+    accesses_.clear();
+    pending_ = &piece_of(blocks_, block.index, block.instructions);
+}
+
+void CallTimer::finish() { finish(pending_ != nullptr ? pending_->code.lines.size() : 0); }
+
+void CallTimer::finish(std::size_t done) {
+    if (pending_ != nullptr) {
+        const CodeBlock::Line& last = pending_->code.lines.back();
+        flush(done, last.address + last.instruction->decoded.bytes);
+        pending_ = nullptr;
     }
 }
 
 // Whether the instruction is where a call returns to, or a watched function's first.
-void CallTimer::follow_calls(const Site& site) {
+void CallTimer::follow_calls(std::uint32_t address) {
     if (last_called_) {
         returns_.push_back(sequential_);
-    } else if (site.address != sequential_) {
-        const auto back = std::find(returns_.rbegin(), returns_.rend(), site.address);
+    } else if (address != sequential_) {
+        const auto back = std::find(returns_.rbegin(), returns_.rend(), address);
         if (back != returns_.rend()) {
             returns_.erase(back.base() - 1, returns_.end());
         }
     }
 }
 
-void CallTimer::flush(std::uint32_t next) {
-    Site& site = sites_[pending_];
-    const Decoded& d = site.prepared->decoded;
-    follow_calls(site);
+void CallTimer::flush(std::size_t done, std::uint32_t next) {
+    Piece& piece = *pending_;
+    const std::vector<CodeBlock::Line>& lines = piece.code.lines;
+    done = std::clamp<std::size_t>(done, 1, lines.size());
+    follow_calls(lines.front().address);
     const bool ends = inside_ && returns_.size() < depth_;
-    const bool begins = site.entry && (!inside_ || ends);
-    recursive_ = recursive_ || (site.entry && inside_ && !ends && last_called_);
-    if (d.kind == Kind::unknown) {
-        ++unknown_[site.address];
+    const bool begins = piece.entry && (!inside_ || ends);
+    recursive_ = recursive_ || (piece.entry && inside_ && !ends && last_called_);
+    for (const std::uint32_t address : piece.unknown) {
+        if (address <= lines[done - 1].address) {
+            ++unknown_[address];
+        }
+    }
+    if (done < lines.size()) {
+        piece.met.assign(cores_.size(), {});  // what is kept there is of whole blocks
     }
     for (std::size_t c = 0; c < cores_.size(); ++c) {
-        Core& core = *cores_[c];
-        const std::int64_t before = core.replay.positions()[0];
-        core.replay.execute(static_cast<std::uint32_t>(pending_), *site.prepared,
-                            core.surroundings.meet(d, site.address, accesses_, next));
-        if (inside_) {
-            (ends ? sites_[last_] : site).half_cycles[c] += core.replay.positions()[0] - before;
-        }
+        cores_[c]->surroundings.meet(std::span(lines).first(done), accesses_, next, piece.met[c]);
     }
-    if (ends) {
+    if (ends || begins || done < lines.size()) {
+        time_by_steps(piece, done, ends, begins);
+        if (done < lines.size()) {
+            piece.met.assign(cores_.size(), {});
+        }
+    } else {
         for (std::size_t c = 0; c < cores_.size(); ++c) {
-            end_call(*cores_[c], call_.cores[c]);
+            cores_[c]->replay.execute(piece.code, piece.met[c], inside_);
         }
-        inside_ = false;
-        done_(call_);
+        call_.instructions += inside_ ? done : 0;
     }
-    if (begins) {
-        inside_ = true;
-        depth_ = returns_.size();
-        call_.entry = site.address;
-        call_.instructions = 0;
-        for (std::size_t c = 0; c < cores_.size(); ++c) {
-            cores_[c]->begun = cores_[c]->replay.positions();
-            call_.cores[c].losses = cores_[c]->replay.losses();
-        }
-    }
-    if (inside_) {
-        ++call_.instructions;
-    }
-    last_ = pending_;
-    sequential_ = site.address + d.bytes;
+    const CodeBlock::Line& last = lines[done - 1];
+    const Decoded& d = last.instruction->decoded;
+    last_site_ = last.site;
+    sequential_ = last.address + d.bytes;
     last_called_ = (d.branch == Branch::call ||
                     (d.branch == Branch::indirect && d.write_count > 0 && d.writes[0].reg == registers::lr)) &&
                    next != sequential_;
 }
 
-void CallTimer::end_call(const Core& core, CoreTime& time) {
-    std::array<std::int64_t, CoreFile::most_sets> taken{};
-    for (std::size_t s = 0; s < taken.size(); ++s) {
-        taken[s] = core.replay.positions()[s] - core.begun[s];
+// A call ends and begins with a block's first instruction.
+void CallTimer::time_by_steps(const Piece& piece, std::size_t done, bool ends, bool begins) {
+    for (std::size_t nth = 0; nth < done; ++nth) {
+        const CodeBlock::Line& line = piece.code.lines[nth];
+        for (std::size_t c = 0; c < cores_.size(); ++c) {
+            const std::int64_t moved = cores_[c]->replay.execute(line, piece.met[c].events[nth]);
+            if (inside_) {
+                cores_[c]->replay.count(ends && nth == 0 ? last_site_ : line.site, moved);
+            }
+        }
+        if (ends && nth == 0) {
+            end_call();
+        }
+        if (begins && nth == 0) {
+            begin_call(line.address);
+        }
+        call_.instructions += inside_ ? 1 : 0;
     }
-    const Band band = band_of(core.file, std::span(taken).first(core.file.sets.size()));
-    time.half_cycles = {taken[0], band.low, band.high};
-    for (std::size_t e = 0; e < effect_count; ++e) {
-        time.losses[e] = core.replay.losses()[e] - time.losses[e];
+}
+
+void CallTimer::begin_call(std::uint32_t entry) {
+    inside_ = true;
+    depth_ = returns_.size();
+    call_.entry = entry;
+    call_.instructions = 0;
+    for (std::size_t c = 0; c < cores_.size(); ++c) {
+        cores_[c]->begun = cores_[c]->replay.core().positions();
+        call_.cores[c].losses = cores_[c]->replay.core().losses();
     }
+}
+
+void CallTimer::end_call() {
+    for (std::size_t c = 0; c < cores_.size(); ++c) {
+        const Core& core = *cores_[c];
+        std::array<std::int64_t, CoreFile::most_sets> taken{};
+        for (std::size_t s = 0; s < taken.size(); ++s) {
+            taken[s] = core.replay.core().positions()[s] - core.begun[s];
+        }
+        const Band band = band_of(core.file, std::span(taken).first(core.file.sets.size()));
+        call_.cores[c].half_cycles = {taken[0], band.low, band.high};
+        for (std::size_t e = 0; e < effect_count; ++e) {
+            call_.cores[c].losses[e] = core.replay.core().losses()[e] - call_.cores[c].losses[e];
+        }
+    }
+    inside_ = false;
+    done_(call_);
 }
 
 std::vector<std::map<std::uint32_t, std::int64_t>> CallTimer::hot() const {
     std::vector<std::map<std::uint32_t, std::int64_t>> tables(cores_.size());
-    for (const Site& site : sites_) {
-        for (std::size_t c = 0; c < site.half_cycles.size(); ++c) {
-            if (site.half_cycles[c] != 0) {
-                tables[c][site.address] = site.half_cycles[c];
+    for (std::size_t c = 0; c < cores_.size(); ++c) {
+        const std::vector<std::int64_t> half_cycles = cores_[c]->replay.half_cycles();
+        for (std::size_t site = 0; site < half_cycles.size(); ++site) {
+            if (half_cycles[site] != 0) {
+                tables[c][addresses_[site]] = half_cycles[site];
             }
         }
     }

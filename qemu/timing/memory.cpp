@@ -48,8 +48,7 @@ std::int64_t Memory::sram_line() const {
 }
 
 Delay Memory::fetch(std::uint32_t address) {
-    const bool is_tcm = !is_data(address) && placement_.code == CodePlace::itcm;
-    if (is_tcm || (is_data(address) && placement_.data == DataPlace::dtcm)) {
+    if (in_tcm(address)) {
         return {};
     }
     const bool flash = !is_data(address) && placement_.code == CodePlace::flash;
@@ -63,11 +62,15 @@ Delay Memory::fetch(std::uint32_t address) {
     return flash ? read_flash(address, true) : Delay{sram_line(), Effect::flash_wait_states};
 }
 
-Delay Memory::load(std::uint32_t address) {
-    const bool flash = !is_data(address) && placement_.code == CodePlace::flash;
-    if (is_data(address) ? placement_.data == DataPlace::dtcm : placement_.code == CodePlace::itcm) {
-        return {};
+bool Memory::fetches_freely(std::uint32_t first, std::uint32_t last) const {
+    if (in_tcm(first)) {
+        return in_tcm(last);
     }
+    return instructions_.on() && !accelerator_.on() && !in_tcm(last) && instructions_.newest(first, last);
+}
+
+Delay Memory::load_from_afar(std::uint32_t address) {
+    const bool flash = !is_data(address) && placement_.code == CodePlace::flash;
     if (flash && accelerator_.on()) {
         return read_flash(address, false);
     }

@@ -21,8 +21,11 @@ public:
 
     /// Extra cycles before the bytes of one fetch are there. \param address of its first byte
     Delay fetch(std::uint32_t address);
+    /// Whether fetching these bytes takes no extra cycle and changes nothing here: TCM, and lines that their sets of
+    /// the instruction cache had last.
+    [[nodiscard]] bool fetches_freely(std::uint32_t first, std::uint32_t last) const;
     /// Extra cycles of a load, from the line that holds its first byte.
-    Delay load(std::uint32_t address);
+    Delay load(std::uint32_t address) { return in_tcm(address) ? Delay{} : load_from_afar(address); }
     /// Extra cycles that a store takes to leave the store buffer.
     Delay store(std::uint32_t address);
 
@@ -36,6 +39,10 @@ public:
     [[nodiscard]] std::int64_t flash_wait_states() const { return wait_states_; }
 
 private:
+    [[nodiscard]] bool in_tcm(std::uint32_t address) const {
+        return is_data(address) ? placement_.data == DataPlace::dtcm : placement_.code == CodePlace::itcm;
+    }
+    [[nodiscard]] Delay load_from_afar(std::uint32_t address);
     static bool is_data(std::uint32_t address) { return address >= 0x20000000U; }
     [[nodiscard]] Delay read_flash(std::uint32_t address, bool fetch);
     [[nodiscard]] std::int64_t sram_line() const;

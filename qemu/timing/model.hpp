@@ -16,6 +16,7 @@
 #include "qemu/timing/decoded.hpp"
 #include "qemu/timing/effects.hpp"
 #include "qemu/timing/latency.hpp"
+#include "qemu/timing/prepared.hpp"
 #include "qemu/timing/store_buffer.hpp"
 #include "qemu/timing/surroundings.hpp"
 
@@ -23,13 +24,6 @@ namespace timing {
 
 /// Half cycles lost to each effect.
 using Losses = std::array<std::int64_t, effect_count>;
-
-/// A decoded instruction with what does not change from one execution to the next.
-struct Prepared {
-    Decoded decoded;
-    std::array<Consumer, 36> consumers{};
-    explicit Prepared(const Decoded& d);
-};
 
 /// All that the core remembers of the instructions before. Cycles, but for the positions.
 struct State {

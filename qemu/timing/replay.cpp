@@ -24,36 +24,6 @@ Replay::Replay(const CoreFile& core) {
     forget();
 }
 
-std::optional<Replay::Key> Replay::key_of(std::uint32_t state, std::uint32_t site, const Event& e) {
-    if (e.store_delayed || e.words > e.fetch_delays.size() || e.load_delay > 0xFFFF) {
-        return std::nullopt;
-    }
-    std::uint64_t event = e.load_delay;
-    unsigned bits = 16;
-    const auto add = [&](std::uint64_t value, unsigned width) {
-        event |= value << bits;
-        bits += width;
-    };
-    add(e.accesses, 6);
-    add(e.access_bytes, 4);
-    add(e.meets, 8);
-    add(e.words, 3);
-    add(static_cast<std::uint64_t>(e.prediction), 2);
-    add(index(e.fetch_effect), 4);
-    add(e.load_delay > 0 ? index(e.load_effect) : 0, 4);
-    add(e.odd_word ? 1 : 0, 1);
-    add(e.off_eight ? 1 : 0, 1);
-    add(e.unaligned ? 1 : 0, 1);
-    add(e.has_banks ? 1 : 0, 1);
-    add(e.in_dtcm ? 1 : 0, 1);
-    add(e.taken ? 1 : 0, 1);
-    std::uint64_t delays = 0;
-    for (std::size_t n = 0; n < e.words; ++n) {
-        delays |= std::uint64_t{e.fetch_delays[n]} << 16 * n;
-    }
-    return Key{std::uint64_t{state} << 32 | site, event, delays};
-}
-
 std::uint64_t Replay::hash(const Key& key) { return mix(mix(mix(0, key.state_and_site), key.event), key.fetch_delays); }
 
 // Of what differs between states; equality compares all of them.
@@ -79,20 +49,21 @@ std::uint64_t Replay::hash(const Joint& joint) {
 }
 
 void Replay::execute(std::uint32_t site, const Prepared& instruction, const Event& event) {
-    const std::optional<Key> key = key_of(state_, site, event);
-    if (!key) {
+    if (!packs(event)) {
         take(compute(instruction, event));
         last_step_ = 0;
         return;
     }
+    const PackedEvent short_event = packed(event);
+    const Key key{std::uint64_t{state_} << 32 | site, short_event.event, short_event.fetch_delays};
     const std::uint32_t expected = steps_[last_step_].followed_by;
-    if (expected != 0 && steps_[expected].key == *key) {
+    if (expected != 0 && steps_[expected].key == key) {
         last_step_ = expected;
         take(steps_[expected]);
         return;
     }
-    std::size_t place = hash(*key) & (places_.size() - 1);
-    while (places_[place] != 0 && !(steps_[places_[place]].key == *key)) {
+    std::size_t place = hash(key) & (places_.size() - 1);
+    while (places_[place] != 0 && !(steps_[places_[place]].key == key)) {
         place = (place + 1) & (places_.size() - 1);
     }
     std::uint32_t found = places_[place];
@@ -102,7 +73,7 @@ void Replay::execute(std::uint32_t site, const Prepared& instruction, const Even
             return execute(site, instruction, event);
         }
         Step step = compute(instruction, event);
-        step.key = *key;
+        step.key = key;
         found = static_cast<std::uint32_t>(steps_.size());
         steps_.push_back(step);
         places_[place] = found;
@@ -123,6 +94,18 @@ void Replay::take(const Step& step) {
         losses_[step.effects[i]] += step.lost[i];
     }
     state_ = step.next_state;
+}
+
+void Replay::jump(std::uint32_t state, const std::array<std::int32_t, CoreFile::most_sets>& moved,
+                  std::span<const Loss> lost) {
+    for (std::size_t s = 0; s < positions_.size(); ++s) {
+        positions_[s] += moved[s];
+    }
+    for (const Loss& loss : lost) {
+        losses_[loss.effect] += loss.half_cycles;
+    }
+    state_ = state;
+    last_step_ = 0;
 }
 
 Replay::Step Replay::compute(const Prepared& instruction, const Event& event) {
@@ -177,6 +160,7 @@ void Replay::forget() {
     steps_.assign(1, {});
     places_.assign(1024, 0);
     last_step_ = 0;
+    ++epoch_;
     state_ = loaded_ = number_of(std::move(now));
 }
 

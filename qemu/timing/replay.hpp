@@ -8,7 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
+#include <span>
 #include <unordered_map>
 #include <vector>
 
@@ -26,6 +26,19 @@ public:
     /// Half cycle in which the last instruction issued, under each rule set, the nominal one first.
     [[nodiscard]] const std::array<std::int64_t, CoreFile::most_sets>& positions() const { return positions_; }
     [[nodiscard]] const Losses& losses() const { return losses_; }  ///< of the nominal set
+    /// Of the state in which the core is. Equal numbers are equal states, as long as the epoch is the same.
+    [[nodiscard]] std::uint32_t state() const { return state_; }
+    [[nodiscard]] std::uint64_t epoch() const { return epoch_; }
+
+    /// Half cycles that the nominal set lost to an effect.
+    struct Loss {
+        std::uint32_t effect;
+        std::int32_t half_cycles;
+    };
+    /// What `execute` did before from this state, at once. \param moved  half cycles, of each set
+    void jump(std::uint32_t state, const std::array<std::int32_t, CoreFile::most_sets>& moved,
+              std::span<const Loss> lost);
+
     /// Steps that were computed; all others were looked up.
     [[nodiscard]] std::uint64_t computed() const { return computed_; }
 
@@ -47,7 +60,6 @@ private:
     };
     using Joint = std::vector<State>;  // of all sets
 
-    [[nodiscard]] static std::optional<Key> key_of(std::uint32_t state, std::uint32_t site, const Event& event);
     [[nodiscard]] static std::uint64_t hash(const Key& key);
     [[nodiscard]] static std::uint64_t hash(const Joint& joint);
     [[nodiscard]] Step compute(const Prepared& instruction, const Event& event);
@@ -59,6 +71,7 @@ private:
     std::vector<std::unique_ptr<Pipeline>> pipelines_;
     std::vector<Joint> states_;
     std::unordered_multimap<std::uint64_t, std::uint32_t> numbers_;  // of states, by hash
+    std::uint64_t epoch_ = 0;                                        // times that states were numbered anew
     std::uint32_t state_ = 0;                                        // the present one
     std::uint32_t loaded_ = 0;                                       // the one that the pipelines hold
 

@@ -6,6 +6,14 @@
 namespace timing {
 namespace {
 
+void without_accesses(Event& event) {
+    static_cast<AccessEvent&>(event) = AccessEvent();
+    if (event.store_delayed) {
+        event.store_delays.fill(0);
+        event.store_delayed = false;
+    }
+}
+
 bool is_aligned(const qemu::Access& access) { return access.address % std::min<unsigned>(access.bytes, 4) == 0; }
 std::uint16_t narrowed(std::int64_t cycles) {
     return static_cast<std::uint16_t>(std::min<std::int64_t>(cycles, 0xFFFF));
@@ -23,40 +31,93 @@ Surroundings::Surroundings(const Figures& figures, Placement placement)
 
 const Event& Surroundings::meet(const Decoded& d, std::uint32_t address, std::span<const qemu::Access> accesses,
                                 std::uint32_t next) {
-    if (event_.store_delayed) {
-        event_.store_delays.fill(0);
-    }
-    event_.store_delayed = false;
-    event_.words = 0;
-    event_.load_delay = 0;
-    event_.accesses = 0;
-    event_.access_bytes = 0;
-    event_.odd_word = event_.off_eight = event_.unaligned = event_.has_banks = event_.in_dtcm = false;
-    event_.meets = 0;
-    event_.prediction = Prediction::right;
-    fetch(d, address);
+    without_accesses(event_);
+    fetch(d, address, event_);
     if (!accesses.empty()) {
-        const std::uint32_t first = accesses.front().address;
-        event_.accesses = static_cast<std::uint8_t>(std::min<std::size_t>(accesses.size(), 32));
-        event_.access_bytes = accesses.front().bytes;
-        event_.odd_word = (first >> 2 & 1U) != 0;
-        event_.off_eight = first % 8 != 0;
-        event_.has_banks = memory_.has_banks(first);
-        event_.in_dtcm = memory_.in_dtcm(first);
-        event_.unaligned = !is_aligned(accesses.front());
-        d.is_store() ? store(accesses) : load(accesses);
+        access(accesses, event_);
     }
-    event_.taken = d.branch != Branch::none && next != address + d.bytes;
-    if (d.branch != Branch::none) {
-        if (event_.taken) {
-            fetched_ = 0xFFFFFFFFU;
-        }
-        event_.prediction = predictor_.meet(d, address, next);
-    }
+    follow(d, address, next, event_);
     return event_;
 }
 
-void Surroundings::fetch(const Decoded& d, std::uint32_t address) {
+void Surroundings::meet(std::span<const CodeBlock::Line> lines, std::span<const qemu::Access> accesses,
+                        std::uint32_t next, BlockEvents& met) {
+    met.events.resize(lines.size());
+    for (const std::uint32_t nth : met.touched) {
+        without_accesses(met.events[nth]);
+    }
+    met.touched.clear();
+    std::size_t a = 0;
+    const auto access_of = [&](std::uint32_t nth) {
+        const std::size_t first = a;
+        while (a < accesses.size() && accesses[a].by == nth) {
+            ++a;
+        }
+        access(accesses.subspan(first, a - first), met.events[nth]);
+        met.touched.push_back(nth);
+    };
+    // Where fetching takes nothing, all but the first instruction take up the words that they took up before.
+    const CodeBlock::Line& last = lines.back();
+    const std::uint32_t last_byte = last.address + last.instruction->decoded.bytes - 1;
+    met.fetched_freely = met.known && memory_.fetches_freely(lines.front().address, last_byte);
+    if (met.fetched_freely) {
+        fetch(lines.front().instruction->decoded, lines.front().address, met.events.front());
+        fetched_ = lines.size() > 1 ? met.last_word : fetched_;
+        while (a < accesses.size()) {
+            access_of(accesses[a].by);
+        }
+    } else {
+        met.known = true;
+        for (std::uint32_t nth = 0; nth < lines.size(); ++nth) {
+            const Decoded& d = lines[nth].instruction->decoded;
+            fetch(d, lines[nth].address, met.events[nth]);
+            if (a < accesses.size() && accesses[a].by == nth) {
+                access_of(nth);
+            }
+            if (nth + 1 < lines.size()) {
+                follow(d, lines[nth].address, lines[nth + 1].address, met.events[nth]);
+            }
+            met.known =
+                met.known && !met.events[nth].fetch_delayed() && (d.branch == Branch::none || nth + 1 == lines.size());
+        }
+        met.last_word = fetched_;
+    }
+    follow(last.instruction->decoded, last.address, next, met.events.back());
+    met.make_key();
+}
+
+void Surroundings::access(std::span<const qemu::Access> accesses, Event& event) {
+    const std::uint32_t first = accesses.front().address;
+    AccessEvent found;
+    found.accesses = static_cast<std::uint8_t>(std::min<std::size_t>(accesses.size(), 32)) & 63U;
+    found.access_bytes = accesses.front().bytes & 15U;
+    found.odd_word = (first >> 2 & 1U) != 0;
+    found.off_eight = first % 8 != 0;
+    found.has_banks = memory_.has_banks(first);
+    found.in_dtcm = memory_.in_dtcm(first);
+    found.unaligned = !is_aligned(accesses.front());
+    if (accesses.front().store) {
+        store(accesses, event);
+    } else {
+        load(accesses, found);
+    }
+    static_cast<AccessEvent&>(event) = found;
+}
+
+void Surroundings::follow(const Decoded& d, std::uint32_t address, std::uint32_t next, Event& event) {
+    event.taken = d.branch != Branch::none && next != address + d.bytes;
+    event.prediction = Prediction::right;
+    if (d.branch != Branch::none) {
+        if (event.taken) {
+            fetched_ = 0xFFFFFFFFU;
+        }
+        event.prediction = predictor_.meet(d, address, next);
+    }
+}
+
+void Surroundings::fetch(const Decoded& d, std::uint32_t address, Event& event) {
+    std::uint8_t words = 0;
+    event.fetch_delays.fill(0);
     const std::uint32_t last = (address + d.bytes - 1) >> fetch_shift_;
     for (std::uint32_t word = address >> fetch_shift_; word <= last; ++word) {
         if (word == fetched_) {
@@ -65,33 +126,38 @@ void Surroundings::fetch(const Decoded& d, std::uint32_t address) {
         fetched_ = word;
         const Delay delay = memory_.fetch(word << fetch_shift_);
         if (delay.cycles > 0) {
-            event_.fetch_effect = delay.effect;
+            event.fetch_effect = delay.effect;
         }
-        event_.fetch_delays[event_.words++ % event_.fetch_delays.size()] = narrowed(delay.cycles);
+        event.fetch_delays[words++ % event.fetch_delays.size()] = narrowed(delay.cycles);
     }
+    event.words = words & 7U;
 }
 
-void Surroundings::load(std::span<const qemu::Access> accesses) {
+void Surroundings::load(std::span<const qemu::Access> accesses, AccessEvent& event) {
+    unsigned meets = 0;
     for (std::size_t n = 0; n < stored_words_.size(); ++n) {
-        event_.meets |= static_cast<std::uint8_t>(stored_words_[n] == accesses.front().address >> 2 ? 1U << n : 0U);
+        meets |= stored_words_[n] == accesses.front().address >> 2 ? 1U << n : 0U;
     }
+    event.meets = meets & 0xFFU;
+    std::int64_t cycles = 0;
     for (const qemu::Access& access : accesses) {
         const Delay delay = memory_.load(access.address);
         if (delay.cycles > 0) {
-            event_.load_delay += narrowed(delay.cycles);
-            event_.load_effect = delay.effect;
+            cycles += delay.cycles;
+            event.load_effect = delay.effect;
         }
     }
+    event.load_delay = narrowed(cycles);
 }
 
-void Surroundings::store(std::span<const qemu::Access> accesses) {
+void Surroundings::store(std::span<const qemu::Access> accesses, Event& event) {
     std::size_t nth = 0;
     for (const qemu::Access& access : accesses) {
         const Delay delay = memory_.store(access.address);
         if (delay.cycles > 0) {
-            event_.store_delayed = true;
-            event_.store_effect = delay.effect;
-            event_.store_delays[nth % event_.store_delays.size()] = narrowed(delay.cycles);
+            event.store_delayed = true;
+            event.store_effect = delay.effect;
+            event.store_delays[nth % event.store_delays.size()] = narrowed(delay.cycles);
         }
         for (std::size_t n = stored_words_.size() - 1; n > 0; --n) {
             stored_words_[n] = stored_words_[n - 1];

@@ -202,6 +202,11 @@ TEST(Stand, TheMotorIsOfFirstOrderAndTheDriverTakesItsTime) {
     built.input_limit = 0.2;
     EXPECT_NEAR(rotor_at({{0.0, 0.3}}, 9.0), 0.2, 1e-10);
     EXPECT_NEAR(rotor_at({{0.0, 0.15}}, 9.0), 0.1, 1e-10);
+    // A slope ends where it was to go.
+    built.rate_per_s = 0.2;
+    EXPECT_NEAR(rotor_at({{0.0, 0.15}}, 9.0), 0.1, 1e-10);
+    built.rate_per_s = 0.01;
+    EXPECT_LT(rotor_at({{0.0, 0.15}}, 9.0), 0.09);
 }
 
 TEST(Stand, TheBatterySagsUnderLoadAndWithTheChargeThatItGave) {
@@ -349,6 +354,30 @@ TEST(Stand, WhatIsWrongWithTheReadingIsInTheReadingOnly) {
     EXPECT_NE(jittered, good.angle_rad);
     const auto noisy = changed([&](auto& s) { s.noise_rad = 0.02; });
     EXPECT_NE(noisy, good.angle_rad);
+}
+
+TEST(Stand, JitterAndStampsAreDrawnApart) {
+    stand::Stand built;
+    built.encoder_step_rad = 0.0;
+    const stand::Experiment pulse;
+    const auto good = stand::run(built, pulse, 5);
+    built.jitter_s = 0.001;
+    const auto late = stand::run(built, pulse, 5);
+    // How late each sample was taken, from how fast the bar moves then.
+    double product = 0.0, of_stamps = 0.0, of_jitter = 0.0;
+    for (std::size_t k = 1; k + 1 < good.time_s.size(); ++k) {
+        const double speed =
+            (good.angle_rad[k + 1] - good.angle_rad[k - 1]) / (good.time_s[k + 1] - good.time_s[k - 1]);
+        if (std::fabs(speed) > 0.2) {
+            const double jitter = (late.angle_rad[k] - good.angle_rad[k]) / speed;
+            const double stamp = good.time_s[k] - 0.01 * static_cast<double>(k);
+            product += jitter * stamp;
+            of_stamps += stamp * stamp;
+            of_jitter += jitter * jitter;
+        }
+    }
+    EXPECT_GT(of_jitter, 1e-6);
+    EXPECT_LT(std::fabs(product), 0.3 * std::sqrt(of_stamps * of_jitter));
 }
 
 TEST(Stand, ThreeSeriesRepeatAndTheFourthIsDisturbed) {

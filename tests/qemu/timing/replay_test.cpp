@@ -1,6 +1,6 @@
 // What is looked up equals what is computed, half cycle for half cycle and loss for loss: on random walks through
 // random programs, on every core and under each of its rule sets.
-#include "qemu/timing/replay.hpp"
+#include "qemu/timing/block_replay.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +9,7 @@
 #include "listing.hpp"
 #include "qemu/timing/band.hpp"
 #include "qemu/timing/decode.hpp"
+#include "qemu/timing/surroundings.hpp"
 
 namespace {
 
@@ -127,6 +128,85 @@ TEST(Replay, EqualsTheComputationStepByStep) {
         }
         EXPECT_EQ(replay.losses(), direct[0]->losses) << name;
         EXPECT_LT(replay.computed(), steps) << name;
+    }
+}
+
+// The same by whole blocks, with caches that learn on the way: what is kept of a block's fetches and accesses from one
+// execution to the next, too.
+TEST(BlockReplay, EqualsTheComputationStepByStep) {
+    std::string text;
+    for (const char* word : words) {
+        text += std::string(word) + "\n";
+    }
+    const std::vector<listing::Line> lines = listing::assemble(text);
+    std::mt19937 generator(11);
+    const auto draw = [&](std::size_t below) { return static_cast<std::uint32_t>(generator() % below); };
+    std::vector<std::unique_ptr<timing::Prepared>> sites;
+    std::vector<timing::CodeBlock> blocks(24);
+    std::uint32_t address = 0x100;
+    for (timing::CodeBlock& block : blocks) {
+        block.index = static_cast<std::uint32_t>(&block - blocks.data());
+        for (unsigned count = 1 + draw(20); count > 0; --count) {
+            const listing::Line& line = lines[draw(lines.size())];
+            sites.push_back(std::make_unique<timing::Prepared>(timing::decode(line.encoding, line.bytes)));
+            block.lines.push_back({sites.back().get(), static_cast<std::uint32_t>(sites.size() - 1), address});
+            address += line.bytes;
+        }
+        address += 2 * draw(40);
+    }
+    for (const std::string& name : timing::core_names(TEST_CORES)) {
+        const timing::CoreFile core = timing::read_core(TEST_CORES, name);
+        timing::Surroundings of_blocks(core.sets[0].figures, core.placement);
+        timing::Surroundings of_steps(core.sets[0].figures, core.placement);
+        timing::BlockReplay replay(core);
+        std::vector<std::unique_ptr<timing::Pipeline>> direct;
+        for (const timing::RuleSet& set : core.sets) {
+            direct.push_back(std::make_unique<timing::Pipeline>(set.figures, core.off));
+        }
+        std::vector<timing::BlockEvents> met(blocks.size());
+        std::vector<std::int64_t> half_cycles(sites.size());
+        for (int turn = 0; turn < 400; ++turn) {
+            const timing::CodeBlock& block = blocks[draw(blocks.size())];
+            const std::uint32_t data = 0x20000000U + 4 * draw(64) + (draw(16) == 0 ? 1 : 0);
+            for (unsigned times = 1 + draw(12); times > 0; --times) {
+                const bool counted = draw(4) != 0;
+                const std::uint32_t next = times > 1 ? block.lines.front().address : 0x10;
+                std::vector<qemu::Access> accesses;
+                std::vector<std::vector<qemu::Access>> of_line(block.lines.size());
+                for (std::uint32_t nth = 0; nth < block.lines.size(); ++nth) {
+                    const timing::Decoded& d = block.lines[nth].instruction->decoded;
+                    const unsigned made = draw(24) == 0 ? 0 : d.registers;  // now and then a condition is false
+                    for (unsigned n = 0; n < made; ++n) {
+                        of_line[nth].push_back(
+                            {data + 32 * (draw(8) == 0 ? draw(512) : 0) + 4 * n, d.access_bytes, d.is_store()});
+                        of_line[nth].back().by = static_cast<std::uint16_t>(nth);
+                        accesses.push_back(of_line[nth].back());
+                    }
+                }
+                timing::BlockEvents& events = met[block.index];
+                of_blocks.meet(block.lines, accesses, next, events);
+                replay.execute(block, events, counted);
+                for (std::uint32_t nth = 0; nth < block.lines.size(); ++nth) {
+                    const timing::CodeBlock::Line& line = block.lines[nth];
+                    const std::uint32_t behind = nth + 1 < block.lines.size() ? block.lines[nth + 1].address : next;
+                    const std::int32_t before = direct[0]->state.position;
+                    const timing::Event& event =
+                        of_steps.meet(line.instruction->decoded, line.address, of_line[nth], behind);
+                    for (const auto& pipeline : direct) {
+                        pipeline->execute(*line.instruction, event);
+                    }
+                    half_cycles[line.site] += counted ? direct[0]->state.position - before : 0;
+                }
+                for (std::size_t s = 0; s < direct.size(); ++s) {
+                    ASSERT_EQ(replay.core().positions()[s], direct[s]->state.position)
+                        << name << " " << core.sets[s].name << " turn " << turn << " block " << block.index;
+                }
+            }
+        }
+        EXPECT_EQ(replay.core().losses(), direct[0]->losses) << name;
+        std::vector<std::int64_t> counted = replay.half_cycles();
+        counted.resize(half_cycles.size());
+        EXPECT_EQ(counted, half_cycles) << name;
     }
 }
 
