@@ -5,7 +5,7 @@ namespace timing {
 // Of the instructions whose events vary: the first, whose word may be at hand, those that access memory, those that
 // wait for their bytes, and the last, which may branch. Which of the block's it is stands above the event's bits.
 void BlockEvents::make_key() {
-    static_assert(sizeof(AccessEvent) == 8 && sizeof(FlowEvent) == 2);
+    static_assert(sizeof(AccessEvent) == sizeof(std::uint64_t));
     count_ = 0;
     if (events.size() >= std::size_t{1} << (64 - PackedEvent::bits)) {
         return;

@@ -12,31 +12,28 @@
 
 namespace timing {
 
-/// What an instruction's accesses bring to the core.
+/// What an instruction's accesses bring to the core. No bit is padding: it is packed as a number.
 struct AccessEvent {
     std::uint64_t load_delay : 16 = 0;   ///< extra cycles of all its loads, 65535 for more
     std::uint64_t accesses : 6 = 0;      ///< really made
     std::uint64_t access_bytes : 4 = 0;  ///< of each
     std::uint64_t meets : 8 = 0;         ///< bit n: a load of the word that the last store but n wrote
-    Effect load_effect : 4 = Effect::dcache_misses;
-    bool odd_word : 1 = false;   ///< of the first access: its bank
-    bool off_eight : 1 = false;  ///< the first address is no multiple of 8
-    bool unaligned : 1 = false;
-    bool has_banks : 1 = false;  ///< of the memory that the first access goes to
-    bool in_dtcm : 1 = false;
-};
-
-/// What its fetch, and what it does to the flow, bring.
-struct FlowEvent {
-    std::uint16_t words : 3 = 0;  ///< of the fetch, taken up for this instruction
-    Effect fetch_effect : 4 = Effect::icache_misses;
-    Prediction prediction : 2 = Prediction::right;
-    bool taken : 1 = false;  ///< what is executed next does not stand behind this
+    std::uint64_t odd_word : 1 = 0;      ///< of the first access: its bank
+    std::uint64_t off_eight : 1 = 0;     ///< the first address is no multiple of 8
+    std::uint64_t unaligned : 1 = 0;
+    std::uint64_t has_banks : 1 = 0;  ///< of the memory that the first access goes to
+    std::uint64_t in_dtcm : 1 = 0;
+    std::uint64_t unused : 25 = 0;
 };
 
 /// All that one execution of an instruction brings to the core, beside the instruction itself.
-struct Event : AccessEvent, FlowEvent {
+struct Event : AccessEvent {
+    Prediction prediction = Prediction::right;
+    bool taken = false;                           ///< what is executed next does not stand behind this
+    std::uint8_t words = 0;                       ///< of the fetch, taken up for this instruction, at most 7
     std::array<std::uint16_t, 4> fetch_delays{};  ///< extra cycles of each word
+    Effect fetch_effect = Effect::icache_misses;
+    Effect load_effect = Effect::dcache_misses;
     bool store_delayed = false;
     Effect store_effect = Effect::dcache_misses;
     std::array<std::uint16_t, 32> store_delays{};  ///< extra cycles of each store, if one has any
@@ -46,15 +43,17 @@ struct Event : AccessEvent, FlowEvent {
 
 /// Equal events have equal words, others others, provided that `packs`.
 struct PackedEvent {
-    static constexpr unsigned bits = 55;  ///< of `event`, the lowest
+    static constexpr unsigned bits = 54;  ///< of `event`, the lowest
     std::uint64_t event;
     std::uint64_t fetch_delays;  ///< 0: none, and `event` says so
 };
 [[nodiscard]] inline bool packs(const Event& e) { return !e.store_delayed && e.words <= e.fetch_delays.size(); }
 [[nodiscard]] inline PackedEvent packed(const Event& e) {
     const auto accesses = std::bit_cast<std::uint64_t>(static_cast<const AccessEvent&>(e));
-    const auto flow = std::bit_cast<std::uint16_t>(static_cast<const FlowEvent&>(e));
-    return {accesses | std::uint64_t{flow} << 44 | std::uint64_t{e.fetch_delayed()} << 54,
+    const std::uint64_t load = e.load_delay > 0 ? index(e.load_effect) : 0;
+    const std::uint64_t fetch = e.fetch_delayed() ? 1 + index(e.fetch_effect) : 0;
+    return {accesses | load << 39 | fetch << 43 | std::uint64_t{e.words} << 48 | std::uint64_t{e.taken} << 51 |
+                static_cast<std::uint64_t>(e.prediction) << 52,
             std::bit_cast<std::uint64_t>(e.fetch_delays)};
 }
 

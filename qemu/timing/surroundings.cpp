@@ -91,15 +91,15 @@ void Surroundings::access(std::span<const qemu::Access> accesses, Event& event) 
     AccessEvent found;
     found.accesses = static_cast<std::uint8_t>(std::min<std::size_t>(accesses.size(), 32)) & 63U;
     found.access_bytes = accesses.front().bytes & 15U;
-    found.odd_word = (first >> 2 & 1U) != 0;
-    found.off_eight = first % 8 != 0;
-    found.has_banks = memory_.has_banks(first);
-    found.in_dtcm = memory_.in_dtcm(first);
-    found.unaligned = !is_aligned(accesses.front());
+    found.odd_word = first >> 2 & 1U;
+    found.off_eight = first % 8 != 0 ? 1U : 0U;
+    found.has_banks = memory_.has_banks(first) ? 1U : 0U;
+    found.in_dtcm = memory_.in_dtcm(first) ? 1U : 0U;
+    found.unaligned = is_aligned(accesses.front()) ? 0U : 1U;
     if (accesses.front().store) {
         store(accesses, event);
     } else {
-        load(accesses, found);
+        load(accesses, found, event.load_effect);
     }
     static_cast<AccessEvent&>(event) = found;
 }
@@ -133,7 +133,7 @@ void Surroundings::fetch(const Decoded& d, std::uint32_t address, Event& event) 
     event.words = words & 7U;
 }
 
-void Surroundings::load(std::span<const qemu::Access> accesses, AccessEvent& event) {
+void Surroundings::load(std::span<const qemu::Access> accesses, AccessEvent& event, Effect& effect) {
     unsigned meets = 0;
     for (std::size_t n = 0; n < stored_words_.size(); ++n) {
         meets |= stored_words_[n] == accesses.front().address >> 2 ? 1U << n : 0U;
@@ -144,7 +144,7 @@ void Surroundings::load(std::span<const qemu::Access> accesses, AccessEvent& eve
         const Delay delay = memory_.load(access.address);
         if (delay.cycles > 0) {
             cycles += delay.cycles;
-            event.load_effect = delay.effect;
+            effect = delay.effect;
         }
     }
     event.load_delay = narrowed(cycles);

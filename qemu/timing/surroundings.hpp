@@ -39,7 +39,7 @@ private:
     void fetch(const Decoded& d, std::uint32_t address, Event& event);
     void access(std::span<const qemu::Access> accesses, Event& event);
     void follow(const Decoded& d, std::uint32_t address, std::uint32_t next, Event& event);
-    void load(std::span<const qemu::Access> accesses, AccessEvent& event);
+    void load(std::span<const qemu::Access> accesses, AccessEvent& event, Effect& effect);
     void store(std::span<const qemu::Access> accesses, Event& event);
 
     const Figures figures_;  // memory_ refers to it
