@@ -29,13 +29,41 @@ struct Options {
     std::vector<std::string> without;
 };
 
+bool misses(double predicted, double measured) {
+    return std::abs(predicted / measured - 1.0) > allowed_share && std::abs(predicted - measured) > allowed_cycles;
+}
+
+// How well each rule set of the core fits: which rivals these rows cannot part.
+// \param all  of all sets together, then of each alone
+void print_sets(const timing::CoreFile& core, const std::vector<qemu::MeasuredCycles>& rows,
+                const std::vector<std::vector<qemu::PredictedCycles>>& all) {
+    fmt::print("\n{:<12} {:>8} {:>8} {:>8}  {}\n", "rule set", "median", "worst", "missed", "");
+    for (std::size_t s = 0; s < core.sets.size(); ++s) {
+        std::vector<double> errors;
+        std::size_t missed = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const double predicted = all[1 + s][i].nominal;
+            errors.push_back(std::abs(predicted / rows[i].cycles - 1.0));
+            missed += misses(predicted, rows[i].cycles) ? 1 : 0;
+        }
+        std::sort(errors.begin(), errors.end());
+        fmt::print("{:<12} {:>7.1f}% {:>7.1f}% {:>8}  {}\n", core.sets[s].name, 100 * errors[errors.size() / 2],
+                   100 * errors.back(), fmt::format("{} of {}", missed, rows.size()), core.sets[s].note);
+    }
+}
+
 void run(const Options& options) {
     const std::vector<qemu::MeasuredCycles> rows = qemu::read_measured_cycles(options.file);
     const qemu::Board board = built_board();
     const qemu::SiliconProgram program{board.measure_elf.parent_path() / "silicon.elf", board.plugin, board.cores,
                                        board.emulator};
-    const std::vector<qemu::PredictedCycles> predicted =
-        qemu::predict(program, options.file, rows, options.core, options.without);
+    const timing::CoreFile core = timing::read_core(board.cores, options.core);
+    std::vector<qemu::CoreVariant> variants{{options.core, "", options.without}};
+    for (const timing::RuleSet& set : core.sets) {
+        variants.push_back({options.core, set.name, options.without});
+    }
+    const auto all = qemu::predict(program, options.file, rows, variants);
+    const std::vector<qemu::PredictedCycles>& predicted = all.front();
 
     fmt::print("{}: {} rows, predicted with the core file {}\n\n", options.file.filename().string(), rows.size(),
                options.core);
@@ -53,12 +81,12 @@ void run(const Options& options) {
         const qemu::MeasuredCycles& row = rows[i];
         const qemu::PredictedCycles& p = predicted[i];
         const double error = p.nominal / row.cycles - 1.0;
-        const bool misses = std::abs(error) > allowed_share && std::abs(p.nominal - row.cycles) > allowed_cycles;
-        missed += misses ? 1 : 0;
+        const bool missing = misses(p.nominal, row.cycles);
+        missed += missing ? 1 : 0;
         errors.push_back(std::abs(error));
         fmt::print("{:<26} {:<13} {:<5} {:>5} {:>9} {:>9.1f} {:>17} {:>+7.1f}% {:>+8.1f}{}\n", row.kernel, row.code,
                    row.data, row.taps, row.cycles, p.nominal, fmt::format("{:.1f} to {:.1f}", p.low, p.high),
-                   100 * error, p.nominal - row.cycles, misses ? "  MISSED" : "");
+                   100 * error, p.nominal - row.cycles, missing ? "  MISSED" : "");
         Group& group = groups[fmt::format("{:<26} {:<13} {:<5}", row.kernel, row.code, row.data)];
         group.taps.push_back(row.taps);
         group.measured.push_back(row.cycles);
@@ -72,6 +100,7 @@ void run(const Options& options) {
         fmt::print("{:<46} {:>10.3f} {:>10.3f} {:>10.1f} {:>10.1f}\n", name, measured.slope, model.slope,
                    measured.constant, model.constant);
     }
+    print_sets(core, rows, all);
     std::sort(errors.begin(), errors.end());
     fmt::print("\nmedian error {:.1f} %, worst {:.1f} %; {} of {} rows within {:.0f} % or {:.0f} cycles\n",
                100 * errors[errors.size() / 2], 100 * errors.back(), rows.size() - missed, rows.size(),

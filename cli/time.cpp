@@ -89,8 +89,8 @@ private:
 timing::TimingRequest to_request(const Options& options, const std::filesystem::path& cores_folder) {
     timing::TimingRequest request;
     request.cores_folder = cores_folder.string();
-    request.without = options.without;
     timing::TimingRequest::Core core{options.core, "", ""};
+    core.without = options.without;
     for (const std::string& place : options.places) {
         const std::string key = place.substr(0, place.find('='));
         const std::string value = place.find('=') == std::string::npos ? "" : place.substr(place.find('=') + 1);

@@ -114,9 +114,9 @@ std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& fi
     return rows;
 }
 
-std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::filesystem::path& file,
-                                     const std::vector<MeasuredCycles>& rows, const std::string& core,
-                                     const std::vector<std::string>& without) {
+std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program, const std::filesystem::path& file,
+                                                  const std::vector<MeasuredCycles>& rows,
+                                                  const std::vector<CoreVariant>& variants) {
     const Elf elf(program.elf);
     const std::map<std::string, std::uint32_t> kernels = watched_kernels(elf);
     // Each placement is a core of its own; each kernel and length is run once.
@@ -152,9 +152,11 @@ std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::f
     }
     timing::TimingRequest request;
     request.cores_folder = program.cores_folder.string();
-    request.without = without;
-    for (const auto& [code, data] : placements) {
-        request.cores.push_back({core, code == "itcm" ? "itcm" : "flash", data, code != "flash"});
+    for (const CoreVariant& variant : variants) {
+        for (const auto& [code, data] : placements) {
+            request.cores.push_back(
+                {variant.core, code == "itcm" ? "itcm" : "flash", data, code != "flash", variant.set, variant.without});
+        }
     }
     const std::vector<timing::CoreFile> cores = timing::cores_of(request);
 
@@ -196,17 +198,20 @@ std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::f
             settled.push_back(log.runs.back().call);
         }
     }
-    std::vector<PredictedCycles> predictions;
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-        const auto [placement, planned] = of_row[i];
-        const auto& half_cycles = settled[planned].cores[placement].half_cycles;
-        const timing::Figures& figures = cores[placement].sets[0].figures;
-        const auto more = static_cast<double>(figures.measurement_counter_reads +
-                                              (rows[i].maintenance ? figures.measurement_maintenance : 0));
-        const auto cycles = [&](std::int64_t half) { return static_cast<double>(half) / 2.0 + more; };
-        predictions.push_back({cycles(half_cycles[0]),
-                               cycles(*std::min_element(half_cycles.begin(), half_cycles.end())),
-                               cycles(*std::max_element(half_cycles.begin(), half_cycles.end()))});
+    std::vector<std::vector<PredictedCycles>> predictions(variants.size());
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            const auto [placement, planned] = of_row[i];
+            const std::size_t core = v * placements.size() + placement;
+            const timing::CoreTime& time = settled[planned].cores[core];
+            const timing::Figures& figures = cores[core].sets[0].figures;
+            const auto beside = static_cast<double>(figures.measurement_counter_reads +
+                                                    (rows[i].maintenance ? figures.measurement_maintenance : 0));
+            const auto cycles = [&](std::int64_t half) { return static_cast<double>(half) / 2.0 + beside; };
+            const auto [low, high] = std::minmax_element(time.half_cycles.begin(), time.half_cycles.end());
+            predictions[v].push_back({cycles(time.half_cycles[0]), cycles(*low), cycles(*high), beside,
+                                      settled[planned].instructions, time.losses});
+        }
     }
     return predictions;
 }

@@ -27,10 +27,20 @@ struct MeasuredCycles {
 ///         is none, and a file without rows
 [[nodiscard]] std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& file);
 
+/// A core file, with its placement replaced by each row's.
+struct CoreVariant {
+    std::string core;
+    std::string set = {};                   ///< one of its rule sets alone; empty: all of them
+    std::vector<std::string> without = {};  ///< effects that cost nothing
+};
+
 struct PredictedCycles {
     double nominal;
     double low;  ///< of the core file's rule sets, the nominal one included
     double high;
+    double beside;               ///< of these, what the core file adds for reading the counter and for maintenance
+    std::uint64_t instructions;  ///< of the call
+    timing::Losses half_cycles;  ///< lost to each effect
 };
 
 struct SiliconProgram {
@@ -40,14 +50,14 @@ struct SiliconProgram {
     Emulator emulator;
 };
 
-/// Predictions, row by row, on a core of the folder with each row's placement.
+/// Predictions, variant by variant and row by row.
 /// A kernel is a loop of the program's (targets/firmware/silicon_loops.def), or else one of the registry's.
 /// \throws glsum::Failure (bad input) naming file and line for a kernel that the program does not have, and for more
-/// taps
-///         than it takes
-[[nodiscard]] std::vector<PredictedCycles> predict(const SiliconProgram& program, const std::filesystem::path& file,
-                                                   const std::vector<MeasuredCycles>& rows, const std::string& core,
-                                                   const std::vector<std::string>& without);
+///         taps than it takes
+[[nodiscard]] std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program,
+                                                                const std::filesystem::path& file,
+                                                                const std::vector<MeasuredCycles>& rows,
+                                                                const std::vector<CoreVariant>& variants);
 
 /// Least-squares line through (taps, cycles).
 struct Line {

@@ -1,5 +1,6 @@
 #include "qemu/timing/timing_log.hpp"
 
+#include <algorithm>
 #include <istream>
 #include <ostream>
 #include <sstream>
@@ -128,13 +129,15 @@ TimingLog read_timing_log(std::istream& in) {
 }
 
 void write_timing_request(std::ostream& out, const TimingRequest& request) {
+    const auto word = [](const std::string& text) { return text.empty() ? "-" : text; };
     out << "folder " << request.cores_folder << '\n';
     for (const auto& core : request.cores) {
-        out << "core " << core.name << ' ' << (core.code.empty() ? "-" : core.code) << ' '
-            << (core.data.empty() ? "-" : core.data) << ' ' << core.instruction_cache << '\n';
-    }
-    for (const std::string& effect : request.without) {
-        out << "without " << effect << '\n';
+        out << "core " << core.name << ' ' << word(core.code) << ' ' << word(core.data) << ' ' << core.instruction_cache
+            << ' ' << word(core.set);
+        for (const std::string& effect : core.without) {
+            out << ' ' << effect;
+        }
+        out << '\n';
     }
 }
 
@@ -148,20 +151,24 @@ TimingRequest read_timing_request(std::istream& in) {
             std::getline(words >> std::ws, request.cores_folder);
         } else if (kind == "core") {
             TimingRequest::Core core;
-            words >> core.name >> core.code >> core.data >> core.instruction_cache;
-            core.code = core.code == "-" ? "" : core.code;
-            core.data = core.data == "-" ? "" : core.data;
+            words >> core.name >> core.code >> core.data >> core.instruction_cache >> core.set;
+            for (std::string* word : {&core.code, &core.data, &core.set}) {
+                *word = *word == "-" ? "" : *word;
+            }
+            for (std::string effect; words >> effect;) {
+                core.without.push_back(effect);
+            }
             request.cores.push_back(core);
-        } else if (kind == "without") {
-            words >> request.without.emplace_back();
         }
     }
     return request;
 }
 
-std::vector<CoreFile> cores_of(const TimingRequest& request) {
-    Effects off;
-    for (const std::string& name : request.without) {
+namespace {
+
+Effects effects_named(const std::vector<std::string>& names) {
+    Effects effects;
+    for (const std::string& name : names) {
         const auto effect = effect_named(name);
         if (!effect) {
             std::string known;
@@ -171,12 +178,35 @@ std::vector<CoreFile> cores_of(const TimingRequest& request) {
             throw glsum::Failure(glsum::Exit::bad_input,
                                  name + ": no such effect of the model; expected one of" + known);
         }
-        off.set(index(*effect));
+        effects.set(index(*effect));
     }
+    return effects;
+}
+
+void keep_only(CoreFile& core, const std::string& set) {
+    const auto found =
+        std::find_if(core.sets.begin(), core.sets.end(), [&](const RuleSet& one) { return one.name == set; });
+    if (found == core.sets.end()) {
+        std::string known;
+        for (const RuleSet& one : core.sets) {
+            known += " " + one.name;
+        }
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             set + ": no such rule set of the core " + core.name + "; expected one of" + known);
+    }
+    core.sets = {RuleSet(*found)};
+}
+
+}  // namespace
+
+std::vector<CoreFile> cores_of(const TimingRequest& request) {
     std::vector<CoreFile> cores;
     for (const auto& wanted : request.cores) {
         CoreFile core = read_core(request.cores_folder, wanted.name);
-        core.off |= off;
+        core.off |= effects_named(wanted.without);
+        if (!wanted.set.empty()) {
+            keep_only(core, wanted.set);
+        }
         if (!wanted.code.empty()) {
             core.placement.code = code_place_named(wanted.code);
         }

@@ -49,17 +49,18 @@ struct TimingRequest {
         std::string name;
         std::string code;  ///< placement; empty: as the core file has it
         std::string data;
-        bool instruction_cache = true;  ///< false: off, whatever the core file says
+        bool instruction_cache = true;          ///< false: off, whatever the core file says
+        std::string set = {};                   ///< this rule set alone; empty: all, the nominal one first
+        std::vector<std::string> without = {};  ///< effects that are switched off
     };
     std::string cores_folder;
     std::vector<Core> cores;
-    std::vector<std::string> without;  ///< effects that are switched off
 };
 void write_timing_request(std::ostream& out, const TimingRequest& request);
 [[nodiscard]] TimingRequest read_timing_request(std::istream& in);
 
-/// Reads the core files that a request names, with its placement and effects applied.
-/// \throws glsum::Failure as read_core, and for an effect that does not exist or is none of the model's
+/// Reads the core files that a request names, with its placements, sets and effects applied.
+/// \throws glsum::Failure as read_core, and for a set or an effect that does not exist or is none of the model's
 [[nodiscard]] std::vector<CoreFile> cores_of(const TimingRequest& request);
 
 }  // namespace timing

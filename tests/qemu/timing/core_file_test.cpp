@@ -99,22 +99,23 @@ TEST(CoreFile, ACoreOrEffectThatDoesNotExistIsNamedWithThoseThatDo) {
     }
     timing::TimingRequest request;
     request.cores_folder = cores.string();
-    request.cores = {{"m7-ideal", "", ""}};
-    request.without = {"backlash"};
+    request.cores = {{"m7-ideal", "", "", true, "", {"backlash"}}};
     EXPECT_THROW((void)timing::cores_of(request), glsum::Failure);
-    request.without = {"load_use"};
-    request.cores = {{"stm32f746-itcm", "flash", "axi"}};
+    request.cores = {{"stm32f746-itcm", "", "", true, "publshed", {}}};
+    EXPECT_THROW((void)timing::cores_of(request), glsum::Failure);
+    request.cores = {{"stm32f746-itcm", "flash", "axi", true, "published", {"load_use"}}};
     const auto changed = timing::cores_of(request);
     EXPECT_TRUE(changed[0].off[timing::index(timing::Effect::load_use)]);
     EXPECT_EQ(changed[0].placement.code, timing::CodePlace::flash);
     EXPECT_EQ(changed[0].placement.data, timing::DataPlace::axi);
+    ASSERT_EQ(changed[0].sets.size(), 1U);
+    EXPECT_EQ(changed[0].sets[0].name, "published");
 }
 
 TEST(TimingRequest, IsReadAsItWasWritten) {
     timing::TimingRequest request;
     request.cores_folder = "/a folder/cores";
-    request.cores = {{"one", "itcm", ""}, {"two", "", "axi", false}};
-    request.without = {"load_use", "single_issue"};
+    request.cores = {{"one", "itcm", ""}, {"two", "", "axi", false, "chain", {"load_use", "single_issue"}}};
     std::stringstream text;
     timing::write_timing_request(text, request);
     const timing::TimingRequest read = timing::read_timing_request(text);
@@ -124,7 +125,10 @@ TEST(TimingRequest, IsReadAsItWasWritten) {
     EXPECT_EQ(read.cores[0].data, "");
     EXPECT_TRUE(read.cores[0].instruction_cache);
     EXPECT_FALSE(read.cores[1].instruction_cache);
-    EXPECT_EQ(read.without, request.without);
+    EXPECT_EQ(read.cores[0].set, "");
+    EXPECT_TRUE(read.cores[0].without.empty());
+    EXPECT_EQ(read.cores[1].set, "chain");
+    EXPECT_EQ(read.cores[1].without, request.cores[1].without);
 }
 
 }  // namespace

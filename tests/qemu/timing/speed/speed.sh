@@ -31,7 +31,7 @@ run ''
 bare=$seconds
 status=0
 for core in "$@"; do
-    printf 'folder %s\ncore %s - - 1\n' "$root/qemu/cores" "$core" >"$work/request"
+    printf 'folder %s\ncore %s - - 1 -\n' "$root/qemu/cores" "$core" >"$work/request"
     run "$plugin,watch=$work/watch,timing=$work/request,times=$work/log"
     instructions=$(awk '/^calls/ { n += $2 * $4 } END { print n }' "$work/log")
     awk -v core="$core" -v n="$instructions" -v bare="$bare" -v s="$seconds" 'BEGIN {
