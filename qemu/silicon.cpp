@@ -107,6 +107,9 @@ std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& fi
                         one_of(cell("maintenance"), place, "maintenance", {"0", "1"}) == "1",
                         to_number<std::uint32_t>(cell("taps"), place, "taps", 1, 1e6),
                         to_number<double>(cell("cycles"), place, "cycles", 1, 1e12), number});
+        if (columns.contains("instructions")) {
+            rows.back().instructions = to_number<double>(cell("instructions"), place, "instructions", 1, 1e12);
+        }
     }
     if (rows.empty()) {
         throw Failure(Exit::bad_input, fmt::format("{}: expected rows of measured cycles, found none", file.string()));

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct MeasuredCycles {
     std::uint32_t taps;
     double cycles;
     unsigned line;
+    std::optional<double> instructions = {};  ///< of a call, where the file has that column
 };
 
 /// \throws glsum::Failure (bad input) with file and line for a column that is missing, a ragged row, a word or number

@@ -1,0 +1,171 @@
+// The diagnosis of cycles on made-up cores: what was done to the measurement is what is found.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/cycles/explain.hpp"
+
+namespace {
+
+using gap::cycles::Explanation;
+using gap::cycles::Question;
+
+// A kernel's cycles: of its instructions, and lost to effects, a tap and a call.
+struct Loss {
+    const char* effect;
+    double a_tap;
+    double a_call;
+};
+struct Kernel {
+    const char* name;
+    double ideal_a_tap;
+    std::vector<Loss> losses;
+};
+const std::vector<Kernel> kernels{
+    {"ring_plain_q31", 2.0, {{"single_issue", 1.0, 4.0}, {"load_use", 0.5, 1.0}, {"branch_mispredict", 0.0, 16.0}}},
+    {"ring_fir_q31", 3.0, {{"single_issue", 0.5, 2.0}, {"store_buffer", 1.0, 0.0}, {"branch_mispredict", 0.0, 8.0}}},
+    {"mirror_multi_q15",
+     1.0,
+     {{"single_issue", 0.25, 6.0}, {"load_bank_conflict", 0.75, 0.0}, {"branch_mispredict", 0.0, 24.0}}},
+};
+
+std::vector<qemu::MeasuredCycles> rows() {
+    std::vector<qemu::MeasuredCycles> all;
+    for (const Kernel& kernel : kernels) {
+        for (const bool maintenance : {false, true}) {
+            for (const std::uint32_t taps : {10U, 20U, 50U, 100U, 200U, 400U}) {
+                all.push_back({kernel.name, "itcm", maintenance ? "axi" : "dtcm", maintenance, taps, 0.0, 0});
+            }
+        }
+    }
+    return all;
+}
+
+std::vector<qemu::PredictedCycles> predict(const std::vector<qemu::MeasuredCycles>& all,
+                                           const qemu::CoreVariant& variant) {
+    std::vector<qemu::PredictedCycles> predicted;
+    for (const qemu::MeasuredCycles& row : all) {
+        const Kernel& kernel =
+            *std::find_if(kernels.begin(), kernels.end(), [&](const Kernel& one) { return row.kernel == one.name; });
+        qemu::PredictedCycles p{kernel.ideal_a_tap * row.taps, 0, 0, 0, 100, {}};
+        for (const Loss& loss : kernel.losses) {
+            const bool off = variant.core == "ideal" || std::find(variant.without.begin(), variant.without.end(),
+                                                                  loss.effect) != variant.without.end();
+            const double cycles = loss.a_tap * row.taps + loss.a_call;
+            if (!off) {
+                p.nominal += cycles;
+                p.half_cycles[timing::index(*timing::effect_named(loss.effect))] = std::llround(2.0 * cycles);
+            }
+        }
+        predicted.push_back(p);
+    }
+    return predicted;
+}
+
+// Cycles of the core `real` without some effects, changed by `change`.
+Explanation diagnose(const std::string& base, const std::vector<std::string>& without,
+                     const std::function<double(const qemu::MeasuredCycles&, const qemu::PredictedCycles&)>& change) {
+    Question question;
+    question.rows = rows();
+    question.base = base;
+    question.references = {"real"};
+    question.sets["real"] = question.fitting["real"] = {"nominal"};
+    if (base == "ideal") {
+        for (const std::string_view name : timing::effect_names) {
+            question.base_off.emplace_back(name);
+        }
+    }
+    const auto truth = predict(question.rows, {"real", "", without});
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        question.rows[i].cycles = std::round(change(question.rows[i], truth[i]));
+    }
+    return gap::cycles::explain(question, [&](const std::vector<qemu::CoreVariant>& variants) {
+        std::vector<std::vector<qemu::PredictedCycles>> all;
+        for (const auto& variant : variants) {
+            all.push_back(predict(question.rows, variant));
+        }
+        return all;
+    });
+}
+
+double unchanged(const qemu::MeasuredCycles&, const qemu::PredictedCycles& p) { return p.nominal; }
+
+std::vector<std::string> effects_of(const Explanation& found) {
+    std::vector<std::string> names;
+    for (const auto& step : found.steps) {
+        names.push_back(step.effect);
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+TEST(Cycles, FromNothingEachEffectThatTheRowsPayIsFound) {
+    const Explanation found = diagnose(
+        "ideal", {}, [](const auto& row, const auto& p) { return p.nominal + 12.0 + (row.maintenance ? 90.0 : 0.0); });
+    EXPECT_EQ(found.verdict, "attributed");
+    EXPECT_EQ(effects_of(found),
+              (std::vector<std::string>{"branch_mispredict", "cache_maintenance", "call_overhead", "load_bank_conflict",
+                                        "load_use", "single_issue", "store_buffer"}));
+    EXPECT_LT(found.after_gap, 0.005);
+    EXPECT_NEAR(found.steps.front().gap_before, found.base_gap, 1e-12);
+    EXPECT_NEAR(found.steps.back().gap_after, found.after_gap, 1e-12);
+    for (const auto& step : found.steps) {
+        if (step.effect == "cache_maintenance") {
+            EXPECT_NEAR(step.parameters.at("cycles"), 90.0, 1.0);
+            EXPECT_LE(step.interval.at("cycles").low, 90.0);
+            EXPECT_GE(step.interval.at("cycles").high, 90.0);
+        }
+    }
+    double sum = 0.0;
+    for (const auto& share : found.kernels) {
+        sum += share.share;
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+}
+
+TEST(Cycles, OfACoreThatPaysTooMuchTheEffectIsNamed) {
+    for (const char* effect : {"single_issue", "load_use", "store_buffer", "load_bank_conflict"}) {
+        const Explanation found = diagnose("real", {effect}, unchanged);
+        EXPECT_EQ(found.verdict, "attributed") << effect;
+        EXPECT_EQ(effects_of(found), std::vector<std::string>{effect});
+        ASSERT_EQ(found.steps.size(), 1U);
+        EXPECT_EQ(found.steps[0].parameters.at("factor"), 0.0);
+        EXPECT_LT(found.after_gap, 0.003);
+    }
+}
+
+TEST(Cycles, AnotherCostOfAnEffectIsFound) {
+    const Explanation found = diagnose("real", {}, [](const auto&, const auto& p) {
+        return p.nominal +
+               0.8 * static_cast<double>(p.half_cycles[timing::index(timing::Effect::load_bank_conflict)]) / 2.0;
+    });
+    EXPECT_EQ(found.verdict, "attributed");
+    ASSERT_EQ(effects_of(found), std::vector<std::string>{"load_bank_conflict"});
+    EXPECT_NEAR(found.steps[0].parameters.at("factor"), 1.8, 0.02);
+}
+
+TEST(Cycles, TheSameCoreIsNoGap) { EXPECT_EQ(diagnose("real", {}, unchanged).verdict, "no_gap"); }
+
+TEST(Cycles, AFasterClockIsNamedAndASlowerOneMayBeInterrupts) {
+    const auto scaled = [](double ratio) { return [ratio](const auto&, const auto& p) { return ratio * p.nominal; }; };
+    const Explanation faster = diagnose("real", {}, scaled(0.5));
+    EXPECT_EQ(faster.verdict, "attributed");
+    EXPECT_EQ(effects_of(faster), std::vector<std::string>{"clock_ratio"});
+    EXPECT_NEAR(faster.steps[0].parameters.at("ratio"), 0.5, 0.005);
+    const Explanation slower = diagnose("real", {}, scaled(1.25));
+    EXPECT_EQ(slower.verdict, "ambiguous");
+    ASSERT_EQ(slower.alternatives.size(), 2U);
+    EXPECT_EQ(slower.alternatives[0].effect, "clock_ratio");
+    EXPECT_EQ(slower.alternatives[1].effect, "interrupt_load");
+    EXPECT_NEAR(slower.alternatives[1].parameters.at("share"), 0.2, 0.005);
+    EXPECT_FALSE(slower.next_experiment.empty());
+}
+
+TEST(Cycles, WhatNoEffectDoesIsUnknown) {
+    const Explanation found =
+        diagnose("real", {}, [](const auto& row, const auto& p) { return p.nominal + 1.5e-2 * row.taps * row.taps; });
+    EXPECT_EQ(found.verdict, "unknown");
+}
+
+}  // namespace
