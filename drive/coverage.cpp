@@ -55,6 +55,7 @@ Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOpt
     }
     FitOptions first = options;
     first.prediction_error = false;
+    first.profile = false;
     first.accepted_error = 0.0;
     return last(Form(kind, fit(Form(Kind::sopdt, search_start(Kind::sopdt, records)), records, first).model));
 }
@@ -78,7 +79,7 @@ Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acqu
     bench::parallel_for(runs, jobs, [&](std::size_t run) {
         try {
             const Record record = to_record(take_log(truth, acquisition, first_seed + run));
-            const Fit found = fit_from_nothing(kind, {record}, {});
+            const Fit found = fit_from_nothing(kind, {record}, {.profile = true});
             const std::lock_guard lock(mutex);
             std::size_t at = 0;
             for (const Estimate& estimate : found.parameters) {
