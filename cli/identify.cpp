@@ -204,6 +204,9 @@ void show_coverage(const Options& options) {
         const double share = static_cast<double>(found.inside[i]) / static_cast<double>(found.runs);
         good = good && share >= 0.90 && share <= 0.995;
     }
+    text += fmt::format("{:<16} {:>12} {:>12} {:>12} {:>12} {:>8}\n", "all at once", "", "", "", "",
+                        fmt::format("{}/{}", found.jointly_inside, found.runs));
+    json["jointly_inside"] = found.jointly_inside;
     put(options.json ? json.dump(2) + "\n" : text, options.out);
     if (!good && found.runs >= 100) {
         throw Failure(Exit::check_failed,

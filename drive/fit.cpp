@@ -254,7 +254,7 @@ struct Attempt {
 };
 
 Attempt descend(const Form& form, const Predictor& predictor, std::vector<double> start,
-                const std::vector<double>& noise_model, const FitOptions& options) {
+                const std::vector<double>& noise_model, const FitOptions& options, double tolerance = 1e-10) {
     ceres::Problem problem;
     problem.AddResidualBlock(new Cost(predictor, noise_model), nullptr, start.data());
     for (std::size_t i = 0; i < start.size(); ++i) {
@@ -266,7 +266,7 @@ Attempt descend(const Form& form, const Predictor& predictor, std::vector<double
     solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
     solver.linear_solver_type = ceres::DENSE_QR;
     solver.max_num_iterations = options.iterations;
-    solver.function_tolerance = 1e-10;
+    solver.function_tolerance = tolerance;
     solver.parameter_tolerance = 1e-10;
     solver.gradient_tolerance = 1e-14;
     solver.logging_type = ceres::SILENT;
@@ -437,7 +437,8 @@ private:
                 return std::numeric_limits<double>::infinity();
             }
         }
-        return descend(fixed, predictor, start, noise_model_, options_).sum_of_squares;
+        // A part of the sum of squares, which is as many variances as there are samples: 10^-4 of one at 1000 samples.
+        return descend(fixed, predictor, start, noise_model_, options_, 1e-7).sum_of_squares;
     }
 
     const Form& form_;

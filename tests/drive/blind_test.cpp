@@ -259,6 +259,11 @@ TEST(BlindCases, ThatAreTheSameAsOthersHoldOneLevel) {
         }
     }
     EXPECT_EQ(levels.size(), 2U);
+    for (const char* effect : {"gain_error", "input_saturation", "input_curve", "supply_sag"}) {
+        EXPECT_GE(blind::make_case({Class::same, {effect}, {blind::Size3::clear}, false}, 5, 3).truth.train_deviation,
+                  1.0)
+            << effect;
+    }
     const blind::Case lag = blind::make_case({Class::same, {"sensor_lag"}, {blind::Size3::large}, false}, 5, 2);
     EXPECT_THAT(lag.truth.required, testing::UnorderedElementsAre("actuator_lag", "sensor_lag"));
 }

@@ -123,7 +123,8 @@ Parameters draw_parameters(const std::string& effect, Size3 size, const Scale& s
         return {{"threshold", u * pick(0.2, 0.35, 0.5)}};
     }
     if (effect == "input_curve") {
-        return {{"curvature", pick(0.15, 0.4, 0.8)}, {"reference", u}};
+        // At its reference the curve changes nothing: under one level alone the level is another.
+        return {{"curvature", pick(0.15, 0.4, 0.8)}, {"reference", one_level ? 1.6 * u : u}};
     }
     if (effect == "rate_limit") {
         return {{"per_s", u / tau_s / pick(0.6, 1.5, 3.0)}};

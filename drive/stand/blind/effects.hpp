@@ -48,7 +48,8 @@ using Parameters = std::map<std::string, double>;
 /// Memoryless from the command to the force: at one level, a gain.
 [[nodiscard]] bool bends_the_input(const std::string& effect);
 
-/// Parameters by the table's names. \param one_level  supply_sag by its resistance, which is memoryless
+/// Parameters by the table's names. \param one_level  that the input alone has: supply_sag by its resistance, which is
+/// memoryless, and input_curve with another reference
 [[nodiscard]] Parameters draw_parameters(const std::string& effect, Size3 size, const Scale& scale, bool one_level,
                                          Chance& chance);
 /// Of an effect that is an event: where in this record. Others stay as they are.
