@@ -9,6 +9,7 @@
 
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
+#include "bench/sha256.hpp"
 #include "bench/target_build.hpp"
 #include "bench/target_plan.hpp"
 #include "bench/target_rows.hpp"
@@ -45,10 +46,6 @@ std::string now() {
     char text[64];
     std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%S%z", std::localtime(&time));
     return text;
-}
-
-std::string sha256_of(const std::filesystem::path& file) {
-    return first_line(fmt::format("sha256sum '{}'", file.string())).substr(0, 64);
 }
 
 // "NAME sha256:HASH" of each core, the hash over its file and those that it is based on; "none" without any.

@@ -6,6 +6,7 @@
 
 #include "bench/files.hpp"
 #include "drive/model_file.hpp"
+#include "drive/stability.hpp"
 
 namespace cli {
 
@@ -28,6 +29,14 @@ drive::Log read_ordered_log(const std::filesystem::path& path, const drive::Colu
         fmt::print(stderr, "glsum: warning: {}: {}\n", log.name, report.text());
     }
     return log;
+}
+
+void warn_if_unstable(const drive::Model& model, const std::string& name) {
+    const int growing = drive::zeros_right_of_axis(model.denominator);
+    if (growing > 0) {
+        fmt::print(stderr, "glsum: warning: {}: unstable: {} poles with a positive real part, its response grows\n",
+                   name, growing);
+    }
 }
 
 void add_column_options(CLI::App& command, drive::Columns& columns) {

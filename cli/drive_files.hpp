@@ -18,6 +18,9 @@ namespace cli {
 /// The same with stamps that rise; what was odd about them is said on standard error.
 [[nodiscard]] drive::Log read_ordered_log(const std::filesystem::path& path, const drive::Columns& columns);
 
+/// Says on standard error that the model grows without bound, if it does. \param name  begins the message
+void warn_if_unstable(const drive::Model& model, const std::string& name);
+
 /// --time-column, --input-column, --output-column, --counts-per-unit, --counter-bits.
 void add_column_options(CLI::App& command, drive::Columns& columns);
 

@@ -39,6 +39,8 @@ struct Options {
     std::vector<std::string> set;
     std::vector<std::string> bounds;
     drive::FitOptions fit;
+    std::filesystem::path controller;
+    std::string intervals = "profile";
     std::string method = "least-squares";
     bool characteristic = false;
     double shortest_hold_s = 1.0;
@@ -202,6 +204,9 @@ void show_coverage(const Options& options) {
         const double share = static_cast<double>(found.inside[i]) / static_cast<double>(found.runs);
         good = good && share >= 0.90 && share <= 0.995;
     }
+    text += fmt::format("{:<16} {:>12} {:>12} {:>12} {:>12} {:>8}\n", "all at once", "", "", "", "",
+                        fmt::format("{}/{}", found.jointly_inside, found.runs));
+    json["jointly_inside"] = found.jointly_inside;
     put(options.json ? json.dump(2) + "\n" : text, options.out);
     if (!good && found.runs >= 100) {
         throw Failure(Exit::check_failed,
@@ -239,6 +244,7 @@ void show_characteristic(const Options& options) {
 void run(const Options& given) {
     Options options = given;
     options.fit.prediction_error = options.method == "prediction-error";
+    options.fit.profile = options.intervals == "profile";
     if (options.coverage > 0) {
         show_coverage(options);
         return;
@@ -250,9 +256,17 @@ void run(const Options& given) {
     if (options.logs.empty()) {
         throw Failure(Exit::bad_input, "identify: expected a log");
     }
+    std::optional<drive::Model> controller;
+    if (!options.controller.empty()) {
+        controller = drive::parse_controller(bench::read_file(options.controller, drive::most_model_bytes),
+                                             options.controller.string());
+        options.columns.takes_reference = true;
+    } else if (!options.columns.reference.empty()) {
+        throw Failure(Exit::bad_input, "--reference-column: expected --controller FILE beside it");
+    }
     std::vector<drive::Record> records;
     for (const auto& path : options.logs) {
-        records.push_back(drive::to_record(read_ordered_log(path, options.columns)));
+        records.push_back(drive::to_record(read_ordered_log(path, options.columns), controller));
     }
     const drive::Kind kind = to_kind(options.form);
     const drive::Kind first = kind == drive::Kind::fopdt ? kind : drive::Kind::sopdt;
@@ -296,11 +310,11 @@ void run(const Options& given) {
     for (const std::string& warning : fit.warnings) {
         fmt::print(stderr, "glsum: warning: {}\n", warning);
     }
+    warn_if_unstable(fit.model, "the fitted model");
     if (!options.plot.empty()) {
-        const std::vector<drive::Curve> curves{
-            {"measured", record.time_s, record.output, true},
-            {"start", record.time_s, drive::respond(start, record.changes, record.time_s)},
-            {"fitted", record.time_s, fitted}};
+        const std::vector<drive::Curve> curves{{"measured", record.time_s, record.output, true},
+                                               {"start", record.time_s, drive::respond_to(start, record)},
+                                               {"fitted", record.time_s, fitted}};
         bench::draw(drive::picture_of_curves(curves, "fitted: " + drive::short_text(fit.model), "output"),
                     options.plot);
     }
@@ -317,6 +331,8 @@ void add_identify(CLI::App& app) {
         "Example: glsum identify log.csv --form niopdt --out model.json --plot fit\n"
         "Example: glsum identify log.csv --form fopdt --start tangent --method none    (Kuepfmueller's construction "
         "alone)\n"
+        "Example: glsum identify loop.csv --controller pi.json --form sopdt --method prediction-error    (closed "
+        "loop)\n"
         "Example: glsum identify --coverage 100 --form niopdt --start drive/models/niopdt.json");
     command->add_option("log,--log", options->logs,
                         "Logs, CSV with time_s, input or duty, and the output; all are fitted at once");
@@ -333,6 +349,16 @@ void add_identify(CLI::App& app) {
         ->add_option("--method", options->method,
                      "least-squares, prediction-error (coloured noise), or none (the start itself)")
         ->check(CLI::IsMember({"least-squares", "prediction-error", "none"}))
+        ->capture_default_str();
+    command->add_option("--controller", options->controller,
+                        "Closed loop: the controller that made the input, a model or {\"kind\": \"pid\", \"kp\": 2, "
+                        "\"ki\": 1.5, \"kd\": 0.1, \"filter_s\": 0.02}; the loop is fitted to the column reference or, "
+                        "without one, to what input and output say it was");
+    command->add_option("--reference-column", options->columns.reference, "Of a closed loop; usually reference");
+    command
+        ->add_option("--intervals", options->intervals,
+                     "profile (of the likelihood) or straight (value +- t deviations, faster)")
+        ->check(CLI::IsMember({"profile", "straight"}))
         ->capture_default_str();
     command->add_option("--fix", options->fix, "NAME or NAME=VALUE: a parameter that is not fitted")->delimiter(',');
     command->add_option("--free", options->free, "NAME: fit a parameter that usually is fixed, such as offset")

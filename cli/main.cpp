@@ -6,6 +6,7 @@
 
 #include "bench/build_info.hpp"
 #include "cli/commands.hpp"
+#include "cli/score.hpp"
 #include "qemu/failure.hpp"
 
 namespace {
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
     cli::add_stability(app);
     cli::add_indices(app);
     cli::add_resample(app);
+    cli::add_score(app);
     cli::add_stand(app);
     cli::add_paper(app);
     // The launcher tells every command how many jobs may run at once.

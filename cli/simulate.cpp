@@ -105,6 +105,7 @@ void run(Options options) {
         print_exact_values(model, options);
         return;
     }
+    warn_if_unstable(model, options.model.string());
     options.scheme.step_s = options.step_s > 0.0 ? options.step_s : model.sample_time_s.value_or(0.001);
     options.scheme.taps = to_taps(options.taps);
     options.scheme.forcing = options.sampled ? drive::Forcing::sampled : drive::Forcing::held;

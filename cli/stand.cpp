@@ -11,6 +11,7 @@
 
 #include "bench/files.hpp"
 #include "bench/gnuplot.hpp"
+#include "cli/blind.hpp"
 #include "cli/commands.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/pictures.hpp"
@@ -33,6 +34,8 @@ struct Options {
     std::uint64_t seed = 1;
     bool truth = false;
     bool show = false;
+    std::size_t blind = 0;
+    unsigned jobs = 1;
     std::filesystem::path model;
     std::filesystem::path out;
     std::filesystem::path plot;
@@ -77,6 +80,10 @@ stand::Stand build_stand(const Options& options) {
 }
 
 void run(const Options& options) {
+    if (options.blind > 0) {
+        write_blind_cases(options.blind, options.seed, options.jobs, options.out);
+        return;
+    }
     const stand::Stand built = build_stand(options);
     if (!options.model.empty()) {
         bench::write_file(options.model, stand::linear_model_json(built));
@@ -143,7 +150,8 @@ void add_stand(CLI::App& app) {
         "Example: glsum stand --out build/stand                               (series 1 to 4 of the paper's Fig. 3)\n"
         "Example: glsum stand --experiment chirp --duty 0.4 --until-s 60 --seed 7 --out chirp.csv\n"
         "Example: glsum stand --only coulomb_friction,encoder_quantisation --experiment staircase --out log.csv\n"
-        "Example: glsum stand --ideal --model linear.json --experiment prbs --out linear.csv");
+        "Example: glsum stand --ideal --model linear.json --experiment prbs --out linear.csv\n"
+        "Example: glsum stand --blind 100 --seed 7 --out build/blind    (then diagnose --batch and score)");
     command->add_option("--stand", options->stand,
                         "TOML with parts and effects; what it leaves out has its usual size");
     command->add_option("--set", options->set, "EFFECT.SIZE=NUMBER, or a part's NAME=NUMBER; repeatable");
@@ -173,7 +181,12 @@ void add_stand(CLI::App& app) {
     command->add_flag("--truth", options->truth, "Further columns: what nobody measured");
     command->add_option("--out", options->out, "CSV file, or the folder of a series; printed if not given");
     command->add_option("--plot", options->plot, "Draw STEM.svg and STEM.png");
-    command->add_option("--jobs")->group("");  // the launcher hands it to every command
+    command
+        ->add_option("--blind", options->blind,
+                     "Instead: so many cases for a diagnosis, each with a model, two logs and an effect that only "
+                     "the sealed truth names, into the folder --out")
+        ->check(CLI::Range(1, 999));
+    command->add_option("--jobs", options->jobs, "Threads, of --blind")->check(CLI::PositiveNumber);
     command->callback([options] { run(*options); });
 }
 

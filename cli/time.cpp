@@ -9,6 +9,7 @@
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
 #include "bench/row.hpp"
+#include "bench/sha256.hpp"
 #include "cli/board.hpp"
 #include "cli/commands.hpp"
 #include "qemu/elf.hpp"
@@ -149,7 +150,7 @@ void run(const Options& options) {
 
     Json json;
     json["schema"] = "glsum-time-1";
-    json["elf_sha256"] = output_of(fmt::format("sha256sum '{}'", options.elf.string())).substr(0, 64);
+    json["elf_sha256"] = bench::sha256_of(options.elf);
     json["function"] = function.name;
     json["core"] = core.name;
     json["placement"] = {{"code", timing::name_of(core.placement.code)},

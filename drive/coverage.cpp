@@ -1,6 +1,7 @@
 #include "drive/coverage.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <mutex>
 #include <numbers>
@@ -55,6 +56,7 @@ Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOpt
     }
     FitOptions first = options;
     first.prediction_error = false;
+    first.profile = false;
     first.accepted_error = 0.0;
     return last(Form(kind, fit(Form(Kind::sopdt, search_start(Kind::sopdt, records)), records, first).model));
 }
@@ -74,12 +76,26 @@ Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acqu
     coverage.inside.assign(free, 0);
     coverage.claimed.assign(free, 0.0);
     std::vector<std::vector<double>> estimates(free);
+    const auto jointly_holds = [&](const Fit& found, const Record& record) {
+        const std::vector<double> output = respond_to(truth, record);
+        double sum = 0.0;
+        for (std::size_t k = 0; k < output.size(); ++k) {
+            sum += (output[k] - record.output[k]) * (output[k] - record.output[k]);
+        }
+        const auto parameters = static_cast<double>(free);
+        const double freedom = static_cast<double>(output.size()) - parameters;
+        const double variance = found.sum_of_squares / freedom;
+        return (sum - found.sum_of_squares) / (parameters * variance) <=
+               boost::math::quantile(boost::math::fisher_f(parameters, freedom), 0.95);
+    };
     std::mutex mutex;
     bench::parallel_for(runs, jobs, [&](std::size_t run) {
         try {
             const Record record = to_record(take_log(truth, acquisition, first_seed + run));
-            const Fit found = fit_from_nothing(kind, {record}, {});
+            const Fit found = fit_from_nothing(kind, {record}, {.profile = true});
+            const bool jointly = jointly_holds(found, record);
             const std::lock_guard lock(mutex);
+            coverage.jointly_inside += jointly ? 1 : 0;
             std::size_t at = 0;
             for (const Estimate& estimate : found.parameters) {
                 if (!estimate.fixed) {

@@ -33,6 +33,9 @@ struct Coverage {
     std::vector<double> mean;         ///< of the estimates
     std::vector<double> spread;       ///< standard deviation of the estimates
     std::vector<double> claimed;      ///< mean of the deviations that the fits claimed
+    /// Runs whose joint 95 % region, of all parameters at once by Fisher's F, holds the truth. Where the parameters are
+    /// known together only, their own counts are nearly one count, and this is another.
+    std::size_t jointly_inside = 0;
     std::size_t runs = 0;
     std::size_t failed = 0;  ///< fits that threw; they count as outside
 };

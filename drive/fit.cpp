@@ -8,11 +8,10 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
-#include <mutex>
-#include <numeric>
 #include <random>
 
 #include "bench/parallel.hpp"
+#include "drive/closed_loop.hpp"
 #include "drive/inverse_laplace.hpp"
 #include "drive/swings.hpp"
 #include "qemu/failure.hpp"
@@ -142,11 +141,26 @@ public:
         std::vector<double> at(jacobian != nullptr ? 1 + numbers.size() : 1);
         const Eigen::Map<const Eigen::VectorXd> by_number(at.data() + 1, static_cast<Eigen::Index>(at.size() - 1));
         const double offset = values.back();
+        const bool free_offset = !form_.parameters().back().fixed;
         Eigen::Index row = 0;
         for (const Record& record : records_) {
+            if (record.controller) {
+                const LoopRun run = run_loop(
+                    *step, at.size(), model.delay_s, *record.controller, record.time_s, record.reference, offset, {},
+                    jacobian != nullptr ? std::optional<Sensitivity>({&chain, free_offset ? parameters - 1 : -1})
+                                        : std::nullopt);
+                for (std::size_t i = 0; i < record.output.size(); ++i, ++row) {
+                    residuals(row) = run.output[i] + offset - record.output[i];
+                    if (jacobian != nullptr) {
+                        jacobian->row(row) = run.sensitivities.row(static_cast<Eigen::Index>(i));
+                        (*jacobian)(row, parameters - 1) += free_offset ? 1.0 : 0.0;
+                    }
+                }
+                continue;
+            }
             for (std::size_t i = 0; i < record.output.size(); ++i, ++row) {
                 residuals(row) = offset - record.output[i];
-                if (jacobian != nullptr && !form_.parameters().back().fixed) {
+                if (jacobian != nullptr && free_offset) {
                     (*jacobian)(row, parameters - 1) = 1.0;
                 }
                 for (const Change& change : record.changes) {
@@ -240,7 +254,7 @@ struct Attempt {
 };
 
 Attempt descend(const Form& form, const Predictor& predictor, std::vector<double> start,
-                const std::vector<double>& noise_model, const FitOptions& options) {
+                const std::vector<double>& noise_model, const FitOptions& options, double tolerance = 1e-10) {
     ceres::Problem problem;
     problem.AddResidualBlock(new Cost(predictor, noise_model), nullptr, start.data());
     for (std::size_t i = 0; i < start.size(); ++i) {
@@ -252,7 +266,7 @@ Attempt descend(const Form& form, const Predictor& predictor, std::vector<double
     solver.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
     solver.linear_solver_type = ceres::DENSE_QR;
     solver.max_num_iterations = options.iterations;
-    solver.function_tolerance = 1e-10;
+    solver.function_tolerance = tolerance;
     solver.parameter_tolerance = 1e-10;
     solver.gradient_tolerance = 1e-14;
     solver.logging_type = ceres::SILENT;
@@ -338,6 +352,138 @@ std::vector<double> fit_noise(const Eigen::VectorXd& residuals, const std::vecto
     return best;
 }
 
+// Where a parameter's interval ends: the least sum of squares over all others has grown by quantile^2 variances.
+class Profile {
+public:
+    Profile(const Form& form, const std::vector<Record>& records, const std::vector<double>& noise_model,
+            const FitOptions& options)
+        : form_(form), records_(records), noise_model_(noise_model), options_(options) {
+        options_.accepted_error = 0.0;
+    }
+
+    /// \param index  of the parameter \param values  of all, at the least sum of squares \param side  -1 or 1
+    /// \param straight  the deviation that a linear model would have
+    /// \param along  how the free parameters, this one included, move with it in a linear model
+    [[nodiscard]] double end(std::size_t index, const std::vector<double>& values, double side, double straight,
+                             const Eigen::VectorXd& along, double least, double variance, double quantile) const {
+        const Parameter& parameter = form_.parameters()[index];
+        const double bound = side > 0.0 ? parameter.upper : parameter.lower;
+        // In deviations of a linear model, of which there would be `quantile`.
+        const double farthest = std::min(std::fabs(bound - values[index]) / straight, 20.0 * quantile);
+        const auto height = [&](double by) {
+            const double sum = sum_of_squares(index, values, side * by * straight, along);
+            return std::sqrt(std::max(0.0, sum - least) / variance) - quantile;
+        };
+        double inside = 0.0;
+        double inside_height = -quantile;
+        double outside = 0.0;
+        double outside_height = 0.0;
+        double by = std::min(quantile, farthest);
+        for (int turn = 0; turn < 12; ++turn) {
+            const double now = height(by);
+            if (std::fabs(now) < 2e-3 * quantile) {
+                return values[index] + side * by * straight;
+            }
+            if (now < 0.0) {
+                if (by >= farthest) {
+                    return bound;
+                }
+                inside = by;
+                inside_height = now;
+            } else {
+                outside = by;
+                outside_height = now;
+            }
+            if (outside == 0.0) {
+                by = std::min(farthest, std::max(1.1 * by, by * quantile / (quantile + now)));
+            } else if (!std::isfinite(outside_height)) {
+                by = 0.5 * (inside + outside);
+            } else {
+                // The height is close to straight: the chord, kept off its ends.
+                const double part = -inside_height / (outside_height - inside_height);
+                by = inside + std::clamp(part, 0.05, 0.95) * (outside - inside);
+            }
+        }
+        return values[index] + side * by * straight;
+    }
+
+private:
+    [[nodiscard]] double sum_of_squares(std::size_t index, const std::vector<double>& values, double by,
+                                        const Eigen::VectorXd& along) const {
+        Form fixed = form_;
+        Eigen::Index at = 0;
+        std::vector<double> start;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            Parameter& parameter = fixed.parameters()[i];
+            if (parameter.fixed) {
+                continue;
+            }
+            if (i == index) {
+                parameter.value = std::clamp(values[i] + by, parameter.lower, parameter.upper);
+                parameter.fixed = true;
+            } else {
+                start.push_back(std::clamp(values[i] + by * along(at), parameter.lower, parameter.upper));
+            }
+            ++at;
+        }
+        const Predictor predictor(fixed, records_);
+        if (start.empty()) {
+            try {
+                Eigen::VectorXd residuals;
+                predictor.evaluate(start.data(), residuals, nullptr);
+                predictor.whiten(residuals, noise_model_);
+                return residuals.squaredNorm();
+            } catch (const glsum::Failure&) {
+                return std::numeric_limits<double>::infinity();
+            }
+        }
+        // A part of the sum of squares, which is as many variances as there are samples: 10^-4 of one at 1000 samples.
+        return descend(fixed, predictor, start, noise_model_, options_, 1e-7).sum_of_squares;
+    }
+
+    const Form& form_;
+    const std::vector<Record>& records_;
+    const std::vector<double>& noise_model_;
+    FitOptions options_;
+};
+
+// Replaces the straight intervals of the parameters that the record tells.
+void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& records,
+                       const std::vector<double>& values, const FitOptions& options, double least) {
+    const auto samples = static_cast<double>(samples_of(records));
+    const auto free = static_cast<Eigen::Index>(fit.free_names.size());
+    const double freedom = samples - static_cast<double>(free);
+    const double quantile = boost::math::quantile(boost::math::students_t(freedom), 0.975);
+    const double variance = fit.noise_deviation * fit.noise_deviation;
+    const Profile profile(form, records, fit.noise_model, options);
+    std::vector<std::size_t> asked;
+    for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+        if (!fit.parameters[i].fixed && std::isfinite(fit.parameters[i].deviation) &&
+            fit.parameters[i].deviation > 0.0) {
+            asked.push_back(i);
+        }
+    }
+    bench::parallel_for(2 * asked.size(), options.jobs, [&](std::size_t task) {
+        const std::size_t index = asked[task / 2];
+        Estimate& estimate = fit.parameters[index];
+        Eigen::VectorXd along(free);
+        Eigen::Index own = 0;
+        while (fit.free_names[static_cast<std::size_t>(own)] != estimate.name) {
+            ++own;
+        }
+        Eigen::Index at = 0;
+        for (const Estimate& other : fit.parameters) {
+            if (!other.fixed) {
+                along(at) = fit.correlation(own, at) * other.deviation / estimate.deviation;
+                ++at;
+            }
+        }
+        const double side = task % 2 == 0 ? -1.0 : 1.0;
+        (side < 0.0 ? estimate.low : estimate.high) =
+            profile.end(index, values, side, estimate.deviation, along, least, variance, quantile);
+    });
+}
+
 void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::VectorXd& residuals,
            const Jacobian& jacobian, const std::vector<double>& values) {
     const auto free = static_cast<Eigen::Index>(predictor.free().size());
@@ -420,20 +566,26 @@ void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::
 
 }  // namespace
 
-Record to_record(const Log& log) {
+Record to_record(const Log& log, const std::optional<Model>& controller) {
     Record record;
     record.name = log.name;
     for (const double t : log.time_s) {
         record.time_s.push_back(t - log.time_s.front());
     }
     record.output = log.output;
-    record.changes = changes_of(record.time_s, log.input);
     if (record.output.size() < 8) {
         refuse(
             fmt::format("{}: expected at least 8 samples to identify from, found {}", log.name, record.output.size()));
     }
+    record.controller = controller;
+    if (controller) {
+        record.reference = log.reference.empty() ? recover_reference(*controller, record.time_s, log.input, log.output)
+                                                 : log.reference;
+    }
+    record.changes = changes_of(record.time_s, controller ? record.reference : log.input);
     if (record.changes.empty()) {
-        refuse(fmt::format("{}: the input is 0 throughout: nothing can be identified from it", log.name));
+        refuse(fmt::format("{}: the {} is 0 throughout: nothing can be identified from it", log.name,
+                           controller ? "reference" : "input"));
     }
     if (std::all_of(record.output.begin(), record.output.end(), [&](double y) { return y == record.output.front(); })) {
         refuse(fmt::format("{}: the output is {} throughout: nothing can be identified from it", log.name,
@@ -602,6 +754,9 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
     found.model = form.to_model(values);
     found.offset = values.back();
     judge(found, form, predictor, residuals, jacobian, values);
+    if (options.profile) {
+        profile_intervals(found, form, records, values, options, residuals.squaredNorm());
+    }
     if (found.starts > 1 && found.starts_that_agree == 1) {
         found.warnings.push_back(
             fmt::format("only one of {} starts ends here: other minima are near, take more starts", found.starts));
@@ -609,139 +764,18 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
     return found;
 }
 
-std::vector<double> simulate_fit(const Fit& fit, const Record& record) {
-    std::vector<double> output = respond(fit.model, record.changes, record.time_s);
+std::vector<double> respond_to(const Model& model, const Record& record, double offset) {
+    std::vector<double> output =
+        record.controller ? run_loop(model, *record.controller, record.time_s, record.reference, offset).output
+                          : respond(model, record.changes, record.time_s);
     for (double& value : output) {
-        value += fit.offset;
+        value += offset;
     }
     return output;
 }
 
-Model search_start(Kind kind, const std::vector<Record>& records) {
-    double longest_s = 0.0;
-    double shortest_s = std::numeric_limits<double>::infinity();
-    for (const Record& record : records) {
-        longest_s = std::max(longest_s, record.time_s.back());
-        shortest_s = std::min(shortest_s, record.time_s.back() / static_cast<double>(record.time_s.size()));
-    }
-    Model best;
-    double least = std::numeric_limits<double>::infinity();
-    constexpr int constants = 14;
-    constexpr int delays = 16;
-    for (int i = 0; i < constants; ++i) {
-        const double time_constant_s = longest_s * std::pow(0.003 / 1.0, static_cast<double>(i) / (constants - 1));
-        for (int j = 0; j < delays; ++j) {
-            const double delay_s = 0.5 * longest_s * j / delays;
-            double product = 0.0;
-            double square = 0.0;
-            double output_square = 0.0;
-            for (const Record& record : records) {
-                const std::size_t stride = std::max<std::size_t>(1, record.time_s.size() / 400);
-                for (std::size_t k = 0; k < record.time_s.size(); k += stride) {
-                    double y = 0.0;
-                    for (const Change& change : record.changes) {
-                        const double x = (record.time_s[k] - change.time_s - delay_s) / time_constant_s;
-                        if (x <= 0.0) {
-                            break;
-                        }
-                        y += change.size * (1.0 - (kind == Kind::sopdt ? 1.0 + x : 1.0) * std::exp(-x));
-                    }
-                    product += y * record.output[k];
-                    square += y * y;
-                    output_square += record.output[k] * record.output[k];
-                }
-            }
-            const double error = square > 0.0 ? output_square - product * product / square : output_square;
-            if (square > 0.0 && product != 0.0 && error < least) {
-                least = error;
-                best = kind == Kind::fopdt ? make_fopdt(product / square, time_constant_s, delay_s)
-                                           : make_sopdt(product / square, time_constant_s, delay_s);
-            }
-        }
-    }
-    if (!std::isfinite(least)) {
-        refuse("no start found: the output does not follow the input at all");
-    }
-    return best;
-}
-
-Model tangent_construction(Kind kind, const Record& record) {
-    const double from_s = record.changes.front().time_s;
-    const double size = record.changes.front().size;
-    const double to_s = record.changes.size() > 1 ? record.changes[1].time_s : record.time_s.back();
-    std::vector<double> t;
-    std::vector<double> y;
-    double old_level = 0.0;
-    std::size_t before = 0;
-    for (std::size_t i = 0; i < record.time_s.size(); ++i) {
-        if (record.time_s[i] <= from_s) {
-            old_level += record.output[i];
-            ++before;
-        }
-        if (record.time_s[i] >= from_s && record.time_s[i] <= to_s) {
-            t.push_back(record.time_s[i] - from_s);
-            y.push_back(record.output[i]);
-        }
-    }
-    if (t.size() < 20) {
-        refuse(
-            fmt::format("{}: expected at least 20 samples after a step that is held, found {}", record.name, t.size()));
-    }
-    old_level = before > 0 ? old_level / static_cast<double>(before) : 0.0;
-    const std::size_t tail = std::max<std::size_t>(5, t.size() / 10);
-    const auto mean = [&](std::size_t first, std::size_t count) {
-        return std::accumulate(y.begin() + static_cast<std::ptrdiff_t>(first),
-                               y.begin() + static_cast<std::ptrdiff_t>(first + count), 0.0) /
-               static_cast<double>(count);
-    };
-    const double new_level = mean(t.size() - tail, tail);
-    const double rise = new_level - old_level;
-    const double earlier = mean(t.size() - 2 * tail, tail);
-    if (rise == 0.0 || std::fabs(new_level - earlier) > 0.1 * std::fabs(rise)) {
-        refuse(fmt::format(
-            "{}: expected a step response that settles; between the last two tenths before {} s the output still "
-            "moves by {:.2g} of {:.2g}",
-            record.name, to_s, new_level - earlier, rise));
-    }
-    // The steepest straight line through a window: a twelfth of the time from a tenth to nine tenths of the rise, and
-    // at least 5 samples, of which noise and quantisation average out.
-    const auto reached = [&](double part) {
-        for (std::size_t i = 0; i < t.size(); ++i) {
-            if ((y[i] - old_level) / rise >= part) {
-                return i;
-            }
-        }
-        return t.size() - 1;
-    };
-    const std::size_t half = std::max<std::size_t>(2, (reached(0.9) - reached(0.1)) / 24);
-    double slope = 0.0;
-    double meets_s = 0.0;
-    for (std::size_t i = half; i + half < t.size(); ++i) {
-        const auto count = static_cast<double>(2 * half + 1);
-        double mean_t = 0.0;
-        double mean_y = 0.0;
-        for (std::size_t k = i - half; k <= i + half; ++k) {
-            mean_t += t[k] / count;
-            mean_y += y[k] / count;
-        }
-        double product = 0.0;
-        double square = 0.0;
-        for (std::size_t k = i - half; k <= i + half; ++k) {
-            product += (t[k] - mean_t) * (y[k] - mean_y);
-            square += (t[k] - mean_t) * (t[k] - mean_t);
-        }
-        if (product / square / rise > slope) {
-            slope = product / square / rise;
-            meets_s = mean_t - (mean_y - old_level) / rise / slope;
-        }
-    }
-    const double rise_s = 1.0 / slope;
-    const double gain = rise / size;
-    if (kind == Kind::fopdt) {
-        return make_fopdt(gain, rise_s, std::max(0.0, meets_s));
-    }
-    const double time_constant_s = rise_s / std::exp(1.0);
-    return make_sopdt(gain, time_constant_s, std::max(0.0, meets_s - (3.0 - std::exp(1.0)) * time_constant_s));
+std::vector<double> simulate_fit(const Fit& fit, const Record& record) {
+    return respond_to(fit.model, record, fit.offset);
 }
 
 }  // namespace drive

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,20 @@ struct Record {
     std::vector<Change> changes;
     std::vector<double> time_s;  ///< from the first stamp
     std::vector<double> output;
+    /// In a closed loop: what made the input of the reference and the output. Then `changes` are the reference's.
+    std::optional<Model> controller = {};
+    std::vector<double> reference = {};  ///< at the stamps
 };
 
-/// \throws glsum::Failure (bad input) where nothing can be identified: an input that never changes from 0, an output
-/// that never moves, fewer than 8 samples.
-[[nodiscard]] Record to_record(const Log& log);
+/// \param controller  of a closed loop; the reference is the log's, or else what its input and output leave no choice
+/// about (`recover_reference`)
+/// \throws glsum::Failure (bad input) where nothing can be identified: an input or reference that never changes from 0,
+/// an output that never moves, fewer than 8 samples.
+[[nodiscard]] Record to_record(const Log& log, const std::optional<Model>& controller = {});
+
+/// What a model, and in a closed loop the record's controller, make of a record's input or reference. \param offset  of
+/// the readings
+[[nodiscard]] std::vector<double> respond_to(const Model& model, const Record& record, double offset = 0.0);
 
 struct Parameter {
     std::string name;
@@ -67,6 +77,10 @@ struct FitOptions {
     /// Prediction-error method: the residuals are whitened by an autoregressive noise model of BIC's order, fitted in
     /// turns.
     bool prediction_error = false;
+    /// Intervals by profile likelihood: each ends where the least sum of squares over all other parameters has grown by
+    /// t^2 variances. Straight ones, value +- t deviations, hold too rarely where the model is curved over its own
+    /// uncertainty. Costs some tens of descents.
+    bool profile = false;
     unsigned jobs = 1;
 };
 
@@ -74,7 +88,7 @@ struct Estimate {
     std::string name;
     double value;
     double deviation;  ///< standard deviation; 0 if fixed, infinite if the record does not tell
-    double low;        ///< 95 % interval, by Student's t
+    double low;        ///< 95 % interval, by Student's t: straight, or by profile
     double high;
     bool fixed;
 };
@@ -104,8 +118,8 @@ struct Fit {
 /// The simulated output of a fit on a record, its offset included.
 [[nodiscard]] std::vector<double> simulate_fit(const Fit& fit, const Record& record);
 
-/// A start without any: the time constant and the delay of a grid whose response, scaled, leaves the least sum of
-/// squares. \param kind  fopdt or sopdt
+/// A start without any: the time constant and the delay (in a closed loop also the gain) of a grid whose response,
+/// scaled, leaves the least sum of squares. \param kind  fopdt or sopdt
 [[nodiscard]] Model search_start(Kind kind, const std::vector<Record>& records);
 
 /// Kuepfmueller's tangent at the inflection of a step response. It meets the old level after a dead time and the new

@@ -192,7 +192,10 @@ Log parse_log(const std::string& text, const std::string& name, const Columns& c
     }
     const Header header(split(line), fmt::format("{}:{}", name, lines.number()));
     const std::size_t time = header.find("time", columns.time, {"time_s"});
-    const bool has_input = columns.needs_input || !columns.input.empty() || header.has("input") || header.has("duty");
+    const bool has_reference = columns.takes_reference && (!columns.reference.empty() || header.has("reference"));
+    const std::size_t reference = has_reference ? header.find("reference", columns.reference, {"reference"}) : none;
+    const bool has_input =
+        (columns.needs_input && !has_reference) || !columns.input.empty() || header.has("input") || header.has("duty");
     const std::size_t input = has_input ? header.find("input", columns.input, {"input", "duty"}) : none;
     const std::size_t output = header.find("output", columns.output, {"output", "y", "angle_rad", "counts"});
     if (header.name(output) == "counts" && !columns.counts_per_unit) {
@@ -211,6 +214,9 @@ Log parse_log(const std::string& text, const std::string& name, const Columns& c
         log.time_s.push_back(number(fields[time], name, at, header.name(time)));
         if (input != none) {
             log.input.push_back(number(fields[input], name, at, header.name(input)));
+        }
+        if (reference != none) {
+            log.reference.push_back(number(fields[reference], name, at, header.name(reference)));
         }
         log.output.push_back(number(fields[output], name, at, header.name(output)));
         log.line.push_back(at);
@@ -267,6 +273,9 @@ StampReport order_stamps(Log& log) {
             if (!log.input.empty()) {
                 ordered.input.back() = log.input[i];
             }
+            if (!log.reference.empty()) {
+                ordered.reference.back() = log.reference[i];
+            }
             continue;
         }
         with_this_stamp = 1;
@@ -275,6 +284,9 @@ StampReport order_stamps(Log& log) {
         ordered.line.push_back(log.line[i]);
         if (!log.input.empty()) {
             ordered.input.push_back(log.input[i]);
+        }
+        if (!log.reference.empty()) {
+            ordered.reference.push_back(log.reference[i]);
         }
     }
     if (ordered.time_s.size() < 2) {
@@ -331,6 +343,9 @@ Resampled resample(Log log, double step_s, Hold hold) {
         out.line.push_back(log.line[i]);
         if (!log.input.empty()) {
             out.input.push_back(log.input[i]);
+        }
+        if (!log.reference.empty()) {
+            out.reference.push_back(log.reference[i]);
         }
         double value = log.output[i];
         if (hold == Hold::linear && i + 1 < log.time_s.size()) {

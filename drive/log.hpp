@@ -29,6 +29,8 @@ struct Columns {
     std::string input = {};
     std::string output = {};
     bool needs_input = true;
+    std::string reference = {};                  ///< of a closed loop; usually `reference`
+    bool takes_reference = false;                ///< where the log has such a column, it need not have an input
     std::optional<double> counts_per_unit = {};  ///< the output is divided by it
     int counter_bits = 0;  ///< counts come from a counter of so many bits that wraps; 0: they must not
 };
@@ -39,6 +41,7 @@ struct Log {
     std::vector<double> time_s;
     std::vector<double> input;  ///< empty if there is none and none is needed
     std::vector<double> output;
+    std::vector<double> reference;  ///< empty unless it was asked for and is there
     std::vector<std::size_t> line;  ///< of each sample, for messages
     std::vector<std::string> warnings;
 };

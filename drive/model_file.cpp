@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "drive/controller.hpp"
 #include "qemu/failure.hpp"
 
 namespace drive {
@@ -101,12 +102,9 @@ Json to_json(const std::vector<Term>& terms) {
     return list;
 }
 
-}  // namespace
-
-Model parse_model(const std::string& text, const std::string& name) {
-    Json file;
+Json parse_file(const std::string& text, const std::string& name) {
     try {
-        file = Json::parse(text, [&](int depth, Json::parse_event_t, const Json&) {
+        return Json::parse(text, [&](int depth, Json::parse_event_t, const Json&) {
             if (depth > 8) {
                 refuse(fmt::format("{}: expected a model, found values nested {} deep", name, depth));
             }
@@ -122,7 +120,12 @@ Model parse_model(const std::string& text, const std::string& name) {
     } catch (const Json::out_of_range&) {
         refuse(fmt::format("{}: expected finite numbers, found one beyond double precision", name));
     }
-    Fields fields(file, name);
+}
+
+}  // namespace
+
+Model parse_model(const std::string& text, const std::string& name) {
+    Fields fields(parse_file(text, name), name);
     Model model;
     model.kind = take_kind(fields);
     const double gain = fields.number_or("gain", 1.0);
@@ -153,6 +156,24 @@ Model parse_model(const std::string& text, const std::string& name) {
     model.notes = fields.rest();
     check_model(model, name);
     return model;
+}
+
+Model parse_controller(const std::string& text, const std::string& name) {
+    Fields fields(parse_file(text, name), name);
+    if (!fields.has("kind") || fields.take("kind") != "pid") {
+        return parse_model(text, name);
+    }
+    const Gains gains{fields.number_or("kp", 0.0),
+                      fields.number_or("ki", 0.0),
+                      fields.number_or("kd", 0.0),
+                      fields.number_or("filter_s", 0.0),
+                      fields.number_or("integral_order", 1.0),
+                      fields.number_or("derivative_order", 1.0)};
+    if (!fields.rest().empty()) {
+        refuse(fmt::format("{}: expected kp, ki, kd, filter_s, integral_order and derivative_order, found {}", name,
+                           fields.rest().substr(0, 60)));
+    }
+    return to_model(gains, name);
 }
 
 std::string to_json(const Model& model) {

@@ -22,6 +22,10 @@ inline constexpr std::size_t most_model_bytes = 1u << 20;
 /// \throws glsum::Failure (bad input) naming the file, the line or the field, what was expected and what was found.
 [[nodiscard]] Model parse_model(const std::string& text, const std::string& name);
 
+/// A controller: a model as above, or {"kind": "pid", "kp": 2, "ki": 1.5, "kd": 0.1, "filter_s": 0.02}, of which what
+/// is 0 may be left out; "integral_order" and "derivative_order" make it fractional. \throws as `parse_model`
+[[nodiscard]] Model parse_controller(const std::string& text, const std::string& name);
+
 /// The text of a file: every number in its shortest form that reads back to the same double, further fields included.
 [[nodiscard]] std::string to_json(const Model& model);
 

@@ -38,7 +38,7 @@ bench::Picture picture_of_curves(const std::vector<Curve>& curves, const std::st
                                     curves[i].points ? "#AAAAAA" : palette[i % std::size(palette)], curves[i].title));
     }
     script += fmt::format(
-        "set title \"{}\" noenhanced\nset xlabel \"t [s]\"\nset ylabel \"{}\"\nset grid lc rgb \"#dddddd\"\n"
+        "set title \"{}\" noenhanced\nset xlabel \"t [s]\" offset 0,0.6\nset ylabel \"{}\"\nset grid lc rgb \"#dddddd\"\n"
         "set key outside below horizontal maxcols 3 width 2\nset border 3\nset tics nomirror\nset xrange [*:*] "
         "noextend\nplot {}\n",
         title, unit, fmt::join(plots, ", \\\n  "));

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/random/mersenne_twister.hpp>
-#include <boost/random/normal_distribution.hpp>
-#include <boost/random/uniform_01.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "drive/stand/chance.hpp"
 #include "qemu/failure.hpp"
 
 namespace stand {
@@ -16,28 +14,18 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw glsum::Failure(glsum::Exit::bad_input, message); }
 
-// Each use of chance draws from its own stream: one effect more or less leaves the others' draws as they are.
-enum class Stream : std::uint64_t { stamps = 1, noise, jitter, dropped, bits, series };
-
-class Chance {
-public:
-    Chance(std::uint64_t seed, Stream stream)
-        : engine_(seed * 0x9E3779B97F4A7C15U + static_cast<std::uint64_t>(stream) * 0xD1B54A32D192ED03U) {}
-    double share() { return uniform_(engine_); }
-    double around(double half_width) { return half_width * (2.0 * share() - 1.0); }
-    double normal() { return normal_(engine_); }
-    std::uint64_t word() { return engine_(); }
-
-private:
-    // Boost's: its distributions, unlike the standard library's, give the same numbers everywhere.
-    boost::random::mt19937_64 engine_;
-    boost::random::uniform_01<double> uniform_;
-    boost::random::normal_distribution<double> normal_;
+enum Stream : std::uint64_t {
+    stamps_stream = 1,
+    noise_stream,
+    jitter_stream,
+    dropped_stream,
+    bits_stream,
+    series_stream
 };
 
 class Bits {
 public:
-    explicit Bits(std::uint64_t seed) : state_(static_cast<unsigned>(Chance(seed, Stream::bits).word() % 1023U) + 1U) {}
+    explicit Bits(std::uint64_t seed) : state_(static_cast<unsigned>(Chance(seed, bits_stream).word() % 1023U) + 1U) {}
     bool next() {
         const unsigned bit = ((state_ >> 9U) ^ (state_ >> 6U)) & 1U;  // x^10 + x^7 + 1: a period of 1023
         state_ = ((state_ << 1U) | bit) & 1023U;
@@ -114,7 +102,7 @@ Record run(const Stand& stand, const Experiment& experiment, std::uint64_t seed,
     check(experiment, stand.interval_s);
     Record record;
     record.name = fmt::format("{}, seed {}", experiment.name, seed);
-    Chance stamps(seed, Stream::stamps);
+    Chance stamps(seed, stamps_stream);
     const auto count = static_cast<std::size_t>(std::floor(experiment.until_s / stand.interval_s + 1e-9)) + 1;
     for (std::size_t k = 0; k < count; ++k) {
         const double spread = stamps.around(stand.spread_s);
@@ -124,7 +112,7 @@ Record run(const Stand& stand, const Experiment& experiment, std::uint64_t seed,
     }
     record.duty = duties_of(experiment, record.time_s, seed);
 
-    Chance jitter(seed, Stream::jitter);
+    Chance jitter(seed, jitter_stream);
     std::vector<double> taken_s;
     for (const double t : record.time_s) {
         taken_s.push_back(std::max(0.0, t + jitter.around(stand.jitter_s)));
@@ -147,8 +135,8 @@ Record run(const Stand& stand, const Experiment& experiment, std::uint64_t seed,
                                  [](const Point& point, double time_s) { return point.time_s < time_s; });
     };
 
-    Chance noise(seed, Stream::noise);
-    Chance dropped(seed, Stream::dropped);
+    Chance noise(seed, noise_stream);
+    Chance dropped(seed, dropped_stream);
     for (std::size_t k = 0; k < count; ++k) {
         double z = at(taken_s[k]).reading_rad + stand.offset_rad + stand.drift_rad_per_s * taken_s[k];
         z += stand.noise_rad * noise.normal();
@@ -167,7 +155,7 @@ Record run(const Stand& stand, const Experiment& experiment, std::uint64_t seed,
 }
 
 std::vector<Record> run_series(const Stand& stand, const Experiment& experiment, std::uint64_t seed, int count) {
-    Chance chance(seed, Stream::series);
+    Chance chance(seed, series_stream);
     std::vector<Record> records;
     double charge = 0.0;
     for (int i = 1; i <= count; ++i) {

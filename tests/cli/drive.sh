@@ -19,6 +19,13 @@ expect 0 "stable" stability --model "$models/niopdt.json"
 expect 2 "of degree 1991; expected at most 600" stability --model "$models/niopdt.json" --q 0.001
 printf '{"denominator":[{"coefficient":1,"order":2.1},{"coefficient":1,"order":0}]}' >"$folder/unstable.json"
 expect 1 "unstable" stability --model "$folder/unstable.json"
+expect 0 "unstable.json: unstable: 2 poles with a positive real part" simulate --model "$folder/unstable.json" --step-s 0.01
+printf '{"denominator":[{"coefficient":1,"order":1},{"coefficient":-40,"order":0}]}' >"$folder/away.json"
+expect 1 "left the range of its numbers" simulate --model "$folder/away.json" --step-s 0.001 --until-s 20 --no-compare
+printf '{"delay_s":-1,"denominator":[{"coefficient":1,"order":1},{"coefficient":1,"order":0}]}' >"$folder/early.json"
+expect 2 "delay_s: expected 0 to" simulate --model "$folder/early.json"
+printf '{"denominator":[{"coefficient":0,"order":2},{"coefficient":1,"order":0}]}' >"$folder/zero.json"
+expect 2 "the coefficient of the highest order, 2, is 0" simulate --model "$folder/zero.json"
 printf '{"denominator":[{"coefficient":1,"order":2},{"coefficient":1,"order":0}]}' >"$folder/border.json"
 expect 1 "borderline" stability --model "$folder/border.json"
 printf '{"numerator":[{"coefficient":1,"order":3}],"denominator":[{"coefficient":1,"order":2}]}' >"$folder/improper.json"
@@ -45,8 +52,24 @@ expect 2 "the output is 3 throughout" identify "$folder/still.csv"
 expect 2 "the input is 0 throughout" identify "$folder/off.csv"
 printf 'time_s,duty,angle_rad\n0,27,0\n1,27,1\n' >"$folder/percent.csv"
 expect 2 "percent.csv:2: duty: expected 0 to 1, found 27" identify "$folder/percent.csv"
+{ echo time_s,input,angle_rad; for k in 0 1 2 3 4 5 6 7 8 9; do echo "$k,1,$((k * 5))"; done; } >"$folder/degrees.csv"
+expect 0 "more than two turns; are these degrees?" resample "$folder/degrees.csv" --step-s 0.5
+expect 2 "--counts-per-unit: expected a number other than 0" identify "$folder/even.csv" --counts-per-unit 0
 printf 'time_s,input,counts\n0,1,65530\n1,1,65535\n2,1,4\n' >"$folder/wraps.csv"
 expect 2 "wraps.csv:4: counts: jumps by -65531" identify "$folder/wraps.csv"
+
+# A closed loop, stepped by hand: a first order behind 0.1 s, gain 2, 0.5 s, under a PI controller.
+awk 'BEGIN { print "time_s,reference,input,output"; a = exp(-0.02 / 0.5)
+    for (k = 0; k < 500; ++k) { if (k > 0) { y = a * y + (1 - a) * 2 * (k > 5 ? u[k - 6] : 0); i += 0.8 * 0.02 * e }
+        r = int(k / 100) % 2 ? 0.4 : 1; e = r - y; u[k] = 0.6 * e + i; printf "%.2f,%g,%.12g,%.12g\n", k * 0.02, r, u[k], y } }' >"$folder/loop.csv"
+echo '{"kind": "pid", "kp": 0.6, "ki": 0.8}' >"$folder/pi.json"
+expect 0 "gain                          2 " identify "$folder/loop.csv" --controller "$folder/pi.json" --form fopdt --out "$folder/plant.json"
+cut -d, -f1,3,4 "$folder/loop.csv" >"$folder/loop_without.csv"  # the reference is what input and output say it was
+expect 0 "gain                          2 " identify "$folder/loop_without.csv" --controller "$folder/pi.json" --form fopdt
+expect 2 "expected a column absent for the reference" identify "$folder/loop.csv" --controller "$folder/pi.json" --reference-column absent
+expect 2 "expected --controller FILE beside it" identify "$folder/loop.csv" --reference-column reference
+echo '{"kind": "pid", "kd": 1}' >"$folder/pd.json"
+expect 2 "filter_s: expected a time above 0" identify "$folder/loop.csv" --controller "$folder/pd.json"
 
 expect 0 "0.9977144659 without its dead time" paper
 [ "$failures" -eq 0 ]

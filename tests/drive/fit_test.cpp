@@ -156,6 +156,36 @@ TEST(Fit, IntervalsHoldTheTruth) {
         EXPECT_GE(found.inside[i], 33U) << found.names[i];
         EXPECT_NEAR(found.claimed[i] / found.spread[i], 1.0, 0.35) << found.names[i];
     }
+    EXPECT_GE(found.jointly_inside, 33U);
+    EXPECT_LE(found.jointly_inside, 40U);
+}
+
+// A curved parameter: the ends of a profile are where the least sum of squares over the others has grown by t^2
+// variances, and not those of a straight interval.
+TEST(Fit, ProfileIntervalsEndWhereTheSumOfSquaresHasGrown) {
+    const Record record = record_of(plants::sopdt(), {.until_s = 3.0, .noise = 0.1, .quantum = 0.0});
+    const Form form(Kind::sopdt, plants::sopdt());
+    const Fit straight = drive::fit(form, {record}, {});
+    const Fit found = drive::fit(form, {record}, {.profile = true});
+    const double variance = found.noise_deviation * found.noise_deviation;
+    constexpr double t = 1.968;  // Student's, 97.5 %, 298 degrees of freedom
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (const double end : {found.parameters[i].low, found.parameters[i].high}) {
+            Form there = form;
+            there.parameters()[i].value = end;
+            there.parameters()[i].fixed = true;
+            const double grown = drive::fit(there, {record}, {}).sum_of_squares - found.sum_of_squares;
+            EXPECT_NEAR(std::sqrt(grown / variance) / t, 1.0, 0.01) << found.parameters[i].name << ' ' << end;
+        }
+        EXPECT_NEAR(found.parameters[i].high - found.parameters[i].low,
+                    straight.parameters[i].high - straight.parameters[i].low, found.parameters[i].deviation);
+    }
+    EXPECT_NE(found.parameters[1].low, straight.parameters[1].low);
+    Form bounded = form;
+    bounded.parameter("time_constant_s").value = found.parameters[1].value;
+    bounded.parameter("time_constant_s").upper = found.parameters[1].value + 0.1 * found.parameters[1].deviation;
+    EXPECT_DOUBLE_EQ(drive::fit(bounded, {record}, {.profile = true}).parameters[1].high,
+                     bounded.parameter("time_constant_s").upper);
 }
 
 TEST(Fit, WarnsWhereTheRecordDoesNotTell) {

@@ -1,4 +1,4 @@
-// A model file from anywhere: what is taken is a model, and is written and taken again as it was.
+// A model file from anywhere: what is taken is a model (or a controller), and is written and taken again as it was.
 #include "drive/model_file.hpp"
 #include "tests/fuzz/refused.hpp"
 
@@ -10,5 +10,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::expect(again == model);
         fuzz::expect(!drive::to_text(model).empty());
     });
+    fuzz::refused_or([&] { drive::check_model(drive::parse_controller(fuzz::to_text(data, size), "file"), "file"); });
     return 0;
 }

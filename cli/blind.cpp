@@ -1,0 +1,50 @@
+#include "cli/blind.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "bench/files.hpp"
+#include "bench/progress.hpp"
+#include "bench/sha256.hpp"
+#include "drive/stand/blind/cases.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+
+void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, const std::filesystem::path& folder) {
+    if (folder.empty()) {
+        throw glsum::Failure(glsum::Exit::bad_input, "stand --blind: expected --out FOLDER");
+    }
+    std::error_code error;
+    if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
+        throw glsum::Failure(
+            glsum::Exit::bad_input,
+            fmt::format("{}: expected a folder that is new or empty, found files in it", folder.string()));
+    }
+    std::vector<stand::blind::Case> cases;
+    {
+        bench::Progress progress("blind cases", count);
+        cases = stand::blind::make_cases(count, seed, jobs, [&] { progress.advance(); });
+    }
+    std::vector<stand::blind::Truth> truths;
+    for (const stand::blind::Case& made : cases) {
+        truths.push_back(made.truth);
+    }
+    std::filesystem::create_directories(folder, error);
+    bench::write_file(folder / "truth.sealed.json", stand::blind::seal(seed, truths));
+    const std::string hash = bench::sha256_of(folder / "truth.sealed.json");
+    bench::write_file(folder / "truth.sha256", bench::sha256_line(hash, "truth.sealed.json"));
+    fmt::print("sha256 of the sealed truth: {}\n", hash);
+    std::fflush(stdout);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const auto place = folder / stand::blind::name_of_case(i + 1);
+        std::filesystem::create_directories(place, error);
+        bench::write_file(place / "model.json", cases[i].model);
+        bench::write_file(place / "train.csv", cases[i].train);
+        bench::write_file(place / "validate.csv", cases[i].validate);
+    }
+    fmt::print("{} cases, seed {}, in {}\n", cases.size(), seed, folder.string());
+}
+
+}  // namespace cli
