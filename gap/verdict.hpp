@@ -1,0 +1,16 @@
+// The verdict as a file and for people.
+#pragma once
+
+#include <string>
+
+#include "gap/drive/diagnose.hpp"
+
+namespace gap {
+
+/// Schema glsum-gap-1.
+[[nodiscard]] std::string to_json(const Answer& answer);
+/// Some lines for a terminal.
+[[nodiscard]] std::string to_text(const Answer& answer);
+[[nodiscard]] const char* name_of(Outcome outcome);
+
+}  // namespace gap
