@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
     cli::add_resample(app);
     cli::add_stand(app);
     cli::add_paper(app);
+    cli::add_diagnose(app);
     // The launcher tells every command how many jobs may run at once.
     unsigned unused_jobs = 1;
     for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {
