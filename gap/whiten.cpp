@@ -23,14 +23,16 @@ std::vector<double> Whitener::apply(std::span<const double> residuals) const {
     return white;
 }
 
-std::vector<double> Whitener::log_likelihood(std::span<const double> residuals) const {
+std::vector<double> Whitener::log_likelihood(std::span<const double> residuals, std::span<const double> spread) const {
     constexpr double degrees = 5.0;
     // Scaled to unit variance.
     constexpr double scale = (degrees - 2.0) / degrees;
     std::vector<double> logs = apply(residuals);
     for (std::size_t k = 0; k < logs.size(); ++k) {
-        const double unit = k < coefficients.size() ? stationary_deviation : deviation;
-        logs[k] = -0.5 * (degrees + 1.0) * std::log1p(logs[k] * logs[k] / (scale * degrees)) - std::log(unit);
+        const double more = spread.empty() ? 1.0 : spread[k];
+        const double unit = more * (k < coefficients.size() ? stationary_deviation : deviation);
+        const double size = logs[k] / more;
+        logs[k] = -0.5 * (degrees + 1.0) * std::log1p(size * size / (scale * degrees)) - std::log(unit);
     }
     return logs;
 }

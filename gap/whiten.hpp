@@ -15,8 +15,9 @@ struct Whitener {
     /// by the residuals' own deviation.
     [[nodiscard]] std::vector<double> apply(std::span<const double> residuals) const;
     /// Of each sample: the logarithm of its likelihood, heavy-tailed (Student's t of 5 degrees), so that no single
-    /// reading decides.
-    [[nodiscard]] std::vector<double> log_likelihood(std::span<const double> residuals) const;
+    /// reading decides. \param spread  the deviation of each over the usual one; empty: 1
+    [[nodiscard]] std::vector<double> log_likelihood(std::span<const double> residuals,
+                                                     std::span<const double> spread = {}) const;
     double stationary_deviation = 1.0;
 };
 

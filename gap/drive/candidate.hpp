@@ -1,70 +1,52 @@
-// A base model with some effects, fitted to records.
+// A base model with some effects and the numbers that it has.
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
-#include "drive/fit.hpp"
-#include "gap/drive/effect.hpp"
-#include "gap/drive/simulate.hpp"
-#include "gap/whiten.hpp"
+#include "gap/drive/study.hpp"
 
 namespace gap {
 
-/// What of the base may move: nothing when a given model is judged as it is; everything when it is refitted.
-struct Base {
-    drive::Form form;            ///< of the model, with its start values
-    bool refit = false;          ///< the form's free parameters are fitted
-    bool initial_state = false;  ///< offset, initial output and velocity of each record are fitted
-};
-
 /// One number that a fit may move.
 struct FreeParameter {
-    std::string name;  ///< "gain", "input_dead_zone.width", "record 1: initial_output"
+    std::string name;  ///< "gain", "input_dead_zone.width", "initial_output"
     double value;
     double lower;
     double upper;
     double scale;  ///< what counts as a step: differences are taken over 3e-4 of it
-    double deviation =
-        0.0;  ///< standard deviation of a fitted value, by `add_deviations`; infinite if nothing tells it
+    bool fixed = false;
+    double deviation = 0.0;  ///< of a fitted value, by `add_deviations`; infinite if nothing tells it
 };
 
 struct Candidate {
     std::vector<const Effect*> effects;
     std::vector<FreeParameter> base;                  ///< shared by all records
     std::vector<std::vector<FreeParameter>> lasting;  ///< by effect
-    std::vector<std::vector<FreeParameter>> own;      ///< by record: initial state, then events' parameters
+    std::vector<std::vector<FreeParameter>> own;      ///< by record: its state, then events' parameters
     double cost = 0.0;                                ///< half the sum of squares of the (whitened) residuals
-    Eigen::MatrixXd covariance;                       ///< of base, lasting, own in turn; empty until asked for
     [[nodiscard]] std::string name() const;           ///< "none", or effects joined by " + "
-    [[nodiscard]] std::size_t parameter_count() const;
+    [[nodiscard]] bool has(const std::string& effect) const;
+    [[nodiscard]] std::size_t effect_parameters() const;  ///< free ones of effects, those of events in one record
+    [[nodiscard]] std::size_t event_parameters() const;   ///< free ones, in all records
 };
 
-/// Records with everything that fits over them share.
-struct Study {
-    Base base;
-    Scales scales;
-    std::vector<Course> courses;
-    std::vector<std::vector<char>>
-        counts;              ///< by record and sample: whether it counts here; a split record's other part does not
-    double least_deviation;  ///< of readings: what their quantum leaves
-};
+/// The base's free numbers at their starts; none unless it is refitted.
+[[nodiscard]] std::vector<FreeParameter> base_of(const Study& study);
+/// A record's own state likewise.
+[[nodiscard]] std::vector<FreeParameter> state_of(const Study& study, const Record& record);
+/// An effect's parameters at one of its starts.
+[[nodiscard]] std::vector<FreeParameter> parameters_of(const Effect& effect, const Scales& scales, std::size_t start);
+[[nodiscard]] std::size_t starts_of(const Effect& effect, const Scales& scales);
+[[nodiscard]] bool applies(const Effect& effect, const Scales& scales);
+
+/// The numbers that are not fixed: base, lasting and own in turn, or own alone.
+[[nodiscard]] std::vector<FreeParameter*> free_numbers(Candidate& candidate, bool own_only);
 
 [[nodiscard]] Scenario scenario_of(const Study& study, const Candidate& candidate, std::size_t record);
-/// measured - simulated
+/// measured - simulated, or - predicted over the study's horizon
 [[nodiscard]] std::vector<double> residuals_of(const Study& study, const Candidate& candidate, std::size_t record);
-
-/// Fits base, effects and each record's own numbers by bounded least squares on residuals whitened by `whitener` (if
-/// given), from `start` for all that it has and from each of the effects' starts; the `keep` best of them go to the
-/// end.
-[[nodiscard]] Candidate fit(const Study& study, const std::vector<const Effect*>& effects, const Candidate& start,
-                            const Whitener* whitener, std::size_t keep);
-
-/// Standard deviations of all that was fitted, from the whitened residuals' slopes.
-void add_deviations(const Study& study, Candidate& candidate, const Whitener& whitener);
-
-/// The same candidate on other records: base and lasting parameters stay, the records' own are fitted afresh.
-[[nodiscard]] Candidate carried_over(const Study& study, const Candidate& fitted, const Whitener* whitener);
+/// Of every record.
+[[nodiscard]] std::vector<std::vector<double>> all_residuals(const Study& study, const Candidate& candidate);
 
 }  // namespace gap

@@ -9,25 +9,30 @@ namespace gap {
 namespace {
 
 // (1-z)^(v-1) ((3-z)/2)^v: the first 40 terms of the second factor are all that a double holds, as they fall like 3^-j.
-std::vector<double> increment_weights(double order, std::size_t horizon) {
-    std::vector<double> plain = {1.0};
-    plain.reserve(horizon + 1);
-    for (glsum::Weights walk(order - 1.0); plain.size() <= horizon;) {
-        walk.next();
-        plain.push_back(walk.weight());
-    }
-    std::vector<double> factor = {std::pow(1.5, order)};
-    for (std::size_t j = 1; j < 40; ++j) {
-        factor.push_back(factor.back() * (1.0 - (1.0 + order) / static_cast<double>(j)) / 3.0);
-    }
-    std::vector<double> weights(plain.size(), 0.0);
-    for (std::size_t k = 0; k < weights.size(); ++k) {
-        for (std::size_t j = std::min(k + 1, factor.size()); j-- > 0;) {
-            weights[k] += factor[j] * plain[k - j];
+class IncrementWeights {
+public:
+    IncrementWeights(double order, std::size_t horizon) : plain_{1.0}, factor_{std::pow(1.5, order)} {
+        plain_.reserve(horizon + 1);
+        for (glsum::Weights walk(order - 1.0); plain_.size() <= horizon;) {
+            walk.next();
+            plain_.push_back(walk.weight());
+        }
+        for (std::size_t j = 1; j < 40; ++j) {
+            factor_.push_back(factor_.back() * (1.0 - (1.0 + order) / static_cast<double>(j)) / 3.0);
         }
     }
-    return weights;
-}
+    [[nodiscard]] double at(std::size_t k) const {
+        double sum = 0.0;
+        for (std::size_t j = std::min(k + 1, factor_.size()); j-- > 0;) {
+            sum += factor_[j] * plain_[k - j];
+        }
+        return sum;
+    }
+
+private:
+    std::vector<double> plain_;
+    std::vector<double> factor_;
+};
 
 }  // namespace
 
@@ -61,16 +66,32 @@ Exponentials::Exponentials(std::size_t horizon) : horizon_(std::max<std::size_t>
 }
 
 Table Exponentials::table(double order) const {
-    const std::vector<double> weights = increment_weights(order, horizon_);
+    const std::lock_guard lock(*mutex_);
+    const auto known = tables_.find(order);
+    if (known != tables_.end()) {
+        return known->second;
+    }
+    if (tables_.size() >= most_tables) {
+        tables_.clear();
+    }
+    return tables_.emplace(order, make_table(order)).first->second;
+}
+
+Table Exponentials::make_table(double order) const {
+    const bool whole = std::floor(order) == order;
+    const IncrementWeights weights(order, whole ? static_cast<std::size_t>(near_count) : horizon_);
     Table table;
-    table.near = Eigen::Map<const Eigen::VectorXd>(weights.data(), near_count);
-    if (std::floor(order) == order) {
+    table.near.resize(near_count);
+    for (Eigen::Index k = 0; k < near_count; ++k) {
+        table.near(k) = weights.at(static_cast<std::size_t>(k));
+    }
+    if (whole) {
         table.far = Eigen::VectorXd::Zero(ratios_.size());
         return table;  // the rest is a power of 1/3 too small to matter
     }
     Eigen::VectorXd right(static_cast<Eigen::Index>(indices_.size()));
     for (Eigen::Index i = 0; i < right.size(); ++i) {
-        right(i) = row_weights_(i) * weights[indices_[static_cast<std::size_t>(i)]];
+        right(i) = row_weights_(i) * weights.at(indices_[static_cast<std::size_t>(i)]);
     }
     table.far = solver_.solve(right);
     return table;
@@ -79,19 +100,23 @@ Table Exponentials::table(double order) const {
 Past::Past(const Exponentials& exponentials, Table table)
     : exponentials_(&exponentials),
       table_(std::move(table)),
+      remembers_((table_.far.array() != 0.0).any()),
       near_(Eigen::VectorXd::Zero(2 * Exponentials::near_count)),
       states_(Eigen::ArrayXd::Zero(exponentials.ratios().size())) {}
 
 double Past::known() const {
     // near_[head] is e_(k-1).
     constexpr Eigen::Index behind = Exponentials::near_count - 1;
-    return table_.near.tail(behind).dot(near_.segment(head_, behind)) + (table_.far.array() * states_).sum();
+    const double near = table_.near.tail(behind).dot(near_.segment(head_, behind));
+    return remembers_ ? near + (table_.far.array() * states_).sum() : near;
 }
 
 void Past::push(double increment) {
     constexpr Eigen::Index behind = Exponentials::near_count - 1;
     // The oldest of the near ones moves to the exponentials: next time it is near_count samples back.
-    states_ = states_ * exponentials_->ratios() + near_(head_ + behind - 1);
+    if (remembers_) {
+        states_ = states_ * exponentials_->ratios() + near_(head_ + behind - 1);
+    }
     head_ = head_ == 0 ? behind - 1 : head_ - 1;
     near_(head_) = increment;
     near_(head_ + behind) = increment;

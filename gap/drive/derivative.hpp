@@ -7,7 +7,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/QR>
+#include <map>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace gap {
@@ -18,7 +20,7 @@ struct Table {
     Eigen::VectorXd far;
 };
 
-/// The exponentials that all tables over one horizon share. Immutable once made; thread-safe.
+/// The exponentials that all tables over one horizon share, and the tables that were asked for lately. Thread-safe.
 class Exponentials {
 public:
     static constexpr Eigen::Index near_count = 14;
@@ -32,7 +34,12 @@ public:
     [[nodiscard]] Table table(double order) const;
 
 private:
+    static constexpr std::size_t most_tables = 64;
+    [[nodiscard]] Table make_table(double order) const;
+
     std::size_t horizon_;
+    std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
+    mutable std::map<double, Table> tables_;
     Eigen::ArrayXd ratios_;
     std::vector<std::size_t> indices_;
     Eigen::ArrayXd row_weights_;
@@ -54,6 +61,7 @@ public:
 private:
     const Exponentials* exponentials_;
     Table table_;
+    bool remembers_;        // whole orders need no exponentials
     Eigen::VectorXd near_;  // newest first, twice as long as needed
     Eigen::Index head_ = 0;
     Eigen::ArrayXd states_;

@@ -4,362 +4,162 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
-#include "bench/parallel.hpp"
-#include "qemu/failure.hpp"
+#include "gap/drive/experiment.hpp"
+#include "gap/drive/plausible.hpp"
+#include "gap/drive/search.hpp"
 
 namespace gap {
 namespace {
 
-constexpr std::size_t whitener_order = 8;
-
-// How long the model takes to most of its way: the time at which a step's response has made 63 % of where it is after
-// the record, simulated.
-double time_constant_of(const drive::Model& model, const Record& record) {
-    double sum = 0.0;
-    double weight = 0.0;
-    for (const drive::Term& term : model.denominator) {
-        if (term.order > 0.0 && drive::constant_coefficient(model.denominator) != 0.0) {
-            sum += std::pow(std::fabs(term.coefficient / drive::constant_coefficient(model.denominator)),
-                            1.0 / term.order);
-            weight += 1.0;
-        }
-    }
-    const double length_s = record.time_s.back() - record.time_s.front();
-    const double found = weight > 0.0 ? sum / weight : 0.1 * length_s;
-    return std::clamp(found, 2.0 * record.usual_interval_s, 0.3 * length_s);
+// A refitted base has these already.
+bool is_of_the_base(const Effect& effect) {
+    static const std::vector<std::string> theirs = {"gain_error",   "time_scale_error", "dead_time_error", "order_error",
+                                                    "sensor_offset", "finite_memory",    "single_precision", "fixed_point"};
+    return std::find(theirs.begin(), theirs.end(), effect.name) != theirs.end();
 }
 
-Scales scales_of(const drive::Model& model, const std::vector<Record>& records) {
-    Scales scales{};
-    scales.output_low = scales.output_high = records.front().output.front();
+std::vector<const Effect*> list_of(const Question& question, const Scales& scales) {
+    std::vector<const Effect*> list;
+    for (const Effect* effect : effects()) {
+        const bool off =
+            std::find(question.without.begin(), question.without.end(), effect->name) != question.without.end();
+        if (!off && !(question.refit && is_of_the_base(*effect)) && applies(*effect, scales)) {
+            list.push_back(effect);
+        }
+    }
+    return list;
+}
+
+Study make_study(const Question& question, const std::vector<Record>& records,
+                 std::vector<std::vector<char>> counts, const Scales& scales, const Audit& found) {
+    const double least = std::max(0.29 * found.quantum, 2e-4 * scales.output_span);
+    Study study{{question.form, question.refit}, scales, {}, std::move(counts), least, 0};
+    Scenario plain;
+    plain.model = model_of(question.form);
     for (const Record& record : records) {
-        for (const double u : record.input) {
-            scales.input_max = std::max(scales.input_max, std::fabs(u));
-        }
-        for (const double z : record.output) {
-            scales.output_low = std::min(scales.output_low, z);
-            scales.output_high = std::max(scales.output_high, z);
-        }
-        scales.length_s = std::max(scales.length_s, record.time_s.back() - record.time_s.front());
+        study.courses.push_back(make_course(record, plain, 0.1 * std::max(found.noise, least)));
     }
-    scales.output_span = scales.output_high - scales.output_low;
-    scales.interval_s = records.front().usual_interval_s;
-    scales.time_constant_s = time_constant_of(model, records.front());
-    scales.speed_max = scales.output_span / scales.time_constant_s;
-    scales.force = std::fabs(model.gain) * scales.input_max;
-    return scales;
+    if (question.metric == Metric::prediction) {
+        study.horizon =
+            std::max<std::size_t>(1, static_cast<std::size_t>(0.02 * scales.length_s / scales.interval_s));
+    }
+    return study;
 }
 
-// The smallest difference between readings that occurs: the quantum, where there is one.
-double quantum_of(const std::vector<Record>& records) {
-    double least = 0.0;
-    for (const Record& record : records) {
-        for (std::size_t i = 1; i < record.size(); ++i) {
-            const double by = std::fabs(record.output[i] - record.output[i - 1]);
-            if (by > 0.0 && (least == 0.0 || by < least)) {
-                least = by;
-            }
-        }
-    }
-    return least;
-}
-
-std::vector<std::vector<char>> all_count(const std::vector<Record>& records) {
-    std::vector<std::vector<char>> counts;
-    for (const Record& record : records) {
-        counts.emplace_back(record.size(), 1);
-    }
-    return counts;
-}
-
-// Of each record every third of ten blocks is kept aside, or what lies behind the split.
-std::vector<std::vector<char>> part_counts(const std::vector<Record>& records, std::optional<double> split_s,
-                                           bool kept_aside) {
-    std::vector<std::vector<char>> counts;
-    for (const Record& record : records) {
-        std::vector<char> count(record.size());
-        for (std::size_t i = 0; i < record.size(); ++i) {
-            const double share =
-                (record.time_s[i] - record.time_s.front()) / (record.time_s.back() - record.time_s.front());
-            const bool aside = split_s ? record.time_s[i] >= *split_s : static_cast<int>(share * 10.0) % 3 == 2;
-            count[i] = aside == kept_aside ? 1 : 0;
-        }
-        counts.push_back(std::move(count));
-    }
-    return counts;
-}
-
-double rms(const std::vector<std::vector<double>>& residuals, const std::vector<std::vector<char>>& counts) {
-    double sum = 0.0;
-    double count = 0.0;
-    for (std::size_t r = 0; r < residuals.size(); ++r) {
-        for (std::size_t i = 0; i < residuals[r].size(); ++i) {
-            if (counts[r][i] != 0) {
-                sum += residuals[r][i] * residuals[r][i];
-                count += 1.0;
-            }
-        }
-    }
-    return count > 0.0 ? std::sqrt(sum / count) : 0.0;
-}
-
-double deviation_of_output(const Study& study) {
-    double sum = 0.0;
-    double squares = 0.0;
-    double count = 0.0;
+// Refitted, the steps are off by what the fitted model makes of them, not by what the start did.
+void correct_for(Study& study, const Candidate& fitted) {
     for (std::size_t r = 0; r < study.courses.size(); ++r) {
         const Record& record = study.courses[r].record();
-        for (std::size_t i = 0; i < record.size(); ++i) {
-            if (study.counts[r][i] != 0) {
-                sum += record.output[i];
-                squares += record.output[i] * record.output[i];
-                count += 1.0;
-            }
+        const auto per_interval = static_cast<unsigned>(
+            std::max(1.0, std::round(record.usual_interval_s / study.courses[r].grid().step_s)));
+        const Scenario scenario = scenario_of(study, fitted, r);
+        const std::vector<double> coarse = simulate(scenario, Course(record, per_interval));
+        const std::vector<double> fine = simulate(scenario, Course(record, 2 * per_interval));
+        std::vector<double> off(record.size());
+        for (std::size_t i = 0; i < off.size(); ++i) {
+            off[i] = (fine[i] - coarse[i]) * 4.0 / 3.0;
+        }
+        if (std::all_of(off.begin(), off.end(), [](double value) { return std::isfinite(value); })) {
+            study.courses[r].correct(std::move(off));
         }
     }
-    return std::sqrt(std::max(0.0, squares / count - sum * sum / (count * count)));
 }
 
-class Diagnosis {
-public:
-    Diagnosis(const Question& question, const std::function<void(const std::string&)>& say)
-        : question_(question), say_(say) {
-        const std::vector<Record>& train = question.train;
-        std::vector<double> values;
-        for (const drive::Parameter& parameter : question.form.parameters()) {
-            values.push_back(parameter.value);
-        }
-        const drive::Model model = question.form.to_model(values);
-        const Base base{question.form, question.refit, question.refit};
-        const Scales scales = scales_of(model, train);
-        const double least = std::max(0.29 * quantum_of(train), 1e-7 * scales.output_span);
-        split_ = question.validate.empty();
-        study_.emplace(
-            Study{base, scales, {}, split_ ? part_counts(train, question.split_s, false) : all_count(train), least});
-        const std::vector<Record>& validate = split_ ? train : question.validate;
-        validation_.emplace(
-            Study{base, scales, {}, split_ ? part_counts(train, question.split_s, true) : all_count(validate), least});
-        Scenario plain;
-        plain.model = model;
-        for (const Record& record : train) {
-            study_->courses.push_back(make_course(record, plain, 0.1 * least + 1e-4 * scales.output_span));
-        }
-        for (const Record& record : validate) {
-            validation_->courses.push_back(make_course(record, plain, 0.1 * least + 1e-4 * scales.output_span));
+Where where_of(const Study& validation, const Ranked& none, const std::vector<Record>& records) {
+    std::vector<std::vector<double>> residuals = none.residuals;
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
+        for (std::size_t i = 0; i < residuals[r].size(); ++i) {
+            residuals[r][i] = validation.counts[r][i] != 0 && std::isfinite(residuals[r][i]) ? residuals[r][i] : 0.0;
         }
     }
+    return locate(records, residuals);
+}
 
-    Answer run() {
-        say_("base");
-        Candidate none = fit(*study_, {}, {}, nullptr, 1);
-        std::vector<const Effect*> list;
-        for (const Effect* effect : effects()) {
-            if (std::find(question_.without.begin(), question_.without.end(), effect->name) ==
-                    question_.without.end() &&
-                !is_of_the_base(*effect)) {
-                list.push_back(effect);
-            }
-        }
-        say_("effects");
-        std::vector<Candidate> singles(list.size());
-        bench::parallel_for(list.size(), question_.jobs,
-                            [&](std::size_t i) { singles[i] = fit(*study_, {list[i]}, none, nullptr, 2); });
-        by_cost(singles);
-        Whitener whitener = whitener_of(singles.front().cost < none.cost ? singles.front() : none);
-        say_("effects, whitened");
-        const std::size_t shortlist = std::min<std::size_t>(10, singles.size());
-        none = fit(*study_, {}, none, &whitener, 1);
-        bench::parallel_for(singles.size(), question_.jobs, [&](std::size_t i) {
-            if (i < shortlist) {
-                singles[i] = fit(*study_, singles[i].effects, singles[i], &whitener, 1);
-            }
-        });
-        singles.resize(shortlist);
-        by_cost(singles);
-        whitener = whitener_of(singles.front());
-        say_("pairs");
-        std::vector<Candidate> all = singles;
-        const std::size_t paired = std::min<std::size_t>(5, singles.size());
-        std::vector<std::pair<std::size_t, std::size_t>> pairs;
-        for (std::size_t a = 0; a < paired; ++a) {
-            for (std::size_t b = a + 1; b < paired; ++b) {
-                pairs.emplace_back(a, b);
-            }
-        }
-        std::vector<Candidate> two(pairs.size());
-        bench::parallel_for(pairs.size(), question_.jobs, [&](std::size_t i) {
-            const auto [a, b] = pairs[i];
-            two[i] = fit(*study_, {singles[a].effects[0], singles[b].effects[0]}, singles[a], &whitener, 2);
-        });
-        all.insert(all.end(), two.begin(), two.end());
-        all.push_back(none);
-        by_cost(all);
-        whitener = whitener_of(all.front());
-        say_("validation");
-        Answer answer{};
-        answer.whitener = whitener;
-        answer.ranking.resize(all.size());
-        bench::parallel_for(all.size(), question_.jobs,
-                            [&](std::size_t i) { answer.ranking[i] = validated(all[i], whitener); });
-        std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
-                         [](const Ranked& a, const Ranked& b) { return a.score > b.score; });
-        decide(answer);
-        answer.split = split_;
-        for (const std::size_t i : answer.effects) {
-            // Their sizes are those of the training records; events have their own in each record.
-            const auto trained = std::find_if(all.begin(), all.end(), [&](const Candidate& candidate) {
-                return candidate.effects == answer.ranking[i].candidate.effects;
-            });
-            Candidate sized = *trained;
-            add_deviations(*study_, sized, whitener);
-            answer.ranking[i].candidate.lasting = sized.lasting;
-        }
-        answer.where = where_of(answer);
-        answer.next_experiment = next_experiment(answer);
-        return answer;
+std::string next_experiment(const Answer& answer, const Study& study, const Audit& found) {
+    const Decision& decision = answer.decision;
+    const double noise = std::max(answer.whitener.stationary_deviation, study.least_deviation);
+    switch (decision.outcome) {
+        case Outcome::no_gap:
+            return "none for this gap; another operating profile would tell whether the model holds there";
+        case Outcome::attributed:
+            return "a record at other levels and speeds, as a test of the size found here";
+        case Outcome::unknown:
+            return found.levels <= 3
+                       ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of them: "
+                         "the first shows what depends on level and direction, the second what depends on frequency"
+                       : "the same record twice more: what repeats is of the drive, what does not came from outside; and one "
+                         "more signal (speed, current, supply) at the same time";
+        case Outcome::ambiguous:
+            break;
     }
-
-private:
-    // A refitted base has these already.
-    [[nodiscard]] bool is_of_the_base(const Effect& effect) const {
-        static const std::vector<std::string> theirs = {"gain_error", "time_scale_error", "dead_time_error",
-                                                        "order_error", "sensor_offset"};
-        return question_.refit && std::find(theirs.begin(), theirs.end(), effect.name) != theirs.end();
+    std::vector<const Candidate*> alternatives;
+    for (const std::size_t i : decision.effects) {
+        alternatives.push_back(&answer.ranking[i].trained);
     }
-
-    static void by_cost(std::vector<Candidate>& candidates) {
-        std::stable_sort(candidates.begin(), candidates.end(),
-                         [](const Candidate& a, const Candidate& b) { return a.cost < b.cost; });
-    }
-
-    Whitener whitener_of(const Candidate& candidate) const {
-        std::vector<std::vector<double>> residuals;
-        for (std::size_t r = 0; r < study_->courses.size(); ++r) {
-            residuals.push_back(residuals_of(*study_, candidate, r));
-        }
-        return fit_whitener(residuals, whitener_order, study_->least_deviation);
-    }
-
-    Ranked validated(const Candidate& fitted, const Whitener& whitener) const {
-        Ranked ranked{split_ ? fitted : carried_over(*validation_, fitted, &whitener), {}, 0.0, 0.0, {}, 0.0};
-        for (std::size_t r = 0; r < validation_->courses.size(); ++r) {
-            ranked.residuals.push_back(residuals_of(*validation_, ranked.candidate, r));
-            const std::vector<double> logs = whitener.log_likelihood(ranked.residuals.back());
-            for (std::size_t i = 0; i < logs.size(); ++i) {
-                if (validation_->counts[r][i] != 0) {
-                    ranked.by_sample.push_back(logs[i]);
-                    ranked.log_likelihood += logs[i];
-                }
-            }
-        }
-        ranked.gap_after = rms(ranked.residuals, validation_->counts) / deviation_of_output(*validation_);
-        ranked.score = score(ranked);
-        return ranked;
-    }
-
-    // What is not fitted there costs nothing; more effects must be worth more.
-    static double score(const Ranked& ranked) {
-        double own = 0.0;
-        for (const auto& list : ranked.candidate.own) {
-            own += static_cast<double>(list.size());
-        }
-        return ranked.log_likelihood - 3.0 * own - 4.0 * static_cast<double>(ranked.candidate.effects.size());
-    }
-
-    [[nodiscard]] Where where_of(const Answer& answer) const {
-        const auto none = std::find_if(answer.ranking.begin(), answer.ranking.end(),
-                                       [](const Ranked& ranked) { return ranked.candidate.effects.empty(); });
-        std::vector<Record> records;
-        std::vector<std::vector<double>> residuals = none->residuals;
-        for (std::size_t r = 0; r < residuals.size(); ++r) {
-            records.push_back(validation_->courses[r].record());
-            for (std::size_t i = 0; i < residuals[r].size(); ++i) {
-                residuals[r][i] = validation_->counts[r][i] != 0 ? residuals[r][i] : 0.0;
-            }
-        }
-        return locate(records, residuals);
-    }
-
-    [[nodiscard]] std::string next_experiment(const Answer& answer) const {
-        if (answer.outcome == Outcome::no_gap) {
-            return "none is needed for this gap; another operating profile would tell whether the model holds there";
-        }
-        if (answer.outcome == Outcome::attributed) {
-            return "repeat the record at another level, to see the effect with the size found here";
-        }
-        std::vector<double> seen;
-        for (const Course& course : study_->courses) {
-            for (const double u : course.record().input) {
-                if (std::none_of(seen.begin(), seen.end(), [&](double other) {
-                        return std::fabs(other - u) < 0.02 * study_->scales.input_max;
-                    })) {
-                    seen.push_back(u);
-                }
-            }
-        }
-        if (seen.size() <= 2) {
-            return "a staircase up and down with at least 5 levels: one level cannot part a gain from a bend of the "
-                   "input";
-        }
-        return "a release from a raised place with the input at 0, and small fast steps about a level: they part "
-               "forces from lags";
-    }
-
-    void decide(Answer& answer) const {
-        const auto none = std::find_if(answer.ranking.begin(), answer.ranking.end(),
-                                       [](const Ranked& ranked) { return ranked.candidate.effects.empty(); });
-        answer.base_gap = none->gap_after;
-        const Ranked& best = answer.ranking.front();
-        answer.noise_floor = best.gap_after;
-        for (const Ranked& ranked : answer.ranking) {
-            answer.noise_floor = std::min(answer.noise_floor, ranked.gap_after);
-        }
-        const auto better_than = [&](const Ranked& a, const Ranked& b) {
-            std::vector<double> difference(a.by_sample.size());
-            for (std::size_t i = 0; i < difference.size(); ++i) {
-                difference[i] = a.by_sample[i] - b.by_sample[i];
-            }
-            return bootstrap_sum(difference, difference.size() / 40);
-        };
-        if (best.candidate.effects.empty()) {
-            answer.outcome = Outcome::no_gap;
-            answer.confidence = 0.9;
-            return;
-        }
-        const Interval over_none = better_than(best, *none);
-        if (over_none.mean < 8.0 || over_none.low < 0.0 || best.gap_after > 0.97 * answer.base_gap) {
-            answer.outcome = Outcome::no_gap;
-            answer.confidence = 0.8;
-            return;
-        }
-        answer.effects.push_back(0);
-        for (std::size_t i = 1; i < answer.ranking.size(); ++i) {
-            const Ranked& other = answer.ranking[i];
-            if (other.candidate.effects.size() != best.candidate.effects.size()) {
-                continue;
-            }
-            const Interval over = better_than(best, other);
-            if (over.mean < 6.0 || over.low < 0.0) {
-                answer.effects.push_back(i);
-            }
-        }
-        answer.outcome = answer.effects.size() == 1 ? Outcome::attributed : Outcome::ambiguous;
-        answer.confidence = answer.effects.size() == 1 ? 0.9 : 0.6;
-    }
-
-    const Question& question_;
-    const std::function<void(const std::string&)>& say_;
-    std::optional<Study> study_;
-    std::optional<Study> validation_;
-    bool split_ = false;
-};
+    return part(study, alternatives, noise).text;
+}
 
 }  // namespace
 
+const Ranked& Answer::none() const {
+    return *std::find_if(ranking.begin(), ranking.end(),
+                         [](const Ranked& ranked) { return ranked.trained.effects.empty(); });
+}
+
+drive::Model Answer::model_of(const Candidate& candidate) const {
+    if (!refit) {
+        return gap::model_of(form);
+    }
+    std::vector<double> values;
+    for (const drive::Parameter& parameter : form.parameters()) {
+        const auto mine = std::find_if(candidate.base.begin(), candidate.base.end(),
+                                       [&](const FreeParameter& free) { return free.name == parameter.name; });
+        values.push_back(mine == candidate.base.end() ? parameter.value : mine->value);
+    }
+    return form.to_model(values);
+}
+
 Answer diagnose(const Question& question, const std::function<void(const std::string&)>& say) {
-    return Diagnosis(question, say).run();
+    const std::vector<Record>& train = question.train;
+    const bool split = question.validate.empty();
+    const std::vector<Record>& validate = split ? train : question.validate;
+    const Audit found = audit(train);
+    const Scales scales = scales_of(model_of(question.form), train, found);
+    Study study = make_study(question, train, split ? part_counts(train, question.split_s, false) : all_count(train),
+                             scales, found);
+    Study validation = make_study(question, validate,
+                                  split ? part_counts(train, question.split_s, true) : all_count(validate), scales, found);
+    check_plausible(study);
+    check_plausible(validation);
+    if (question.refit) {
+        correct_for(study, fit(study, {}, {}, nullptr, {6, 2, 40}));
+        correct_for(validation, carried_over(validation, fit(study, {}, {}, nullptr, {6, 2, 40}), nullptr));
+    }
+    Found all = search({study, validation, split, list_of(question, scales), question.jobs, say});
+    Answer answer{};
+    answer.form = question.form;
+    answer.refit = question.refit;
+    answer.ranking = std::move(all.ranking);
+    answer.whitener = all.whitener;
+    answer.split = split;
+    answer.records = validate;
+    answer.metric = study.horizon > 0 ? fmt::format("prediction {:.4g} s ahead",
+                                                    static_cast<double>(study.horizon) * scales.interval_s)
+                                      : "simulation";
+    say("deciding");
+    answer.decision = decide(answer.ranking, study, validation, split);
+    for (const std::size_t i : answer.decision.effects) {
+        add_deviations(study, answer.ranking[i].trained, answer.whitener);
+        add_deviations(validation, answer.ranking[i].candidate, answer.whitener);
+    }
+    answer.base = answer.model_of(answer.none().trained);
+    answer.where = where_of(validation, answer.none(), validate);
+    say("looking for the next experiment");
+    answer.next_experiment = next_experiment(answer, study, found);
+    answer.notes = found.notes;
+    answer.notes.insert(answer.notes.end(), answer.decision.notes.begin(), answer.decision.notes.end());
+    return answer;
 }
 
 }  // namespace gap

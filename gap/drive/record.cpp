@@ -52,7 +52,7 @@ Record to_record(drive::Log log) {
     return record;
 }
 
-std::vector<double> held_on(const Grid& grid, const Record& record) {
+std::vector<double> held_on(const Grid& grid, std::span<const double> time_s, std::span<const double> levels) {
     std::vector<double> held(grid.count, 0.0);
     std::size_t i = 0;
     for (std::size_t k = 0; k < grid.count; ++k) {
@@ -61,11 +61,11 @@ std::vector<double> held_on(const Grid& grid, const Record& record) {
         double sum = 0.0;
         double at = from;
         while (at < to - 1e-9 * grid.step_s) {
-            while (i + 1 < record.size() && record.time_s[i + 1] <= at + 1e-9 * grid.step_s) {
+            while (i + 1 < time_s.size() && time_s[i + 1] <= at + 1e-9 * grid.step_s) {
                 ++i;
             }
-            const double until = i + 1 < record.size() ? std::min(to, record.time_s[i + 1]) : to;
-            sum += (until - at) * record.input[i];
+            const double until = i + 1 < time_s.size() ? std::min(to, time_s[i + 1]) : to;
+            sum += (until - at) * levels[i];
             at = until;
         }
         held[k] = sum / grid.step_s;

@@ -33,8 +33,9 @@ struct Record {
 /// \throws glsum::Failure (bad input): fewer than 32 samples, an input that never moves, an output that never moves.
 [[nodiscard]] Record to_record(drive::Log log);
 
-/// The mean of the held input over each interval of the grid.
-[[nodiscard]] std::vector<double> held_on(const Grid& grid, const Record& record);
+/// The mean over each interval of the grid of levels that are held from their stamp to the next.
+[[nodiscard]] std::vector<double> held_on(const Grid& grid, std::span<const double> time_s,
+                                          std::span<const double> levels);
 
 /// Values at nodes, read at times by straight lines.
 [[nodiscard]] std::vector<double> read_at(const Grid& grid, std::span<const double> nodes,

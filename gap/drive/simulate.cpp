@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive/simulation.hpp"
+
 namespace gap {
 namespace {
 
 // The held input a dead time later: intervals that straddle are mixed.
-std::vector<double> delayed(std::span<const double> held, double intervals) {
-    std::vector<double> later(held.size(), 0.0);
-    const auto whole = static_cast<std::size_t>(intervals);
+std::vector<double> delayed(std::span<const double> held, double intervals, double before) {
+    std::vector<double> later(held.size(), before);
+    const auto whole = static_cast<std::size_t>(std::min(intervals, static_cast<double>(held.size())));
     const double part = intervals - static_cast<double>(whole);
     for (std::size_t k = whole; k < held.size(); ++k) {
-        later[k] = (1.0 - part) * held[k - whole] + (k > whole ? part * held[k - whole - 1] : 0.0);
+        later[k] = (1.0 - part) * held[k - whole] + part * (k > whole ? held[k - whole - 1] : before);
     }
     return later;
 }
@@ -46,10 +48,10 @@ Side side_of(const std::vector<drive::Term>& terms, const Exponentials& exponent
 // node, so that a jump at a node counts half there.
 std::vector<double> forcing_of(const Scenario& scenario, const Course& course, std::span<const double> held) {
     const Grid& grid = course.grid();
-    const std::vector<double> late = delayed(held, scenario.model.delay_s / grid.step_s);
+    const std::vector<double> late = delayed(held, scenario.model.delay_s / grid.step_s, scenario.input_before);
     std::vector<double> nodes(grid.count);
     for (std::size_t k = 0; k < grid.count; ++k) {
-        nodes[k] = 0.5 * (late[k] + (k > 0 ? late[k - 1] : 0.0));
+        nodes[k] = 0.5 * (late[k] + (k > 0 ? late[k - 1] : scenario.input_before));
     }
     const Side above = side_of(scenario.model.numerator, course.exponentials(), grid.step_s);
     std::vector<double> forcing(grid.count);
@@ -63,13 +65,14 @@ std::vector<double> forcing_of(const Scenario& scenario, const Course& course, s
             past.push(increment);
             before = nodes[k];
         }
-        forcing[k] = scenario.model.gain * value;
+        forcing[k] = scenario.model.gain * value + scenario.forces.bias;
     }
     for (const Push& push : scenario.forces.pushes) {
         for (std::size_t k = 0; k < grid.count; ++k) {
             // The share of [t - h/2, t + h/2] that it acts.
-            const double from = std::max(push.from_s, grid.at(k) - 0.5 * grid.step_s);
-            const double to = std::min(push.to_s, grid.at(k) + 0.5 * grid.step_s);
+            const double at_s = static_cast<double>(k) * grid.step_s;
+            const double from = std::max(push.from_s, at_s - 0.5 * grid.step_s);
+            const double to = std::min(push.to_s, at_s + 0.5 * grid.step_s);
             forcing[k] += push.size * std::max(0.0, to - from) / grid.step_s;
         }
     }
@@ -80,8 +83,13 @@ std::vector<double> forcing_of(const Scenario& scenario, const Course& course, s
 //   drive - mass e - a_0 restoring(y + e) - drag e |e| / h^2 - friction sign(e) = 0.
 class Balance {
 public:
-    Balance(const Forces& forces, double mass, double constant, double step_s)
-        : forces_(forces), mass_(mass), constant_(constant), drag_(forces.drag / (step_s * step_s)) {}
+    Balance(const Scenario& scenario, double mass, double constant, double step_s)
+        : forces_(scenario.forces),
+          operating_(scenario.operating_output),
+          mass_(mass),
+          constant_(constant),
+          drag_(scenario.forces.drag / (step_s * step_s)),
+          linear_(forces_.angle_per_unit == 0.0 && !forces_.outflow && drag_ == 0.0) {}
 
     [[nodiscard]] double increment(double drive, double y) const {
         const double net = drive - constant_ * restoring(y);
@@ -96,7 +104,7 @@ public:
             }
         }
         double e = left / (mass_ + constant_ * slope(y));
-        if (forces_.angle_per_unit == 0.0 && drag_ == 0.0) {
+        if (linear_) {
             return e;
         }
         for (int i = 0; i < 8; ++i) {  // Newton: both are smooth, and e is small
@@ -113,28 +121,109 @@ public:
 
 private:
     [[nodiscard]] double restoring(double y) const {
+        if (forces_.outflow) {
+            return bent(y + operating_) - bent(operating_);
+        }
         const double kappa = forces_.angle_per_unit;
         return kappa == 0.0 ? y : std::sin(kappa * y) / kappa;
     }
     [[nodiscard]] double slope(double y) const {
+        if (forces_.outflow) {
+            const double c = forces_.outflow->curvature;
+            return (1.0 - c) + 2.0 * c * std::fabs(y + operating_) / forces_.outflow->reference;
+        }
         const double kappa = forces_.angle_per_unit;
         return kappa == 0.0 ? 1.0 : std::cos(kappa * y);
     }
+    [[nodiscard]] double bent(double level) const {
+        const double c = forces_.outflow->curvature;
+        return level * ((1.0 - c) + c * std::fabs(level) / forces_.outflow->reference);
+    }
 
     const Forces& forces_;
+    double operating_;
     double mass_;
     double constant_;
     double drag_;
+    bool linear_;
 };
+
+// What the simulation that ran shows beyond the model: both read at the stamps.
+void add_deployed_error(std::span<double> reading, const Scenario& scenario, const Course& course) {
+    const Record& record = course.record();
+    const Deployed& deployed = *scenario.deployed;
+    const double length_s = record.time_s.back() - record.time_s.front();
+    Grid steps{record.time_s.front(), deployed.step_s,
+               static_cast<std::size_t>(std::floor(length_s / deployed.step_s + 1e-6)) + 2};
+    std::vector<double> input(steps.count);
+    std::size_t sample = 0;
+    for (std::size_t k = 0; k < steps.count; ++k) {
+        while (sample + 1 < record.size() && record.time_s[sample + 1] <= steps.at(k) + 1e-6 * steps.step_s) {
+            ++sample;
+        }
+        input[k] = record.input[sample];
+    }
+    drive::Scheme scheme;
+    scheme.step_s = deployed.step_s;
+    scheme.kernel = deployed.kernel;
+    scheme.increments = deployed.increments;
+    std::vector<double> output;
+    if (deployed.taps > 0.0) {
+        const double below = std::max(2.0, std::floor(deployed.taps));
+        scheme.taps = static_cast<std::size_t>(below);
+        output = drive::simulate(scenario.model, scheme, input).output;
+        scheme.taps = static_cast<std::size_t>(below) + 1;
+        const std::vector<double> longer = drive::simulate(scenario.model, scheme, input).output;
+        for (std::size_t k = 0; k < output.size(); ++k) {
+            output[k] += (deployed.taps - below) * (longer[k] - output[k]);
+        }
+    } else {
+        output = drive::simulate(scenario.model, scheme, input).output;
+    }
+    Scenario plain;
+    plain.model = scenario.model;
+    const std::vector<double> ideal = simulate(plain, course);
+    const std::vector<double> ran = read_at(steps, output, record.time_s);
+    for (std::size_t i = 0; i < reading.size(); ++i) {
+        reading[i] += ran[i] - ideal[i];
+    }
+}
+
+double rms(std::span<const double> values) {
+    double sum = 0.0;
+    for (const double value : values) {
+        sum += value * value;
+    }
+    return std::sqrt(sum / static_cast<double>(values.size()));
+}
 
 }  // namespace
 
 Course::Course(const Record& record, unsigned per_interval)
-    : record_(&record), grid_(record.grid(per_interval)), held_(held_on(grid_, record)), exponentials_(grid_.count) {}
+    : record_(&record),
+      grid_(record.grid(per_interval)),
+      held_(held_on(grid_, record.time_s, record.input)),
+      exponentials_(grid_.count),
+      correction_(record.size(), 0.0) {}
+
+std::vector<double> Course::nodes_of(const Scenario& scenario) const {
+    std::vector<double> input;
+    return move(scenario, *this, input);
+}
+
+void Course::correct(std::vector<double> correction) { correction_ = std::move(correction); }
 
 std::vector<double> move(const Scenario& scenario, const Course& course, std::vector<double>& effective_input) {
     const Grid& grid = course.grid();
-    effective_input = course.held();
+    if (scenario.levels.empty()) {
+        effective_input = course.held();
+    } else {
+        std::vector<double> levels = course.record().input;
+        for (const LevelStage& stage : scenario.levels) {
+            stage(levels);
+        }
+        effective_input = held_on(grid, course.record().time_s, levels);
+    }
     for (const InputStage& stage : scenario.input) {
         stage(effective_input, grid);
     }
@@ -142,14 +231,14 @@ std::vector<double> move(const Scenario& scenario, const Course& course, std::ve
     const Side below = side_of(scenario.model.denominator, course.exponentials(), grid.step_s);
     Past past(course.exponentials(), below.table);
     past.fill_near(scenario.initial_velocity * grid.step_s);
-    const Balance balance(scenario.forces, past.newest(), below.constant, grid.step_s);
+    const Balance balance(scenario, past.newest(), below.constant, grid.step_s);
     std::vector<double> y(grid.count);
     y[0] = scenario.initial_output;
     for (std::size_t k = 1; k < grid.count; ++k) {
         double e = balance.increment(forcing[k] - past.known(), y[k - 1]);
         double remembered = e;
-        if (scenario.forces.stop && y[k - 1] + e > scenario.forces.stop->limit) {
-            e = scenario.forces.stop->limit - y[k - 1];
+        if (scenario.forces.stop && y[k - 1] + e > scenario.forces.stop->limit - scenario.operating_output) {
+            e = scenario.forces.stop->limit - scenario.operating_output - y[k - 1];
             remembered = -scenario.forces.stop->restitution * remembered;
         }
         past.push(remembered);
@@ -165,13 +254,21 @@ std::vector<double> move(const Scenario& scenario, const Course& course, std::ve
 std::vector<double> simulate(const Scenario& scenario, const Course& course) {
     std::vector<double> input;
     std::vector<double> z = move(scenario, course, input);
-    const std::vector<double> y = z;
-    for (const OutputStage& stage : scenario.output) {
-        stage(z, {course.grid(), input, y});
+    for (double& value : z) {
+        value += scenario.operating_output;
+    }
+    if (!scenario.output.empty()) {
+        const std::vector<double> y = z;
+        for (const OutputStage& stage : scenario.output) {
+            stage(z, {course.grid(), input, y});
+        }
     }
     std::vector<double> reading = read_at(course.grid(), z, course.record().time_s);
-    for (double& value : reading) {
-        value += scenario.offset;
+    for (std::size_t i = 0; i < reading.size(); ++i) {
+        reading[i] += course.correction()[i];
+    }
+    if (scenario.deployed) {
+        add_deployed_error(reading, scenario, course);
     }
     for (const LoggerStage& stage : scenario.logger) {
         stage(reading, course.record());
@@ -180,19 +277,24 @@ std::vector<double> simulate(const Scenario& scenario, const Course& course) {
 }
 
 Course make_course(const Record& record, const Scenario& scenario, double allowed) {
-    for (unsigned per_interval = 1; per_interval < 8; per_interval *= 2) {
-        const std::vector<double> coarse = simulate(scenario, Course(record, per_interval));
+    constexpr unsigned finest = 8;
+    std::vector<double> coarse = simulate(scenario, Course(record, 1));
+    for (unsigned per_interval = 1;; per_interval *= 2) {
         const std::vector<double> fine = simulate(scenario, Course(record, 2 * per_interval));
-        double sum = 0.0;
-        for (std::size_t i = 0; i < fine.size(); ++i) {
-            sum += (fine[i] - coarse[i]) * (fine[i] - coarse[i]);
+        // Second order in the step: the limit lies a third of the last difference beyond.
+        std::vector<double> off(record.size());
+        for (std::size_t i = 0; i < off.size(); ++i) {
+            off[i] = (fine[i] - coarse[i]) * 4.0 / 3.0;
         }
-        // Second order: what is left at the coarse step is 4/3 of the difference.
-        if (std::sqrt(sum / static_cast<double>(fine.size())) * 4.0 / 3.0 <= allowed) {
-            return Course(record, per_interval);
+        if (per_interval == finest || !(rms(off) > allowed)) {
+            Course course(record, per_interval);
+            if (std::isfinite(rms(off))) {
+                course.correct(std::move(off));
+            }
+            return course;
         }
+        coarse = fine;
     }
-    return Course(record, 8);
 }
 
 }  // namespace gap

@@ -33,7 +33,7 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& direction_dependent_friction() {
-    static const Effect effect{"direction_dependent_friction", Kind::lasting, parameters, add};
+    static const Effect effect{"direction_dependent_friction", Kind::lasting, parameters, add, {"coulomb_friction"}};
     return effect;
 }
 

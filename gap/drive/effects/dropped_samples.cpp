@@ -1,4 +1,5 @@
-// The reading is held for stretches: where the record itself repeats one value though the model moves.
+// The reading is held for stretches: where the record itself repeats one value though no quantum makes it. Its rate is the
+// share of repeats that the audit counted.
 #include <algorithm>
 #include <cmath>
 
@@ -10,14 +11,14 @@ const Effect& dropped_samples();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
-    return {{"rate", "1", 0.0, 1.0, 0.0, {1.0}}};
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    if (!(scales.held_share > 0.0)) {
+        return {};
+    }
+    return {{"rate", "1", scales.held_share, scales.held_share, 0.0, {scales.held_share}, true}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    if (!(values[0] > 0.0)) {
-        return;
-    }
+void add(Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
     scenario.logger.emplace_back([](std::span<double> reading, const Record& record) {
         for (std::size_t i = 1; i < reading.size(); ++i) {
             if (record.output[i] == record.output[i - 1]) {
@@ -30,7 +31,7 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& dropped_samples() {
-    static const Effect effect{"dropped_samples", Kind::event, parameters, add};
+    static const Effect effect{"dropped_samples", Kind::lasting, parameters, add};
     return effect;
 }
 

@@ -1,4 +1,4 @@
-// The reading is a multiple of a step.
+// The reading is a multiple of a step, which the audit of the readings finds.
 #include <algorithm>
 #include <cmath>
 
@@ -10,15 +10,15 @@ const Effect& encoder_quantisation();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
-    return {{"step", "y", 0.0, 0.3 * scales.output_span, 0.0, {0.02 * scales.output_span}}};
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    if (!(scales.quantum > 0.0)) {
+        return {};
+    }
+    return {{"step", "y", scales.quantum, scales.quantum, 0.0, {scales.quantum}, true}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
+void add(Scenario& scenario, std::span<const double> values) {
     scenario.logger.emplace_back([step = values[0]](std::span<double> reading, const Record&) {
-        if (!(step > 0.0)) {
-            return;
-        }
         for (double& value : reading) {
             value = step * std::nearbyint(value / step);
         }

@@ -15,8 +15,8 @@ std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
 }
 
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    scenario.input.emplace_back([g = values[0]](std::span<double> held, const Grid&) {
-        for (double& u : held) {
+    scenario.levels.emplace_back([g = values[0]](std::span<double> levels) {
+        for (double& u : levels) {
             u *= g;
         }
     });

@@ -12,12 +12,12 @@ namespace {
 
 std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
     return {{"curvature", "1", -0.9, 1.0, 0.0, {-0.3, 0.3, 0.8}},
-            {"reference", "u", scales.input_max, scales.input_max, scales.input_max, {scales.input_max}}};
+            {"reference", "u", scales.input_max, scales.input_max, scales.input_max, {scales.input_max}, true}};
 }
 
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    scenario.input.emplace_back([c = values[0], reference = values[1]](std::span<double> held, const Grid&) {
-        for (double& u : held) {
+    scenario.levels.emplace_back([c = values[0], reference = values[1]](std::span<double> levels) {
+        for (double& u : levels) {
             u *= (1.0 - c) + c * std::fabs(u) / reference;
         }
     });

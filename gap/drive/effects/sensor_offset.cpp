@@ -15,7 +15,11 @@ std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
 }
 
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    scenario.offset += values[0];
+    scenario.output.emplace_back([offset = values[0]](std::span<double> z, const Motion&) {
+        for (double& value : z) {
+            value += offset;
+        }
+    });
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The reading ends at a limit.
+// The reading ends at a limit, and at its opposite.
 #include <algorithm>
 #include <cmath>
 
@@ -22,7 +22,7 @@ std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
     scenario.output.emplace_back([limit = values[0]](std::span<double> z, const Motion&) {
         for (double& value : z) {
-            value = std::min(value, limit);
+            value = limit > 0.0 ? std::clamp(value, -limit, limit) : std::min(value, limit);
         }
     });
 }

@@ -1,4 +1,5 @@
-// w = 0 until u passes the threshold for the first time, then u: an actuator that must start.
+// w = 0 until u passes the threshold, then u: an actuator that must start. What it does when u falls below again is a
+// variant: it runs on until u is 0, or it stops.
 #include <algorithm>
 #include <cmath>
 
@@ -10,20 +11,24 @@ const Effect& start_up_threshold();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
-    return {{"threshold",
-             "u",
-             0.0,
-             0.95 * scales.input_max,
-             0.0,
-             {0.15 * scales.input_max, 0.35 * scales.input_max, 0.6 * scales.input_max}}};
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    std::vector<double> starts;
+    std::vector<double> stops;
+    for (const double stop : {0.0, 1.0}) {
+        for (const double share : {0.15, 0.35, 0.6}) {
+            starts.push_back(share * scales.input_max);
+            stops.push_back(stop);
+        }
+    }
+    return {{"threshold", "u", 0.0, 0.95 * scales.input_max, 0.0, starts},
+            {"stops_below", "1", 0.0, 1.0, 0.0, stops, true}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    scenario.input.emplace_back([threshold = values[0]](std::span<double> held, const Grid&) {
+void add(Scenario& scenario, std::span<const double> values) {
+    scenario.levels.emplace_back([threshold = values[0], stops_below = values[1] > 0.5](std::span<double> levels) {
         bool started = false;
-        for (double& u : held) {
-            started = started || std::fabs(u) > threshold;
+        for (double& u : levels) {
+            started = std::fabs(u) > threshold || (started && !stops_below && u != 0.0);
             u = started ? u : 0.0;
         }
     });
