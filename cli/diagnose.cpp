@@ -60,13 +60,14 @@ void check_split(const gap::Question& question) {
         return;
     }
     for (const gap::Record& record : question.train) {
-        const auto before = std::count_if(record.time_s.begin(), record.time_s.end(),
-                                          [&](double t) { return t < *question.split_s; });
+        const auto before =
+            std::count_if(record.time_s.begin(), record.time_s.end(), [&](double t) { return t < *question.split_s; });
         if (before < 32 || static_cast<std::size_t>(before) + 32 > record.size()) {
-            throw glsum::Failure(glsum::Exit::bad_input,
-                                 fmt::format("--split {}: expected 32 samples or more on both sides, found {} of {} before "
-                                             "it in {}",
-                                             *question.split_s, before, record.size(), record.name));
+            throw glsum::Failure(
+                glsum::Exit::bad_input,
+                fmt::format("--split {}: expected 32 samples or more on both sides, found {} of {} before "
+                            "it in {}",
+                            *question.split_s, before, record.size(), record.name));
         }
     }
 }
@@ -89,8 +90,7 @@ void run(const Options& options) {
                                  options.jobs};
     check_split(question);
     const bool same = repeats_training(question);
-    gap::Answer answer =
-        gap::diagnose(question, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+    gap::Answer answer = gap::diagnose(question, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
     if (same) {
         answer.notes.emplace_back("a validation log is a training log itself: what fits it proves nothing");
         answer.decision.confidence = std::min(answer.decision.confidence, 0.5);

@@ -117,8 +117,9 @@ bool simulate_effects(const drive::Model& model, drive::Log record, const Option
         put(drive::to_csv(record), options.out);
     }
     if (!options.plot.empty()) {
-        bench::draw(drive::picture_of_curves({{"with effects", record.time_s, record.output}}, drive::to_text(model), "output"),
-                    options.plot);
+        bench::draw(
+            drive::picture_of_curves({{"with effects", record.time_s, record.output}}, drive::to_text(model), "output"),
+            options.plot);
     }
     return true;
 }

@@ -171,8 +171,8 @@ Flexible explain(const std::vector<Remainder>& judge, const std::vector<Remainde
                 ++to;
             }
             const std::size_t fold = block_of(from, size) % folds;
-            Eigen::MatrixXd part = features[r].middleRows(static_cast<Eigen::Index>(from),
-                                                          static_cast<Eigen::Index>(to - from));
+            Eigen::MatrixXd part =
+                features[r].middleRows(static_cast<Eigen::Index>(from), static_cast<Eigen::Index>(to - from));
             Eigen::VectorXd target = Eigen::Map<const Eigen::VectorXd>(all[r]->residuals.data() + from,
                                                                        static_cast<Eigen::Index>(to - from));
             for (std::size_t i = from; i < to; ++i) {

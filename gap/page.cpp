@@ -73,14 +73,17 @@ public:
         high = high > low ? high : low + 1.0;
         const double from_s = record_.time_s.front();
         const double to_s = record_.time_s.back();
-        const auto x = [&](double t) { return left_margin + (width - left_margin - 10.0) * (t - from_s) / (to_s - from_s); };
+        const auto x = [&](double t) {
+            return left_margin + (width - left_margin - 10.0) * (t - from_s) / (to_s - from_s);
+        };
         const auto y = [&](double v) { return 8.0 + (height_ - bottom_margin - 8.0) * (high - v) / (high - low); };
-        std::string svg = fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height_,
-                                      escaped(label));
+        std::string svg =
+            fmt::format("<svg viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", width, height_, escaped(label));
         for (const double tick : ticks(low, high)) {
-            svg += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
-                               "text-anchor=\"end\">{:.4g}</text>\n",
-                               left_margin, y(tick), width - 10.0, left_margin - 6.0, y(tick) + 4.0, tick);
+            svg += fmt::format(
+                "<path class=\"grid\" d=\"M{:.1f} {:.1f}H{:.1f}\"/><text x=\"{:.1f}\" y=\"{:.1f}\" "
+                "text-anchor=\"end\">{:.4g}</text>\n",
+                left_margin, y(tick), width - 10.0, left_margin - 6.0, y(tick) + 4.0, tick);
         }
         for (const double tick : ticks(from_s, to_s)) {
             svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.4g}{}</text>\n", x(tick),
@@ -121,8 +124,9 @@ std::string bar(double share, const char* css) {
 std::string table_of(const std::vector<Share>& shares, const std::string& title, const std::string& unit) {
     std::string html = fmt::format("<section><h2>{}</h2><table>", escaped(title));
     for (const Share& share : shares) {
-        html += fmt::format("<tr><td>{:.4g} to {:.4g} {}</td><td>{}</td><td class=\"n\">{:.1f} %</td><td>{}</td></tr>\n",
-                            share.from, share.to, unit, bar(share.share, "bar"), 100.0 * share.share, escaped(share.what));
+        html +=
+            fmt::format("<tr><td>{:.4g} to {:.4g} {}</td><td>{}</td><td class=\"n\">{:.1f} %</td><td>{}</td></tr>\n",
+                        share.from, share.to, unit, bar(share.share, "bar"), 100.0 * share.share, escaped(share.what));
     }
     return html + "</table></section>\n";
 }
@@ -154,13 +158,14 @@ std::string to_html(const Answer& answer) {
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width\"><title>glsum: {0}{1}</title><style>{2}</style></head><body>\n<h1>{0}{1}</h1>\n"
         "<p>confidence {3:.2f}; gap ({4}) {5:.4f} before, {6:.4f} after, {7:.4f} at best</p>\n",
-        name_of(decision.outcome), escaped(named), style, decision.confidence, escaped(answer.metric), decision.base_gap,
-        chosen.gap_after, decision.noise_floor);
+        name_of(decision.outcome), escaped(named), style, decision.confidence, escaped(answer.metric),
+        decision.base_gap, chosen.gap_after, decision.noise_floor);
     if (answer.split) {
         html += "<p class=\"dim\">No validation log: parts of the training log were kept aside for it.</p>\n";
     }
     html += fmt::format(
-        "<p class=\"key\"><span style=\"color:var(--measured)\"><i></i>measured</span><span style=\"color:var(--base)\"><i "
+        "<p class=\"key\"><span style=\"color:var(--measured)\"><i></i>measured</span><span "
+        "style=\"color:var(--base)\"><i "
         "style=\"border-top-style:dashed\"></i>base</span>{}</p>\n",
         &chosen == &none ? ""
                          : fmt::format("<span style=\"color:var(--after)\"><i></i>base + {}</span>",
@@ -176,26 +181,31 @@ std::string to_html(const Answer& answer) {
         html += Plot(record, 330.0).draw(lines, "output, " + record.name);
         html += Plot(record, 170.0).draw(gaps, "measured - simulated");
     }
-    html += "<h2>Candidates</h2><table><tr><th>effect</th><th></th><th class=\"n\">gap left</th><th class=\"n\">score over "
-            "none</th></tr>\n";
+    html +=
+        "<h2>Candidates</h2><table><tr><th>effect</th><th></th><th class=\"n\">gap left</th><th class=\"n\">score over "
+        "none</th></tr>\n";
     std::size_t rows = 0;
     for (const Ranked& ranked : answer.ranking) {
         if (rows++ < 14 || ranked.trained.effects.empty()) {
-            html += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"n\">{:.4f}</td><td class=\"n\">{:.1f}</td></tr>\n",
-                                escaped(ranked.trained.name()),
-                                bar(decision.base_gap > 0.0 ? ranked.gap_after / decision.base_gap : 0.0,
-                                    &ranked == &chosen ? "bar2" : "bar"),
-                                ranked.gap_after, ranked.score() - none.score());
+            html +=
+                fmt::format("<tr><td>{}</td><td>{}</td><td class=\"n\">{:.4f}</td><td class=\"n\">{:.1f}</td></tr>\n",
+                            escaped(ranked.trained.name()),
+                            bar(decision.base_gap > 0.0 ? ranked.gap_after / decision.base_gap : 0.0,
+                                &ranked == &chosen ? "bar2" : "bar"),
+                            ranked.gap_after, ranked.score() - none.score());
         }
     }
-    html += "</table>\n<div class=\"columns\">\n" + table_of(answer.where.time, "Where the base's squared gap lies: time", "s") +
-            table_of(answer.where.frequency, "frequency", "Hz") + table_of(answer.where.input_level, "input level", "") +
+    html += "</table>\n<div class=\"columns\">\n" +
+            table_of(answer.where.time, "Where the base's squared gap lies: time", "s") +
+            table_of(answer.where.frequency, "frequency", "Hz") +
+            table_of(answer.where.input_level, "input level", "") +
             table_of(answer.where.output_level, "output level", "") +
-            fmt::format("<section><h2>direction</h2><table><tr><td>rising</td><td>{}</td><td class=\"n\">{:.1f} %</td></tr>"
-                        "<tr><td>falling</td><td>{}</td><td class=\"n\">{:.1f} %</td></tr><tr><td>still</td><td>{}</td><td "
-                        "class=\"n\">{:.1f} %</td></tr></table></section></div>\n",
-                        bar(answer.where.rising, "bar"), 100.0 * answer.where.rising, bar(answer.where.falling, "bar"),
-                        100.0 * answer.where.falling, bar(answer.where.still, "bar"), 100.0 * answer.where.still);
+            fmt::format(
+                "<section><h2>direction</h2><table><tr><td>rising</td><td>{}</td><td class=\"n\">{:.1f} %</td></tr>"
+                "<tr><td>falling</td><td>{}</td><td class=\"n\">{:.1f} %</td></tr><tr><td>still</td><td>{}</td><td "
+                "class=\"n\">{:.1f} %</td></tr></table></section></div>\n",
+                bar(answer.where.rising, "bar"), 100.0 * answer.where.rising, bar(answer.where.falling, "bar"),
+                100.0 * answer.where.falling, bar(answer.where.still, "bar"), 100.0 * answer.where.still);
     for (const std::string& note : answer.notes) {
         html += fmt::format("<p class=\"dim\">Note: {}.</p>\n", escaped(note));
     }

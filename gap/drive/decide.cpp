@@ -77,7 +77,10 @@ public:
         std::size_t chosen = none;
         double least = decision_.base_gap;
         for (const Ranked& ranked : ranking_) {
-            least = std::min(least, ranked.gap_after);
+            // Of those that are as likely as any: others may follow noise.
+            if (ranked.score() > ranking_.front().score() - clear_advantage) {
+                least = std::min(least, ranked.gap_after);
+            }
         }
         for (std::size_t size = 1; size <= 3; ++size) {
             if (const auto wider = best_of(size); wider && is_better(*wider, chosen, least)) {
@@ -93,10 +96,10 @@ public:
         const double closable = square(decision_.base_gap) - square(decision_.noise_floor);
         const double unexplained = closable > 0.0 ? (square(after) - square(left)) / closable : 0.0;
         if (foreseeable) {
-            decision_.notes.push_back(
-                fmt::format("of the squared gap that is left, {:.0f} % can be foreseen from input and output by a model "
-                            "without physics",
-                            100.0 * flexible.explained));
+            decision_.notes.push_back(fmt::format(
+                "of the squared gap that is left, {:.0f} % can be foreseen from input and output by a model "
+                "without physics",
+                100.0 * flexible.explained));
         }
         if (foreseeable && unexplained > unexplained_share && after - left > 0.02 * decision_.base_gap) {
             decision_.outcome = Outcome::unknown;
@@ -129,9 +132,8 @@ private:
     [[nodiscard]] bool is_better(std::size_t wider, std::size_t chosen, double least) const {
         const double before = ranking_[chosen].gap_after;
         const double after = ranking_[wider].gap_after;
-        const double material = ranking_[chosen].trained.effects.empty()
-                                    ? 0.03 * before
-                                    : material_share * (decision_.base_gap - least);
+        const double material =
+            ranking_[chosen].trained.effects.empty() ? 0.03 * before : material_share * (decision_.base_gap - least);
         return is_clear(advantage(ranking_[wider], ranking_[chosen])) && before - after > material;
     }
 
@@ -158,13 +160,14 @@ private:
         }
         const bool alone = decision_.effects.size() == 1;
         decision_.outcome = alone ? Outcome::attributed : Outcome::ambiguous;
-        decision_.confidence =
-            alone ? confidence_by(nearest) : 0.9 / static_cast<double>(std::min<std::size_t>(decision_.effects.size(), 6));
+        decision_.confidence = alone ? confidence_by(nearest)
+                                     : 0.9 / static_cast<double>(std::min<std::size_t>(decision_.effects.size(), 6));
     }
 
     void doubt_what_does_not_belong(double after) {
         if (decision_.base_gap > 0.6 && after > 0.5) {
-            decision_.notes.emplace_back("no candidate explains even half of the output: do model and log belong together?");
+            decision_.notes.emplace_back(
+                "no candidate explains even half of the output: do model and log belong together?");
             decision_.outcome = Outcome::unknown;
             decision_.effects.clear();
             decision_.confidence = std::min(decision_.confidence, 0.3);
@@ -174,8 +177,9 @@ private:
             return std::any_of(input.begin(), input.end(), [&](double u) { return u != input.front(); });
         });
         if (!moves) {
-            decision_.notes.emplace_back("the input never moves within the training records: all that is known is one step at "
-                                         "their start");
+            decision_.notes.emplace_back(
+                "the input never moves within the training records: all that is known is one step at "
+                "their start");
             decision_.confidence = std::min(decision_.confidence, 0.5);
         }
     }

@@ -14,8 +14,9 @@ namespace {
 
 // A refitted base has these already.
 bool is_of_the_base(const Effect& effect) {
-    static const std::vector<std::string> theirs = {"gain_error",   "time_scale_error", "dead_time_error", "order_error",
-                                                    "sensor_offset", "finite_memory",    "single_precision", "fixed_point"};
+    static const std::vector<std::string> theirs = {"gain_error",       "time_scale_error", "dead_time_error",
+                                                    "order_error",      "sensor_offset",    "finite_memory",
+                                                    "single_precision", "fixed_point"};
     return std::find(theirs.begin(), theirs.end(), effect.name) != theirs.end();
 }
 
@@ -31,8 +32,8 @@ std::vector<const Effect*> list_of(const Question& question, const Scales& scale
     return list;
 }
 
-Study make_study(const Question& question, const std::vector<Record>& records,
-                 std::vector<std::vector<char>> counts, const Scales& scales, const Audit& found) {
+Study make_study(const Question& question, const std::vector<Record>& records, std::vector<std::vector<char>> counts,
+                 const Scales& scales, const Audit& found) {
     const double least = std::max(0.29 * found.quantum, 2e-4 * scales.output_span);
     Study study{{question.form, question.refit}, scales, {}, std::move(counts), least, 0};
     Scenario plain;
@@ -41,8 +42,7 @@ Study make_study(const Question& question, const std::vector<Record>& records,
         study.courses.push_back(make_course(record, plain, 0.1 * std::max(found.noise, least)));
     }
     if (question.metric == Metric::prediction) {
-        study.horizon =
-            std::max<std::size_t>(1, static_cast<std::size_t>(0.02 * scales.length_s / scales.interval_s));
+        study.horizon = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 * scales.length_s / scales.interval_s));
     }
     return study;
 }
@@ -51,8 +51,8 @@ Study make_study(const Question& question, const std::vector<Record>& records,
 void correct_for(Study& study, const Candidate& fitted) {
     for (std::size_t r = 0; r < study.courses.size(); ++r) {
         const Record& record = study.courses[r].record();
-        const auto per_interval = static_cast<unsigned>(
-            std::max(1.0, std::round(record.usual_interval_s / study.courses[r].grid().step_s)));
+        const auto per_interval =
+            static_cast<unsigned>(std::max(1.0, std::round(record.usual_interval_s / study.courses[r].grid().step_s)));
         const Scenario scenario = scenario_of(study, fitted, r);
         const std::vector<double> coarse = simulate(scenario, Course(record, per_interval));
         const std::vector<double> fine = simulate(scenario, Course(record, 2 * per_interval));
@@ -86,9 +86,11 @@ std::string next_experiment(const Answer& answer, const Study& study, const Audi
             return "a record at other levels and speeds, as a test of the size found here";
         case Outcome::unknown:
             return found.levels <= 3
-                       ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of them: "
+                       ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of "
+                         "them: "
                          "the first shows what depends on level and direction, the second what depends on frequency"
-                       : "the same record twice more: what repeats is of the drive, what does not came from outside; and one "
+                       : "the same record twice more: what repeats is of the drive, what does not came from outside; "
+                         "and one "
                          "more signal (speed, current, supply) at the same time";
         case Outcome::ambiguous:
             break;
@@ -109,15 +111,15 @@ const Ranked& Answer::none() const {
 
 drive::Model Answer::model_of(const Candidate& candidate) const {
     if (!refit) {
-        return gap::model_of(form);
+        return gap::model_of(*form);
     }
     std::vector<double> values;
-    for (const drive::Parameter& parameter : form.parameters()) {
+    for (const drive::Parameter& parameter : form->parameters()) {
         const auto mine = std::find_if(candidate.base.begin(), candidate.base.end(),
                                        [&](const FreeParameter& free) { return free.name == parameter.name; });
         values.push_back(mine == candidate.base.end() ? parameter.value : mine->value);
     }
-    return form.to_model(values);
+    return form->to_model(values);
 }
 
 Answer diagnose(const Question& question, const std::function<void(const std::string&)>& say) {
@@ -128,13 +130,14 @@ Answer diagnose(const Question& question, const std::function<void(const std::st
     const Scales scales = scales_of(model_of(question.form), train, found);
     Study study = make_study(question, train, split ? part_counts(train, question.split_s, false) : all_count(train),
                              scales, found);
-    Study validation = make_study(question, validate,
-                                  split ? part_counts(train, question.split_s, true) : all_count(validate), scales, found);
+    Study validation = make_study(
+        question, validate, split ? part_counts(train, question.split_s, true) : all_count(validate), scales, found);
     check_plausible(study);
     check_plausible(validation);
     if (question.refit) {
-        correct_for(study, fit(study, {}, {}, nullptr, {6, 2, 40}));
-        correct_for(validation, carried_over(validation, fit(study, {}, {}, nullptr, {6, 2, 40}), nullptr));
+        const Candidate rough = fit(study, {}, {}, nullptr, {6, 2, 40});
+        correct_for(study, rough);
+        correct_for(validation, split ? rough : carried_over(validation, rough, nullptr));
     }
     Found all = search({study, validation, split, list_of(question, scales), question.jobs, say});
     Answer answer{};

@@ -17,8 +17,8 @@ struct Question {
     drive::Form form;  ///< of the model that is judged, or of the kind that is fitted
     bool refit = false;
     std::vector<Record> train;
-    std::vector<Record> validate;      ///< empty: parts of the training records are kept aside
-    std::optional<double> split_s;     ///< the training records up to here, the rest of each for validation
+    std::vector<Record> validate;   ///< empty: parts of the training records are kept aside
+    std::optional<double> split_s;  ///< the training records up to here, the rest of each for validation
     Metric metric = Metric::simulation;
     std::vector<std::string> without;  ///< effects that are taken off the list
     unsigned jobs = 1;
@@ -39,12 +39,12 @@ struct Answer {
     [[nodiscard]] const Ranked& chosen() const { return ranking[decision.chosen]; }
     /// The model with its parameters as the candidate has them, effects aside.
     [[nodiscard]] drive::Model model_of(const Candidate& candidate) const;
-    drive::Form form;
+    std::optional<drive::Form> form;
     bool refit = false;
 };
 
-/// \throws glsum::Failure (bad input): records and model that cannot belong together: a dead time as long as the record,
-/// stamps or readings in other units, a model that runs away. \param say  told of progress
+/// \throws glsum::Failure (bad input): records and model that cannot belong together: a dead time as long as the
+/// record, stamps or readings in other units, a model that runs away. \param say  told of progress
 [[nodiscard]] Answer diagnose(const Question& question, const std::function<void(const std::string&)>& say);
 
 }  // namespace gap

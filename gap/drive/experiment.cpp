@@ -22,7 +22,9 @@ std::vector<Excitation> excitations(double time_constant_s, double record_s) {
     const double bit_s = 0.3 * time_constant_s;
     return {
         {fmt::format("a staircase of 5 levels up and down, {:.3g} s each", hold_s), 10.0 * hold_s,
-         [](double share, double) { return (std::min(std::floor(share * 10.0), 9.0 - std::floor(share * 10.0)) + 1.0) / 5.0; }},
+         [](double share, double) {
+             return (std::min(std::floor(share * 10.0), 9.0 - std::floor(share * 10.0)) + 1.0) / 5.0;
+         }},
         {fmt::format("a pseudo-random sequence of bits of {:.3g} s between two fifths and four fifths", bit_s),
          60.0 * time_constant_s,
          [bit_s](double, double time_s) {
@@ -135,16 +137,18 @@ Proposal part(const Study& study, const std::vector<const Candidate*>& alternati
     }
     constexpr double visible = 0.3;
     if (best.apart < visible) {
-        return {fmt::format("no input parts them: of five excitations simulated, the best ({}) leaves {} within {:.2g} of the "
-                            "noise of {} once refitted. Log a signal between command and reading (motor speed, current, "
-                            "supply), or measure one part alone",
-                            best.text, hardest, std::max(0.0, best.apart), alternatives.front()->name()),
+        return {fmt::format(
+                    "no input parts them: of five excitations simulated, the best ({}) leaves {} within {:.2g} of the "
+                    "noise of {} once refitted. Log a signal between command and reading (motor speed, current, "
+                    "supply), or measure one part alone",
+                    best.text, hardest, std::max(0.0, best.apart), alternatives.front()->name()),
                 best.apart};
     }
-    return {fmt::format("{} from {:.4g} to {:.4g}: simulated, {} once refitted to {} still misses it by {:.2g} times the "
-                        "noise, and the others by more",
-                        best.text, low, study.scales.input_max, hardest, alternatives.front()->name(), best.apart),
-            best.apart};
+    return {
+        fmt::format("{} from {:.4g} to {:.4g}: simulated, {} once refitted to {} still misses it by {:.2g} times the "
+                    "noise, and the others by more",
+                    best.text, low, study.scales.input_max, hardest, alternatives.front()->name(), best.apart),
+        best.apart};
 }
 
 }  // namespace gap

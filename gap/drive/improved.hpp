@@ -15,8 +15,8 @@ struct Improved {
 };
 
 /// \param model  with fields `effects` ([{"effect", "parameters": {}}]) and `operating_output` among its notes
-/// From rest. \throws glsum::Failure (bad input) naming the field: no such effect, a parameter that is missing, unknown or no
-/// number. \param name  begins the message
+/// From rest. \throws glsum::Failure (bad input) naming the field: no such effect, a parameter that is missing, unknown
+/// or no number. \param name  begins the message
 [[nodiscard]] Improved simulate_improved(const drive::Model& model, const Record& record, const std::string& name);
 
 }  // namespace gap

@@ -28,8 +28,9 @@ double slowest_s(const drive::Model& model) {
 void check_times(const Record& record, const drive::Model& model) {
     const double length_s = record.time_s.back() - record.time_s.front();
     if (model.delay_s >= length_s) {
-        refuse(record, fmt::format("expected a log longer than the model's dead time of {:.4g} s, found one of {:.4g} s",
-                                   model.delay_s, length_s));
+        refuse(record,
+               fmt::format("expected a log longer than the model's dead time of {:.4g} s, found one of {:.4g} s",
+                           model.delay_s, length_s));
     }
     const double slowest = slowest_s(model);
     if (slowest == 0.0) {
@@ -40,9 +41,10 @@ void check_times(const Record& record, const drive::Model& model) {
                                    length_s, slowest));
     }
     if (record.usual_interval_s > 5.0 * (slowest + model.delay_s)) {
-        refuse(record, fmt::format("has a sample every {:.4g} s, but the model is done after {:.4g} s: are the stamps in "
-                                   "seconds?",
-                                   record.usual_interval_s, slowest + model.delay_s));
+        refuse(record,
+               fmt::format("has a sample every {:.4g} s, but the model is done after {:.4g} s: are the stamps in "
+                           "seconds?",
+                           record.usual_interval_s, slowest + model.delay_s));
     }
 }
 
@@ -75,9 +77,10 @@ void check_units(const Course& course, const drive::Model& model) {
     }
     const double ratio = std::sqrt(mm / ss);
     if (std::fabs(sm) > 0.7 * std::sqrt(ss * mm) && (ratio > 50.0 || ratio < 0.02)) {
-        refuse(course.record(), fmt::format("its output moves {:.3g} times as far as the model's: expected the model's units, "
-                                            "found others, of input or output",
-                                            ratio));
+        refuse(course.record(),
+               fmt::format("its output moves {:.3g} times as far as the model's: expected the model's units, "
+                           "found others, of input or output",
+                           ratio));
     }
 }
 

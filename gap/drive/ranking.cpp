@@ -36,8 +36,8 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     std::vector<std::vector<double>> left;
     for (std::size_t r = 0; r < ranked.residuals.size(); ++r) {
         const auto& residuals = ranked.residuals[r];
-        const auto logs = whitener.log_likelihood(
-            residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
+        const auto logs =
+            whitener.log_likelihood(residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
         for (std::size_t i = 0; i < logs.size(); ++i) {
             if (validation.counts[r][i] != 0) {
                 ranked.by_sample.push_back(std::isfinite(logs[i]) ? logs[i] : -1e6);

@@ -37,8 +37,7 @@ public:
         }
         std::vector<Candidate> singles = fitted(alone, {&none_}, nullptr, {});
         std::stable_sort(singles.begin(), singles.end(), by_cost);
-        found_.whitener =
-            whitener_of(of_.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
+        found_.whitener = whitener_of(of_.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
         none_ = fit(of_.study, {}, none_, &found_.whitener);
         bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
             // Spread is not in the sum of squares: jitter stays in the race whatever its place.

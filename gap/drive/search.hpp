@@ -8,9 +8,9 @@
 namespace gap {
 
 struct Search {
-    const Study& study;       ///< training
+    const Study& study;  ///< training
     const Study& validation;
-    bool same_records;        ///< validation is a part of the training records
+    bool same_records;  ///< validation is a part of the training records
     std::vector<const Effect*> list;
     unsigned jobs;
     const std::function<void(const std::string&)>& say;

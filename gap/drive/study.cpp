@@ -26,9 +26,8 @@ double time_constant_of(const drive::Model& model, const Record& record) {
 constexpr double most_deployed_steps = 12000.0;
 
 double deployed_step_of(const drive::Model& model, const Scales& scales) {
-    const bool fractional = std::any_of(model.denominator.begin(), model.denominator.end(), [](const auto& term) {
-        return term.order != std::floor(term.order);
-    });
+    const bool fractional = std::any_of(model.denominator.begin(), model.denominator.end(),
+                                        [](const auto& term) { return term.order != std::floor(term.order); });
     const double step_s = model.sample_time_s.value_or(scales.interval_s);
     return fractional && scales.length_s / step_s <= most_deployed_steps ? step_s : 0.0;
 }

@@ -148,7 +148,8 @@ TEST(GapFlexible, ForeseesWhatDependsOnTheInputAndNothingElse) {
     gap::Record record = pulses(0.02, 40.0);
     gap::Scenario plain;
     plain.model = plant_12();
-    gap::Remainder remainder{&record, gap::simulate(plain, gap::Course(record, 1)), {}, std::vector<char>(record.size(), 1)};
+    gap::Remainder remainder{
+        &record, gap::simulate(plain, gap::Course(record, 1)), {}, std::vector<char>(record.size(), 1)};
     std::mt19937_64 engine(2);
     std::normal_distribution<double> normal;
     double noise = 0.0;

@@ -56,13 +56,15 @@ gap::Record log_of(const Sizes& sizes, const Run& run) {
 }
 
 gap::Answer ask(const Sizes& sizes, const Run& train, const Run& validate, const std::vector<std::string>& without) {
-    gap::Question question{linear_form(),          false, {log_of(sizes, train)}, {log_of(sizes, validate)}, std::nullopt,
-                           gap::Metric::simulation, without, 2};
+    gap::Question question{
+        linear_form(), false, {log_of(sizes, train)}, {log_of(sizes, validate)}, std::nullopt, gap::Metric::simulation,
+        without,       2};
     return gap::diagnose(question, [](const std::string&) {});
 }
 
 gap::Answer ask(const Sizes& sizes, std::uint64_t seed, const std::vector<std::string>& without) {
-    return ask(sizes, {.seed = 10 * seed + 1}, {.experiment = "prbs", .low_duty = 0.02, .seed = 10 * seed + 2}, without);
+    return ask(sizes, {.seed = 10 * seed + 1}, {.experiment = "prbs", .low_duty = 0.02, .seed = 10 * seed + 2},
+               without);
 }
 
 std::vector<std::string> names(const gap::Answer& answer) {

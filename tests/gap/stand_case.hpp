@@ -1,5 +1,5 @@
-// Cases from the virtual stand, which shares no code and no formula with the effects: a linear model, and logs of a stand
-// with something else in it.
+// Cases from the virtual stand, which shares no code and no formula with the effects: a linear model, and logs of a
+// stand with something else in it.
 #pragma once
 
 #include <string>

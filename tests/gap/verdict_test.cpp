@@ -57,22 +57,30 @@ INSTANTIATE_TEST_SUITE_P(
         Known{"dead_time_error", {{"dead_time_error.extra_s", 0.06}}, "extra_s", 0.06, 5e-3},
         Known{"rate_limit", {{"rate_limit.per_s", 0.1}}, "per_s", 0.1, 0.01},
         Known{"gain_drift", {{"gain_drift.per_s", -0.01}}, "per_s", -0.01, 1e-3},
-        Known{"coulomb_friction", {{"coulomb_friction.force", 0.006}, {"coulomb_friction.stiction", 1.0}}, "force", 0.006, 6e-4},
+        Known{"coulomb_friction",
+              {{"coulomb_friction.force", 0.006}, {"coulomb_friction.stiction", 1.0}},
+              "force",
+              0.006,
+              6e-4},
         Known{"gravity_nonlinearity", {{"gravity_nonlinearity.angle_per_unit", 1.0}}, "angle_per_unit", 1.0, 0.05},
         Known{"end_stop", {{"end_stop.limit", 0.8}}, "limit", 0.8, 0.01},
         Known{"backlash", {{"backlash.gap", 0.06}}, "gap", 0.06, 6e-3},
         Known{"sensor_offset", {{"sensor_offset.offset", 0.03}}, "offset", 0.03, 2e-3},
         Known{"sensor_drift", {{"sensor_drift.per_s", 0.003}}, "per_s", 0.003, 3e-4},
         Known{"sensor_saturation", {{"sensor_saturation.limit", 0.7}}, "limit", 0.7, 0.01},
-        Known{"direction_asymmetry", {{"direction_asymmetry.tau_up_s", 0.02}, {"direction_asymmetry.tau_down_s", 0.2}}, "tau_down_s", 0.2, 0.02},
+        Known{"direction_asymmetry",
+              {{"direction_asymmetry.tau_up_s", 0.02}, {"direction_asymmetry.tau_down_s", 0.2}},
+              "tau_down_s",
+              0.2,
+              0.02},
         Known{"sampling_jitter", {{"sampling_jitter.half_width_s", 0.015}}, "half_width_s", 0.015, 3e-3}),
     [](const auto& info) { return std::string(info.param.effect); });
 
 TEST(Verdict, OfAPerfectModelIsNoGapWhateverTheNoise) {
     for (const double colour : {0.0, 0.9}) {
         for (const char* experiment : {"prbs", "chirp", "ramp"}) {
-            const gap::Answer answer =
-                ask({}, {.seed = 3, .colour = colour}, {.experiment = experiment, .duty = 0.12, .seed = 4, .colour = colour});
+            const gap::Answer answer = ask({}, {.seed = 3, .colour = colour},
+                                           {.experiment = experiment, .duty = 0.12, .seed = 4, .colour = colour});
             EXPECT_EQ(answer.decision.outcome, Outcome::no_gap) << experiment << '\n' << text_of(answer);
         }
     }
@@ -85,8 +93,8 @@ TEST(Verdict, OfTwoEffectsIsTheirPair) {
 }
 
 TEST(Verdict, OnOneLevelCannotPartWhatEqualsAGain) {
-    const gap::Answer answer = ask({{"input_dead_zone.width", 0.02}}, {.experiment = "step", .seed = 5},
-                                   {.experiment = "pulse", .seed = 6});
+    const gap::Answer answer =
+        ask({{"input_dead_zone.width", 0.02}}, {.experiment = "step", .seed = 5}, {.experiment = "pulse", .seed = 6});
     EXPECT_EQ(answer.decision.outcome, Outcome::ambiguous) << text_of(answer);
     EXPECT_THAT(names(answer), testing::IsSupersetOf({"gain_error", "input_dead_zone", "input_saturation"}));
     EXPECT_THAT(answer.next_experiment, HasSubstr("staircase"));
@@ -133,7 +141,8 @@ TEST(Verdict, OfAnEffectThatIsTakenOffTheListIsNotAnother) {
           std::pair<std::string, Sizes>{"sensor_saturation", {{"sensor_saturation.limit", 0.6}}}}) {
         const gap::Answer answer = ask(sizes, 4, {effect});
         EXPECT_THAT(names(answer), Not(Contains(HasSubstr(effect))));
-        EXPECT_TRUE(answer.decision.outcome == Outcome::unknown || answer.decision.confidence < 0.97) << text_of(answer);
+        EXPECT_TRUE(answer.decision.outcome == Outcome::unknown || answer.decision.confidence < 0.97)
+            << text_of(answer);
         EXPECT_GT(answer.chosen().gap_after, 1.5 * 0.003 / 0.3) << text_of(answer);  // what is left is reported
     }
 }
@@ -150,8 +159,9 @@ TEST(Verdict, AsAFileHoldsWhatItPromises) {
         EXPECT_NEAR(sum, 1.0, 1e-9) << list;
     }
     const auto& direction = file["where"]["direction"];
-    EXPECT_NEAR(direction["rising"].get<double>() + direction["falling"].get<double>() + direction["still"].get<double>(),
-                1.0, 1e-9);
+    EXPECT_NEAR(
+        direction["rising"].get<double>() + direction["falling"].get<double>() + direction["still"].get<double>(), 1.0,
+        1e-9);
     // The gap is what anyone computes from the log and the model: rms of measured - simulated over the deviation.
     const gap::Record& record = answer.records.front();
     double mean = 0.0;
@@ -187,8 +197,8 @@ std::string message_of(const gap::Question& question) {
 }
 
 TEST(Verdict, IsRefusedWhereModelAndLogCannotBelongTogether) {
-    gap::Question question{gap_test::linear_form(), false, {gap_test::log_of({}, {})}, {}, std::nullopt,
-                           gap::Metric::simulation, {}, 1};
+    gap::Question question{
+        gap_test::linear_form(), false, {gap_test::log_of({}, {})}, {}, std::nullopt, gap::Metric::simulation, {}, 1};
     for (double& angle : question.train[0].output) {
         angle *= 1000.0;
     }

@@ -1,5 +1,5 @@
-// The reading is held for stretches: where the record itself repeats one value though no quantum makes it. Its rate is the
-// share of repeats that the audit counted.
+// The reading is held for stretches: where the record itself repeats one value though no quantum makes it. Its rate is
+// the share of repeats that the audit counted.
 #include <algorithm>
 #include <cmath>
 

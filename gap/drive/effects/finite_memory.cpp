@@ -19,10 +19,7 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
             {"step_s", "s", 0.0, 1e6, 0.0, {scales.deployed_step_s}, true}};
 }
 
-void add(Scenario& scenario, std::span<const double> values) {
-    scenario.deployed = Deployed{values[1], values[0], ""};
-}
-
+void add(Scenario& scenario, std::span<const double> values) { scenario.deployed = Deployed{values[1], values[0], ""}; }
 
 }  // namespace
 

@@ -69,7 +69,6 @@ std::vector<double> guess(const Clue& clue) {
     return best;
 }
 
-
 }  // namespace
 
 const Effect& load_disturbance() {

@@ -72,7 +72,6 @@ std::vector<double> guess(const Clue& clue) {
     return found;
 }
 
-
 }  // namespace
 
 const Effect& missed_counts() {

@@ -1,5 +1,5 @@
-// A memoryless bend of the output, z = y ((1 - c) + c |y| / reference), the reference being the largest reading. In its other
-// variant the same bend is that of the restoring term: an outflow.
+// A memoryless bend of the output, z = y ((1 - c) + c |y| / reference), the reference being the largest reading. In its
+// other variant the same bend is that of the restoring term: an outflow.
 #include <algorithm>
 #include <cmath>
 
@@ -34,7 +34,6 @@ void add(Scenario& scenario, std::span<const double> values) {
         }
     });
 }
-
 
 }  // namespace
 

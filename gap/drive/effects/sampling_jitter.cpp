@@ -1,5 +1,5 @@
-// A sample was taken at another time than its stamp says, evenly within a half width on both sides: what is read is off by
-// the speed times an unknown time, so that no simulation can follow it and only its spread is told.
+// A sample was taken at another time than its stamp says, evenly within a half width on both sides: what is read is off
+// by the speed times an unknown time, so that no simulation can follow it and only its spread is told.
 #include <algorithm>
 #include <cmath>
 

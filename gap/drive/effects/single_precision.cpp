@@ -25,7 +25,6 @@ void add(Scenario& scenario, std::span<const double> values) {
     scenario.deployed = Deployed{values[2], 0.0, kernels[values[0] > 0.5 ? 1 : 0], values[1] > 0.5};
 }
 
-
 }  // namespace
 
 const Effect& single_precision() {
