@@ -102,7 +102,7 @@ drive::Log make_record(const Options& options, double step_s) {
 
 // A model that diagnose improved: its effects are simulated with it. \return whether it has any
 bool simulate_effects(const drive::Model& model, drive::Log record, const Options& options) {
-    gap::Record stamped{record.name, record.time_s, record.input, std::vector<double>(record.input.size()), 0.0};
+    gap::Record stamped{record.name, record.time_s, record.input, {}, 0.0};
     stamped.usual_interval_s =
         (record.time_s.back() - record.time_s.front()) / static_cast<double>(record.time_s.size() - 1);
     const gap::Improved improved = gap::simulate_improved(model, stamped, options.model.string());

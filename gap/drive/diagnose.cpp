@@ -39,7 +39,7 @@ Study make_study(const Question& question, const std::vector<Record>& records, s
     Scenario plain;
     plain.model = model_of(question.form);
     for (const Record& record : records) {
-        study.courses.push_back(make_course(record, plain, 0.1 * std::max(found.noise, least)));
+        study.courses.push_back(make_course(record, plain, 0.3 * std::max(found.noise, least)));
     }
     if (question.metric == Metric::prediction) {
         study.horizon = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 * scales.length_s / scales.interval_s));

@@ -31,6 +31,17 @@ std::vector<FreeParameter>* jitter_of(Candidate& candidate) {
     return nullptr;
 }
 
+// Whether what is left, as far as it goes with the speed, is as coloured from sample to sample as no jitter is.
+bool is_coloured(std::span<const double> residuals, std::span<const double> speed) {
+    double along = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 1; i < residuals.size(); ++i) {
+        along += residuals[i] * speed[i] * residuals[i - 1] * speed[i - 1];
+        square += residuals[i] * speed[i] * residuals[i] * speed[i];
+    }
+    return along > 0.3 * square;
+}
+
 // Variances in units of the whitener's: noise_share and what an even shift of the time makes of a speed.
 std::vector<double> spreads(std::span<const double> speed, const Whitener& whitener, double half_width_s,
                             double noise_share) {
@@ -68,6 +79,13 @@ void fit_jitter(const Study& study, Candidate& candidate, const Whitener& whiten
     std::vector<std::vector<double>> speeds;
     for (std::size_t r = 0; r < residuals.size(); ++r) {
         speeds.push_back(speed_of(study.courses[r].record(), residuals[r]));
+    }
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
+        if (is_coloured(residuals[r], speeds[r])) {
+            (*jitter)[0].value = 0.0;
+            (*jitter)[1].value = 1.0;
+            return;
+        }
     }
     const auto likelihood = [&](double half_width_s, double noise_share) {
         double sum = 0.0;
@@ -119,7 +137,7 @@ std::vector<double> without_jitter(const Study& study, const Candidate& candidat
     Candidate copy = candidate;
     const auto* jitter = jitter_of(copy);
     std::vector<double> left(residuals.begin(), residuals.end());
-    if (jitter == nullptr) {
+    if (jitter == nullptr || (*jitter)[0].value == 0.0) {
         return left;
     }
     const double half_width_s = (*jitter)[0].value;

@@ -28,16 +28,34 @@ double penalty_of(const Candidate& candidate, const Study& validation) {
            2.0 * static_cast<double>(candidate.effect_parameters() + candidate.effects.size());
 }
 
+// Of readings that stand for all values within a step: the logarithm of the mass there, over the step, on the scale of
+// the whitener's, which leaves the constant of Student's density out. \param outside  by how much the simulation misses
+// them
+std::vector<double> log_mass(std::span<const double> outside, double step, const Whitener& whitener) {
+    constexpr double density_constant = 0.713;
+    const double variance = whitener.stationary_deviation * whitener.stationary_deviation - step * step / 12.0;
+    const double noise = std::sqrt(std::max(variance, 0.0025 * step * step));
+    std::vector<double> logs;
+    for (const double miss : outside) {
+        const double mass = miss == 0.0 ? std::max(0.5, 1.0 - 0.8 * noise / step)
+                                        : 0.5 * std::erfc(std::fabs(miss) / (noise * std::sqrt(2.0)));
+        logs.push_back(std::log(std::max(mass, 1e-9) / step) + density_constant);
+    }
+    return logs;
+}
+
 }  // namespace
 
 void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
+    const double step = ranked.candidate.has("encoder_quantisation") ? validation.scales.quantum : 0.0;
     ranked.by_sample.clear();
     ranked.log_likelihood = 0.0;
     std::vector<std::vector<double>> left;
     for (std::size_t r = 0; r < ranked.residuals.size(); ++r) {
         const auto& residuals = ranked.residuals[r];
-        const auto logs =
-            whitener.log_likelihood(residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
+        const auto logs = step > 0.0 ? log_mass(residuals, step, whitener)
+                                     : whitener.log_likelihood(
+                                           residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
         for (std::size_t i = 0; i < logs.size(); ++i) {
             if (validation.counts[r][i] != 0) {
                 ranked.by_sample.push_back(std::isfinite(logs[i]) ? logs[i] : -1e6);
@@ -48,13 +66,17 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     }
     ranked.gap_after = rms_of(validation, left) / output_deviation(validation);
     ranked.gap_after = std::isfinite(ranked.gap_after) ? ranked.gap_after : 1e6;  // it ran away
-    ranked.penalty = penalty_of(ranked.candidate, validation);
+    // Whitened residuals hardly know of slow ones. Of those each block of the records counts once.
+    constexpr double blocks = 24.0;
+    const double slow = std::max(rms_of(validation, ranked.residuals), 0.3 * step) / output_deviation(validation);
+    ranked.penalty = penalty_of(ranked.candidate, validation) + blocks * std::log(std::clamp(slow, 1e-9, 1e6));
 }
 
-Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener, bool same_records) {
+Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener, const Whitener* fits_by,
+                 bool same_records) {
     Ranked ranked;
     ranked.trained = trained;
-    ranked.candidate = same_records ? trained : carried_over(validation, trained, &whitener);
+    ranked.candidate = same_records ? trained : carried_over(validation, trained, fits_by);
     ranked.residuals = all_residuals(validation, ranked.candidate);
     judge(ranked, validation, whitener);
     return ranked;

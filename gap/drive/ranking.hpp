@@ -16,9 +16,10 @@ struct Ranked {
     [[nodiscard]] double score() const { return log_likelihood - penalty; }
 };
 
-/// The candidate on the validation records. \param same_records  validation is a part of the records that were fitted
+/// The candidate on the validation records. \param fits_by  whitens residuals for fits there; null: they stay as they
+/// are \param same_records  validation is a part of the records that were fitted
 [[nodiscard]] Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener,
-                               bool same_records);
+                               const Whitener* fits_by, bool same_records);
 
 /// Likelihood and gap anew, after another whitener.
 void judge(Ranked& ranked, const Study& validation, const Whitener& whitener);

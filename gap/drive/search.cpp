@@ -38,11 +38,11 @@ public:
         std::vector<Candidate> singles = fitted(alone, {&none_}, nullptr, {});
         std::stable_sort(singles.begin(), singles.end(), by_cost);
         found_.whitener = whitener_of(of_.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
-        none_ = fit(of_.study, {}, none_, &found_.whitener);
+        none_ = fit(of_.study, {}, none_, fits_by());
         bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
             // Spread is not in the sum of squares: jitter stays in the race whatever its place.
             if (i < shortlisted || singles[i].has("sampling_jitter")) {
-                singles[i] = fit(of_.study, singles[i].effects, singles[i], &found_.whitener);
+                singles[i] = fit(of_.study, singles[i].effects, singles[i], fits_by());
                 fit_jitter(of_.study, singles[i], found_.whitener);
             }
         });
@@ -66,14 +66,18 @@ public:
     }
 
 private:
+    // A refitted base is to simulate well: it takes its numbers from the residuals as they are. Where they are coloured
+    // because something is missing, whitened ones would tell little of what is slow.
+    [[nodiscard]] const Whitener* fits_by() const { return of_.study.base.refit ? nullptr : &found_.whitener; }
+
     // Each from the candidate of `starts` at its place, or from the only one.
     std::vector<Candidate> fitted(const std::vector<Effects>& all, const std::vector<const Candidate*>& starts,
                                   const Whitener* whitener, const Effort& effort) const {
         std::vector<Candidate> result(all.size());
         bench::parallel_for(all.size(), of_.jobs, [&](std::size_t i) {
             result[i] = fit(of_.study, all[i], *starts[starts.size() == 1 ? 0 : i], whitener, effort);
-            if (whitener != nullptr) {
-                fit_jitter(of_.study, result[i], *whitener);
+            if (!found_.whitener.coefficients.empty() || whitener != nullptr) {
+                fit_jitter(of_.study, result[i], found_.whitener);
             }
         });
         return result;
@@ -103,7 +107,7 @@ private:
             }
         }
         of_.say(fmt::format("fitting {} {}", all.size(), what));
-        std::vector<Candidate> wide = fitted(all, starts, &found_.whitener, quick);
+        std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
         // What spreads is not in the cost.
         std::stable_partition(wide.begin(), wide.end(), [&](const Candidate& candidate) {
@@ -111,7 +115,7 @@ private:
         });
         wide.resize(std::min(wide.size(), finalists));
         bench::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
-            wide[i] = fit(of_.study, wide[i].effects, wide[i], &found_.whitener);
+            wide[i] = fit(of_.study, wide[i].effects, wide[i], fits_by());
             fit_jitter(of_.study, wide[i], found_.whitener);
         });
         return wide;
@@ -130,7 +134,7 @@ private:
     void take(const std::vector<Candidate>& candidates) {
         std::vector<Ranked> more(candidates.size());
         bench::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
-            more[i] = validated(of_.validation, candidates[i], found_.whitener, of_.same_records);
+            more[i] = validated(of_.validation, candidates[i], found_.whitener, fits_by(), of_.same_records);
         });
         std::move(more.begin(), more.end(), std::back_inserter(found_.ranking));
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);

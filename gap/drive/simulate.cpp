@@ -237,11 +237,16 @@ std::vector<double> move(const Scenario& scenario, const Course& course, std::ve
     for (std::size_t k = 1; k < grid.count; ++k) {
         double e = balance.increment(forcing[k] - past.known(), y[k - 1]);
         double remembered = e;
-        if (scenario.forces.stop && y[k - 1] + e > scenario.forces.stop->limit - scenario.operating_output) {
+        const bool stopped =
+            scenario.forces.stop && y[k - 1] + e > scenario.forces.stop->limit - scenario.operating_output;
+        if (stopped) {
             e = scenario.forces.stop->limit - scenario.operating_output - y[k - 1];
             remembered = -scenario.forces.stop->restitution * remembered;
         }
         past.push(remembered);
+        if (stopped) {
+            past.fill_near(remembered);  // a blow: nothing of the speed before it is left
+        }
         y[k] = y[k - 1] + e;
         if (!std::isfinite(y[k]) || std::fabs(y[k]) > 1e12) {
             std::fill(y.begin() + static_cast<std::ptrdiff_t>(k), y.end(), std::nan(""));

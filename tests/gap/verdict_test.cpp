@@ -74,7 +74,7 @@ INSTANTIATE_TEST_SUITE_P(
               0.2,
               0.02},
         Known{"sampling_jitter", {{"sampling_jitter.half_width_s", 0.015}}, "half_width_s", 0.015, 3e-3}),
-    [](const auto& info) { return std::string(info.param.effect); });
+    [](const auto& known) { return std::string(known.param.effect); });
 
 TEST(Verdict, OfAPerfectModelIsNoGapWhateverTheNoise) {
     for (const double colour : {0.0, 0.9}) {

@@ -20,7 +20,7 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
 
 void add(Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
     scenario.logger.emplace_back([](std::span<double> reading, const Record& record) {
-        for (std::size_t i = 1; i < reading.size(); ++i) {
+        for (std::size_t i = 1; i < record.output.size(); ++i) {
             if (record.output[i] == record.output[i - 1]) {
                 reading[i] = reading[i - 1];
             }

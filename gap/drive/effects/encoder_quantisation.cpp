@@ -1,4 +1,6 @@
-// The reading is a multiple of a step, which the audit of the readings finds.
+// The reading is a multiple of a step, which the audit of the readings finds. What was measured says which values
+// within the step it stands for: the simulation is off by what it lies outside of them. Where nothing was measured it
+// is rounded.
 #include <algorithm>
 #include <cmath>
 
@@ -18,9 +20,13 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
 }
 
 void add(Scenario& scenario, std::span<const double> values) {
-    scenario.logger.emplace_back([step = values[0]](std::span<double> reading, const Record&) {
-        for (double& value : reading) {
-            value = step * std::nearbyint(value / step);
+    scenario.logger.emplace_back([step = values[0]](std::span<double> reading, const Record& record) {
+        for (std::size_t i = 0; i < reading.size(); ++i) {
+            reading[i] = record.output.empty()
+                             ? step * std::nearbyint(reading[i] / step)
+                             : record.output[i] -
+                                   std::copysign(std::max(0.0, std::fabs(record.output[i] - reading[i]) - 0.5 * step),
+                                                 record.output[i] - reading[i]);
         }
     });
 }

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
     // Neither moves a reading: both are found by likelihood (gap/drive/jitter.hpp).
-    return {{"half_width_s", "s", 0.0, 5.0 * scales.interval_s, 0.0, {0.3 * scales.interval_s}, true},
+    return {{"half_width_s", "s", 0.0, 1.0 * scales.interval_s, 0.0, {0.3 * scales.interval_s}, true},
             {"noise_share", "1", 0.0, 1.0, 1.0, {1.0}, true}};
 }
 
