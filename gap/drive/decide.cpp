@@ -113,6 +113,18 @@ public:
         } else {
             attribute(chosen, none);
         }
+        if (decision_.outcome == Outcome::no_gap) {
+            name_the_quantum(after);
+        }
+        if (decision_.outcome == Outcome::no_gap && is_slow(validation_, after * output_deviation(validation_)) &&
+            after > 0.05) {
+            decision_.outcome = Outcome::unknown;
+            decision_.confidence = 0.5;
+            decision_.notes.emplace_back(
+                "what is left is slow and many times what differs from sample to sample: no noise of a sensor, and "
+                "nothing "
+                "listed explains it");
+        }
         doubt_what_does_not_belong(after);
         return decision_;
     }
@@ -162,6 +174,22 @@ private:
         decision_.outcome = alone ? Outcome::attributed : Outcome::ambiguous;
         decision_.confidence = alone ? confidence_by(nearest)
                                      : 0.9 / static_cast<double>(std::min<std::size_t>(decision_.effects.size(), 6));
+    }
+
+    // That readings are multiples of a step is a fact of the log; here it is also most of what is left.
+    void name_the_quantum(double after) {
+        const double step = study_.scales.quantum / output_deviation(validation_);
+        const auto candidate = std::find_if(ranking_.begin(), ranking_.end(), [](const Ranked& ranked) {
+            return ranked.trained.name() == "encoder_quantisation";
+        });
+        if (candidate == ranking_.end() || step * step / 12.0 < 0.5 * square(after)) {
+            return;
+        }
+        decision_.chosen = static_cast<std::size_t>(candidate - ranking_.begin());
+        decision_.effects = {decision_.chosen};
+        decision_.outcome = Outcome::attributed;
+        decision_.noise_floor = std::min(decision_.noise_floor, candidate->gap_after);
+        decision_.confidence = 0.9;
     }
 
     void doubt_what_does_not_belong(double after) {

@@ -35,7 +35,7 @@ std::vector<const Effect*> list_of(const Question& question, const Scales& scale
 Study make_study(const Question& question, const std::vector<Record>& records, std::vector<std::vector<char>> counts,
                  const Scales& scales, const Audit& found) {
     const double least = std::max(0.29 * found.quantum, 2e-4 * scales.output_span);
-    Study study{{question.form, question.refit}, scales, {}, std::move(counts), least, 0};
+    Study study{{question.form, question.refit}, scales, {}, std::move(counts), found.noise, least, 0};
     Scenario plain;
     plain.model = model_of(question.form);
     for (const Record& record : records) {

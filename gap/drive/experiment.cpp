@@ -112,7 +112,7 @@ Proposal part(const Study& study, const std::vector<const Candidate*>& alternati
         if (record.size() < 32) {
             continue;
         }
-        Study trial{study.base, study.scales, {}, all_count({record}), study.least_deviation, 0};
+        Study trial{study.base, study.scales, {}, all_count({record}), study.noise, study.least_deviation, 0};
         trial.courses.emplace_back(record, 1);
         const Candidate truth = resting(trial, *alternatives.front(), record);
         record.output = simulate(scenario_of(trial, truth, 0), trial.courses[0]);

@@ -132,7 +132,7 @@ void descend(const Study& study, Candidate& candidate, bool own_only, const Whit
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = iterations;
-    options.function_tolerance = 1e-6;
+    options.function_tolerance = iterations < 10 ? 1e-4 : 1e-6;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);

@@ -15,9 +15,9 @@ namespace {
 using Effects = std::vector<const Effect*>;
 
 constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
-constexpr std::size_t leads = 3;         // singles that partners are tried with
+constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
 constexpr std::size_t finalists = 8;     // pairs, and triples, that are fitted to the end
-constexpr Effort quick{4, 1, 8};
+constexpr Effort quick{3, 1, 6};
 
 bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
 bool by_score(const Ranked& a, const Ranked& b) { return a.score() > b.score(); }
@@ -52,7 +52,8 @@ public:
         renew_whitener();
         const Ranked& none = ranked_of({});
         const Ranked& best = found_.ranking.front();
-        if (&best != &none && advantage(best, none).mean > 4.0) {
+        const bool slow = is_slow(of_.validation, none.gap_after * output_deviation(of_.validation));
+        if ((&best != &none && advantage(best, none).mean > 4.0) || slow) {
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();
@@ -88,12 +89,8 @@ private:
         std::vector<Effects> all;
         std::vector<const Candidate*> starts;
         std::set<Effects> seen;
-        std::size_t used = 0;
-        for (const Ranked& lead : found_.ranking) {
-            if (lead.trained.effects.size() != size || used == leads) {
-                continue;
-            }
-            ++used;
+        for (const Ranked* of_lead : leads_of(size)) {
+            const Ranked& lead = *of_lead;
             for (const Effect* effect : of_.list) {
                 Effects wider = lead.trained.effects;
                 wider.push_back(effect);
@@ -119,6 +116,26 @@ private:
             fit_jitter(of_.study, wide[i], found_.whitener);
         });
         return wide;
+    }
+
+    // The best by what was not fitted, and those by what was.
+    [[nodiscard]] std::vector<const Ranked*> leads_of(std::size_t size) const {
+        std::vector<const Ranked*> all;
+        for (const Ranked& ranked : found_.ranking) {
+            if (ranked.trained.effects.size() == size) {
+                all.push_back(&ranked);
+            }
+        }
+        std::vector<const Ranked*> by_training = all;
+        std::stable_sort(by_training.begin(), by_training.end(),
+                         [](const Ranked* a, const Ranked* b) { return a->trained.cost < b->trained.cost; });
+        all.resize(std::min(all.size(), leads));
+        for (std::size_t i = 0; i < std::min(leads, by_training.size()); ++i) {
+            if (std::find(all.begin(), all.end(), by_training[i]) == all.end()) {
+                all.push_back(by_training[i]);
+            }
+        }
+        return all;
     }
 
     static bool nested(const Effects& mine, const Effect& other) {

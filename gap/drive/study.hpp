@@ -24,6 +24,7 @@ struct Study {
     std::vector<Course> courses;
     /// By record and sample: whether it counts here; a split record's other part does not.
     std::vector<std::vector<char>> counts;
+    double noise;             ///< of readings, from sample to sample
     double least_deviation;   ///< of readings: what their quantum leaves, or a part in 5000 of their span
     std::size_t horizon = 0;  ///< residuals are of predictions so many samples ahead; 0: of the simulation
 };
@@ -39,6 +40,10 @@ struct Study {
 /// Of each record every third of ten blocks is kept aside, or what lies behind the split: that or the rest.
 [[nodiscard]] std::vector<std::vector<char>> part_counts(const std::vector<Record>& records,
                                                          std::optional<double> split_s, bool kept_aside);
+
+/// Whether an rms (in units of the readings) is far beyond what differs from sample to sample: slow, and so not noise
+/// as sensors have it.
+[[nodiscard]] bool is_slow(const Study& study, double rms);
 
 /// Of what counts.
 [[nodiscard]] double rms_of(const Study& study, const std::vector<std::vector<double>>& values);
