@@ -120,22 +120,24 @@ private:
 
     // The best by what was not fitted, and those by what was.
     [[nodiscard]] std::vector<const Ranked*> leads_of(std::size_t size) const {
-        std::vector<const Ranked*> all;
+        std::vector<const Ranked*> sized;
         for (const Ranked& ranked : found_.ranking) {
             if (ranked.trained.effects.size() == size) {
-                all.push_back(&ranked);
+                sized.push_back(&ranked);
             }
         }
-        std::vector<const Ranked*> by_training = all;
+        std::vector<const Ranked*> by_training = sized;
         std::stable_sort(by_training.begin(), by_training.end(),
                          [](const Ranked* a, const Ranked* b) { return a->trained.cost < b->trained.cost; });
-        all.resize(std::min(all.size(), leads));
-        for (std::size_t i = 0; i < std::min(leads, by_training.size()); ++i) {
-            if (std::find(all.begin(), all.end(), by_training[i]) == all.end()) {
-                all.push_back(by_training[i]);
+        std::vector<const Ranked*> first;
+        for (const auto* list : {&sized, &by_training}) {
+            for (std::size_t i = 0; i < std::min(leads, list->size()); ++i) {
+                if (std::find(first.begin(), first.end(), (*list)[i]) == first.end()) {
+                    first.push_back((*list)[i]);
+                }
             }
         }
-        return all;
+        return first;
     }
 
     static bool nested(const Effects& mine, const Effect& other) {
