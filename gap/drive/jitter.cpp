@@ -87,13 +87,18 @@ void fit_jitter(const Study& study, Candidate& candidate, const Whitener& whiten
             return;
         }
     }
+    // Normal, not heavy-tailed: the width is a second moment's.
+    std::vector<std::vector<double>> white;
+    for (const auto& record : residuals) {
+        white.push_back(whitener.apply(record));
+    }
     const auto likelihood = [&](double half_width_s, double noise_share) {
         double sum = 0.0;
-        for (std::size_t r = 0; r < residuals.size(); ++r) {
-            const auto logs =
-                whitener.log_likelihood(residuals[r], spreads(speeds[r], whitener, half_width_s, noise_share));
-            for (std::size_t i = 0; i < logs.size(); ++i) {
-                sum += study.counts[r][i] != 0 ? logs[i] : 0.0;
+        for (std::size_t r = 0; r < white.size(); ++r) {
+            const auto spread = spreads(speeds[r], whitener, half_width_s, noise_share);
+            for (std::size_t i = whitener.coefficients.size(); i < spread.size(); ++i) {
+                const double size = white[r][i] / spread[i];
+                sum -= study.counts[r][i] != 0 ? 0.5 * size * size + std::log(spread[i]) : 0.0;
             }
         }
         return sum;

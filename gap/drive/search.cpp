@@ -77,9 +77,6 @@ private:
         std::vector<Candidate> result(all.size());
         bench::parallel_for(all.size(), of_.jobs, [&](std::size_t i) {
             result[i] = fit(of_.study, all[i], *starts[starts.size() == 1 ? 0 : i], whitener, effort);
-            if (!found_.whitener.coefficients.empty() || whitener != nullptr) {
-                fit_jitter(of_.study, result[i], found_.whitener);
-            }
         });
         return result;
     }
@@ -96,7 +93,9 @@ private:
                 wider.push_back(effect);
                 Effects key = wider;
                 std::sort(key.begin(), key.end());
-                if (!lead.trained.has(effect->name) && !nested(lead.trained.effects, *effect) &&
+                // Jitter spreads what any other effect leaves where it moves: beside another it is not to be trusted.
+                if (effect->name != "sampling_jitter" && !lead.trained.has("sampling_jitter") &&
+                    !lead.trained.has(effect->name) && !nested(lead.trained.effects, *effect) &&
                     seen.insert(key).second) {
                     all.push_back(wider);
                     starts.push_back(&lead.trained);
@@ -106,15 +105,9 @@ private:
         of_.say(fmt::format("fitting {} {}", all.size(), what));
         std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
-        // What spreads is not in the cost.
-        std::stable_partition(wide.begin(), wide.end(), [&](const Candidate& candidate) {
-            return candidate.has("sampling_jitter") && !wide.empty() && candidate.cost < 1.02 * wide.front().cost;
-        });
         wide.resize(std::min(wide.size(), finalists));
-        bench::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
-            wide[i] = fit(of_.study, wide[i].effects, wide[i], fits_by());
-            fit_jitter(of_.study, wide[i], found_.whitener);
-        });
+        bench::parallel_for(wide.size(), of_.jobs,
+                            [&](std::size_t i) { wide[i] = fit(of_.study, wide[i].effects, wide[i], fits_by()); });
         return wide;
     }
 
