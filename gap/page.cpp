@@ -47,7 +47,7 @@ std::vector<double> ticks(double low, double high) {
     }
     std::vector<double> at;
     for (double k = std::ceil(low / step); k * step <= high + 1e-9 * step; ++k) {
-        at.push_back(k * step);
+        at.push_back(k * step + 0.0);  // no -0
     }
     return at;
 }
@@ -99,8 +99,7 @@ public:
             }
             svg += "\"/>\n";
         }
-        return svg + fmt::format("<text class=\"label\" x=\"{:.1f}\" y=\"20\">{}</text></svg>\n", left_margin + 8.0,
-                                 escaped(label));
+        return fmt::format("<p class=\"dim\">{}</p>\n", escaped(label)) + svg + "</svg>\n";
     }
 
 private:
@@ -136,7 +135,7 @@ constexpr const char* style = R"(
 @media(prefers-color-scheme:dark){:root{--ink:#e6e9ed;--dim:#9aa;--paper:#14181d;--line:#2c333b;--measured:#77818c;--base:#ff8a3c;--after:#56b4e9}}
 body{font:15px/1.5 system-ui,sans-serif;color:var(--ink);background:var(--paper);max-width:1140px;margin:2rem auto;padding:0 1rem}
 h1{font-size:1.5rem;margin:0}h2{font-size:1.05rem;margin:1.6rem 0 .4rem}p{margin:.3rem 0}.dim{color:var(--dim)}
-svg{width:100%;height:auto;display:block}text{font:12px system-ui,sans-serif;fill:var(--dim)}text.label{font-weight:600}
+svg{width:100%;height:auto;display:block}text{font:12px system-ui,sans-serif;fill:var(--dim)}
 polyline{fill:none;stroke-width:1.6}.measured{stroke:var(--measured);stroke-width:3}.base{stroke:var(--base);stroke-dasharray:6 4}.after{stroke:var(--after)}
 path.grid{stroke:var(--line)}table{border-collapse:collapse;width:100%}td,th{padding:.15rem .6rem .15rem 0;text-align:left;vertical-align:middle}
 td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}.track{display:inline-block;width:220px;height:9px;background:var(--line);border-radius:5px;overflow:hidden}
