@@ -31,7 +31,7 @@ for list in time frequency input_level output_level; do
     [ "$sum" = 1.000000 ] || { echo "verdict.json: expected shares of $list that sum to 1, found $sum"; failures=$((failures + 1)); }
 done
 # The improved model is nearer to the log than the base.
-expect 0 "with input_dead_zone" simulate --model "$folder/improved.json" --input "$folder/other.csv" --out "$folder/better.csv"
+expect 0 "with input_dead_zone" simulate --model "$folder/improved.json" --input "$folder/other.csv" --step-s 0.02 --out "$folder/better.csv"
 expect 0 "" simulate --model "$folder/linear.json" --input "$folder/other.csv" --step-s 0.02 --out "$folder/base.csv"
 distance() { # of the second file's third column from the measured one, every 20 ms
     awk -F, 'NR == FNR {if (FNR > 2) z[n++] = $3; next} FNR > 1 {d = $3 - z[m++]; s += d * d} END {print sqrt(s / m)}' "$folder/other.csv" "$1"
