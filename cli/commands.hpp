@@ -30,6 +30,7 @@ void add_gate(CLI::App& app);
 
 /// `compare`: two runs side by side.
 void add_compare(CLI::App& app);
+void add_diagnose(CLI::App& app);
 
 /// `time`: the modelled cycles of a function of any program.
 void add_time(CLI::App& app);

@@ -62,6 +62,7 @@ int main(int argc, char** argv) {
     cli::add_score(app);
     cli::add_stand(app);
     cli::add_paper(app);
+    cli::add_diagnose(app);
     // The launcher tells every command how many jobs may run at once.
     unsigned unused_jobs = 1;
     for (CLI::App* command : app.get_subcommands([](CLI::App*) { return true; })) {

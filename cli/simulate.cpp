@@ -15,6 +15,7 @@
 #include "drive/pictures.hpp"
 #include "drive/response.hpp"
 #include "drive/simulation.hpp"
+#include "gap/drive/improved.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -99,6 +100,30 @@ drive::Log make_record(const Options& options, double step_s) {
     return record;
 }
 
+// A model that diagnose improved: its effects are simulated with it. \return whether it has any
+bool simulate_effects(const drive::Model& model, drive::Log record, const Options& options) {
+    gap::Record stamped{record.name, record.time_s, record.input, {}, 0.0};
+    stamped.usual_interval_s =
+        (record.time_s.back() - record.time_s.front()) / static_cast<double>(record.time_s.size() - 1);
+    const gap::Improved improved = gap::simulate_improved(model, stamped, options.model.string());
+    if (improved.effects.empty()) {
+        return false;
+    }
+    record.output = improved.output;
+    fmt::print("{}\nwith {}, input {}: {} samples, at {:.6g} s the output is {:.10g}\n", drive::to_text(model),
+               fmt::join(improved.effects, ", "), options.input, record.output.size(), record.time_s.back(),
+               record.output.back());
+    if (!options.out.empty()) {
+        put(drive::to_csv(record), options.out);
+    }
+    if (!options.plot.empty()) {
+        bench::draw(
+            drive::picture_of_curves({{"with effects", record.time_s, record.output}}, drive::to_text(model), "output"),
+            options.plot);
+    }
+    return true;
+}
+
 void run(Options options) {
     const drive::Model model = read_model(options.model);
     if (!options.at_s.empty()) {
@@ -110,6 +135,9 @@ void run(Options options) {
     options.scheme.taps = to_taps(options.taps);
     options.scheme.forcing = options.sampled ? drive::Forcing::sampled : drive::Forcing::held;
     drive::Log record = make_record(options, options.scheme.step_s);
+    if (simulate_effects(model, record, options)) {
+        return;
+    }
     const std::string method =
         options.exact
             ? "exact, by numerical inverse Laplace"

@@ -56,6 +56,8 @@ library_of() {
         bench/*) echo bench/libglsum_bench.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
         drive/*) echo drive/libglsum_drive.a ;;
+        gap/cycles/*) echo gap/cycles/libglsum_gap_cycles.a ;;
+        gap/*) echo gap/libglsum_gap.a ;;
         qemu/timing/*) echo qemu/timing/libglsum_timing.a ;;
         qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
         qemu/marked_timer.cpp) echo qemu/libglsum_qemu.a ;;
@@ -71,6 +73,8 @@ tests_of() {
         bench/choose/*) echo choose_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
         drive/*) echo drive_tests ;;
+        gap/cycles/*) echo gap_cycles_tests ;;
+        gap/*) echo gap_tests ;;
         qemu/timing/*) echo timing_tests ;;
         *) echo qemu_tests bench_tests ;;
     esac

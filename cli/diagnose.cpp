@@ -1,0 +1,147 @@
+// glsum diagnose drive: where a drive and its simulation part, which effect explains it, how far the gap shrinks.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "cli/commands.hpp"
+#include "cli/diagnose_cycles.hpp"
+#include "cli/drive_files.hpp"
+#include "gap/drive/diagnose.hpp"
+#include "gap/drive/start.hpp"
+#include "gap/page.hpp"
+#include "gap/verdict.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+namespace {
+
+struct Options {
+    std::string model;
+    std::vector<std::filesystem::path> logs;
+    std::vector<std::filesystem::path> validate;
+    drive::Columns columns;
+    std::optional<double> split_s;
+    bool refit = false;
+    std::string metric = "simulation";
+    std::vector<std::string> without;
+    std::filesystem::path json;
+    std::filesystem::path html;
+    std::filesystem::path improved;
+    unsigned jobs = 1;
+};
+
+std::vector<gap::Record> read_records(const std::vector<std::filesystem::path>& paths, const drive::Columns& columns) {
+    std::vector<gap::Record> records;
+    for (const auto& path : paths) {
+        records.push_back(gap::to_record(read_ordered_log(path, columns)));
+    }
+    return records;
+}
+
+// Validation that was trained on; said at once, since the rest takes a while.
+bool repeats_training(const gap::Question& question) {
+    bool repeats = false;
+    for (const gap::Record& record : question.validate) {
+        for (const gap::Record& trained : question.train) {
+            if (record.input == trained.input && record.output == trained.output) {
+                fmt::print(stderr, "glsum: warning: {}: is the training log itself: what fits it proves nothing\n",
+                           record.name);
+                repeats = true;
+            }
+        }
+    }
+    return repeats;
+}
+
+void check_split(const gap::Question& question) {
+    if (!question.split_s || !question.validate.empty()) {
+        return;
+    }
+    for (const gap::Record& record : question.train) {
+        const auto before =
+            std::count_if(record.time_s.begin(), record.time_s.end(), [&](double t) { return t < *question.split_s; });
+        if (before < 32 || static_cast<std::size_t>(before) + 32 > record.size()) {
+            throw glsum::Failure(
+                glsum::Exit::bad_input,
+                fmt::format("--split {}: expected 32 samples or more on both sides, found {} of {} before "
+                            "it in {}",
+                            *question.split_s, before, record.size(), record.name));
+        }
+    }
+}
+
+void run(const Options& options) {
+    std::vector<gap::Record> train = read_records(options.logs, options.columns);
+    for (const std::string& name : options.without) {
+        (void)gap::effect_named(name);
+    }
+    const bool fitted = options.model.starts_with("fit:");
+    const drive::Form form =
+        fitted ? gap::search_form(options.model.substr(4), train) : gap::form_of(read_model(options.model));
+    const gap::Question question{form,
+                                 fitted || options.refit,
+                                 std::move(train),
+                                 read_records(options.validate, options.columns),
+                                 options.split_s,
+                                 options.metric == "prediction" ? gap::Metric::prediction : gap::Metric::simulation,
+                                 options.without,
+                                 options.jobs};
+    check_split(question);
+    const bool same = repeats_training(question);
+    gap::Answer answer = gap::diagnose(question, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
+    if (same) {
+        answer.notes.emplace_back("a validation log is a training log itself: what fits it proves nothing");
+        answer.decision.confidence = std::min(answer.decision.confidence, 0.5);
+    }
+    fmt::print("{}", gap::to_text(answer));
+    if (!options.json.empty()) {
+        put(gap::to_json(answer), options.json);
+    }
+    if (!options.html.empty()) {
+        put(gap::to_html(answer), options.html);
+    }
+    if (!options.improved.empty()) {
+        put(gap::improved_model(answer), options.improved);
+    }
+}
+
+}  // namespace
+
+void add_diagnose(CLI::App& app) {
+    CLI::App* command =
+        app.add_subcommand("diagnose", "Where simulation and measurement part, and which effect explains it");
+    command->require_subcommand(1);
+    add_diagnose_cycles(*command);
+    auto options = std::make_shared<Options>();
+    options->jobs = std::max(1U, std::thread::hardware_concurrency());
+    CLI::App* of_drive = command->add_subcommand("drive", "A model of a drive against its logs");
+    of_drive->footer(
+        "Without --refit the model is judged as it is, its parameters included. With it, or with fit:FORM, its gain, "
+        "dynamics,\n"
+        "dead time, offset and initial state are fitted first.\n"
+        "Example: glsum diagnose drive --model model.json --log train.csv --validate other.csv --json verdict.json");
+    of_drive->add_option("--model", options->model, "Model JSON, or fit:fopdt, fit:sopdt, fit:niopdt, fit:integrator")
+        ->required();
+    of_drive->add_option("--log", options->logs, "Logs that are fitted")->required();
+    of_drive->add_option("--validate", options->validate, "Logs that are not: the verdict is taken there");
+    of_drive->add_option("--split", options->split_s,
+                         "SECONDS: the logs up to there are fitted, the rest of each validates");
+    of_drive->add_flag("--refit", options->refit, "Fit the model first");
+    of_drive
+        ->add_option("--metric", options->metric,
+                     "simulation, or prediction: for drives that integrate or were logged in a closed loop")
+        ->check(CLI::IsMember({"simulation", "prediction"}))
+        ->capture_default_str();
+    of_drive->add_option("--without", options->without, "Effects to leave off the list")->delimiter(',');
+    add_column_options(*of_drive, options->columns);
+    of_drive->add_option("--json", options->json, "The verdict, schema glsum-gap-1");
+    of_drive->add_option("--html", options->html, "A page with curves, ranking and where the gap lies");
+    of_drive->add_option("--improved", options->improved, "The model with the effect, which simulate runs");
+    of_drive->add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    of_drive->callback([options] { run(*options); });
+}
+
+}  // namespace cli

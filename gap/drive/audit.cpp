@@ -1,0 +1,163 @@
+#include "gap/drive/audit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace gap {
+namespace {
+
+double span_of(const std::vector<double>& values) {
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    return *high - *low;
+}
+
+// The step whose multiples all differences between readings are, and the readings too.
+double quantum_of(const std::vector<Record>& records) {
+    std::vector<double> sizes;
+    double span = 0.0;
+    for (const Record& record : records) {
+        span = std::max(span, span_of(record.output));
+        for (std::size_t i = 1; i < record.size(); ++i) {
+            const double by = std::fabs(record.output[i] - record.output[i - 1]);
+            if (by > 0.0) {
+                sizes.push_back(by);
+            }
+        }
+    }
+    if (sizes.empty()) {
+        return 0.0;
+    }
+    const double least = *std::min_element(sizes.begin(), sizes.end());
+    if (least < 1e-5 * span) {
+        return 0.0;  // the digits of the file
+    }
+    double along = 0.0;
+    double square = 0.0;
+    double far = 0.0;
+    for (const double size : sizes) {
+        const double multiple = std::round(size / least);
+        along += size * multiple;
+        square += multiple * multiple;
+        far += std::fabs(size / least - multiple) > 0.02 * multiple ? 1.0 : 0.0;
+    }
+    if (far > 0.01 * static_cast<double>(sizes.size())) {
+        return 0.0;
+    }
+    const double step = along / square;
+    double off = 0.0;
+    double count = 0.0;
+    for (const Record& record : records) {
+        for (const double value : record.output) {
+            off += std::fabs(value / step - std::round(value / step)) > 0.1 ? 1.0 : 0.0;
+            count += 1.0;
+        }
+    }
+    return off > 0.01 * count ? 0.0 : step;
+}
+
+// Readings that repeat the one before although their neighbours move.
+double held_share_of(const std::vector<Record>& records, double quantum) {
+    constexpr std::size_t near = 8;
+    double held = 0.0;
+    double count = 0.0;
+    for (const Record& record : records) {
+        const std::vector<double>& z = record.output;
+        const auto [low, high] = std::minmax_element(z.begin(), z.end());
+        count += static_cast<double>(z.size());
+        for (std::size_t i = 1; i < z.size(); ++i) {
+            if (z[i] != z[i - 1] || z[i] == *low || z[i] == *high) {
+                continue;
+            }
+            std::size_t end = i;
+            while (end + 1 < z.size() && z[end + 1] == z[i]) {
+                ++end;
+            }
+            if (end + near >= z.size() || i < near + 1) {
+                i = end;
+                continue;
+            }
+            // Before and after the stretch every sample moved by more than a quantum makes.
+            bool moves = std::fabs(z[end + 1] - z[i]) > 2.5 * quantum;
+            for (std::size_t k = 1; k < near / 2; ++k) {
+                moves = moves && std::fabs(z[i - 1 - k] - z[i - k]) > 0.0 &&
+                        (quantum > 0.0 || std::fabs(z[end + k + 1] - z[end + k]) > 0.0);
+            }
+            held += moves ? static_cast<double>(end - i + 1) : 0.0;
+            i = end;
+        }
+    }
+    return held > 0.002 * count ? held / count : 0.0;
+}
+
+double noise_of(const std::vector<Record>& records) {
+    std::vector<double> seconds;
+    for (const Record& record : records) {
+        for (std::size_t i = 2; i < record.size(); ++i) {
+            seconds.push_back(std::fabs(record.output[i] - 2.0 * record.output[i - 1] + record.output[i - 2]));
+        }
+    }
+    const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
+    std::nth_element(seconds.begin(), middle, seconds.end());
+    return *middle / (0.6745 * std::sqrt(6.0));
+}
+
+std::size_t levels_of(const std::vector<Record>& records) {
+    double largest = 0.0;
+    for (const Record& record : records) {
+        for (const double u : record.input) {
+            largest = std::max(largest, std::fabs(u));
+        }
+    }
+    std::vector<double> seen;
+    for (const Record& record : records) {
+        for (const double u : record.input) {
+            if (seen.size() < 100 && std::none_of(seen.begin(), seen.end(), [&](double other) {
+                    return std::fabs(other - u) <= 0.02 * largest;
+                })) {
+                seen.push_back(u);
+            }
+        }
+    }
+    return seen.size();
+}
+
+}  // namespace
+
+Audit audit(const std::vector<Record>& records) {
+    Audit found;
+    found.quantum = quantum_of(records);
+    found.held_share = held_share_of(records, found.quantum);
+    found.noise = std::max(noise_of(records), 0.29 * found.quantum);
+    found.levels = levels_of(records);
+    if (found.quantum > 0.0) {
+        found.notes.push_back(fmt::format("readings are multiples of {:.6g}", found.quantum));
+    }
+    if (found.held_share > 0.0) {
+        found.notes.push_back(fmt::format("{:.1f} % of the readings repeat the one before while the output moves",
+                                          100.0 * found.held_share));
+    }
+    for (const Record& record : records) {
+        const double longest = [&] {
+            double most = 0.0;
+            for (std::size_t i = 1; i < record.size(); ++i) {
+                most = std::max(most, record.time_s[i] - record.time_s[i - 1]);
+            }
+            return most;
+        }();
+        if (longest > 5.0 * record.usual_interval_s) {
+            found.notes.push_back(fmt::format("{}: a gap of {:.4g} s between stamps, usually {:.4g} s", record.name,
+                                              longest, record.usual_interval_s));
+        }
+        const auto [low, high] = std::minmax_element(record.output.begin(), record.output.end());
+        const auto at_top = std::count(record.output.begin(), record.output.end(), *high);
+        if (at_top >= 10 && !(found.quantum > 0.01 * (*high - *low))) {
+            found.notes.push_back(
+                fmt::format("{}: {} readings are {:.6g}, the highest: clipped?", record.name, at_top, *high));
+        }
+    }
+    return found;
+}
+
+}  // namespace gap

@@ -1,0 +1,190 @@
+#include "gap/drive/candidate.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gap {
+namespace {
+
+FreeParameter to_free(const std::string& name, double value, double lower, double upper, double scale) {
+    return {name, std::clamp(value, lower, upper), lower, upper, scale};
+}
+
+bool is_fitted(const drive::Parameter& parameter) { return !parameter.fixed && parameter.name != "offset"; }
+
+std::size_t free_count(const std::vector<FreeParameter>& list) {
+    return static_cast<std::size_t>(
+        std::count_if(list.begin(), list.end(), [](const FreeParameter& parameter) { return !parameter.fixed; }));
+}
+
+std::vector<double> next_values(const Effect& effect, const Scales& scales, const FreeParameter*& next) {
+    std::vector<double> values;
+    for (std::size_t i = effect.parameters(scales).size(); i > 0; --i) {
+        values.push_back((next++)->value);
+    }
+    return values;
+}
+
+}  // namespace
+
+std::string Candidate::name() const {
+    std::string joined;
+    for (const Effect* effect : effects) {
+        joined += (joined.empty() ? "" : " + ") + effect->name;
+    }
+    return joined.empty() ? "none" : joined;
+}
+
+bool Candidate::has(const std::string& effect) const {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect* mine) { return mine->name == effect; });
+}
+
+std::size_t Candidate::effect_parameters() const {
+    std::size_t count = own.empty() ? 0 : event_parameters() / own.size();
+    for (const auto& list : lasting) {
+        count += free_count(list);
+    }
+    return count;
+}
+
+std::size_t Candidate::event_parameters() const {
+    std::size_t count = 0;
+    for (const auto& list : own) {
+        for (const FreeParameter& parameter : list) {
+            count += !parameter.fixed && parameter.name.find('.') != std::string::npos ? 1 : 0;
+        }
+    }
+    return count;
+}
+
+std::vector<FreeParameter> base_of(const Study& study) {
+    std::vector<FreeParameter> free;
+    if (!study.base.refit) {
+        return free;
+    }
+    for (const drive::Parameter& parameter : study.base.form.parameters()) {
+        if (!is_fitted(parameter)) {
+            continue;
+        }
+        const bool delay = parameter.name == "delay_s";
+        const double size = std::max(std::fabs(parameter.value), 1e-3);
+        // Far enough to reach any sensible value, not so far that a step leaves all sense.
+        const double lower = delay ? 0.0 : std::max(parameter.lower, parameter.value - 30.0 * size);
+        const double upper = delay ? std::min(parameter.upper, 0.5 * study.scales.length_s)
+                                   : std::min(parameter.upper, parameter.value + 30.0 * size);
+        const double scale = delay ? std::max(size, study.scales.time_constant_s) : size;
+        free.push_back(to_free(parameter.name, parameter.value, lower, std::max(upper, lower + 1e-9), scale));
+    }
+    if (!study.scales.steady) {  // elsewhere the operating point has it
+        const double force = study.scales.force;
+        free.push_back(to_free("bias", 0.0, -force, force, 0.1 * force));
+    }
+    return free;
+}
+
+std::vector<FreeParameter> state_of(const Study& study, const Record& record) {
+    if (!study.base.refit) {
+        return {};
+    }
+    const double span = study.scales.output_span;
+    const double first = record.output.front();
+    const double speed = study.scales.speed_max;
+    const double far = 1e3 * span + std::fabs(first);
+    return {to_free("offset", study.scales.steady && record.input.front() == 0.0 ? first : 0.0, -far, far, span),
+            to_free("initial_output", first, first - 3.0 * span, first + 3.0 * span, span),
+            to_free("initial_velocity", 0.0, -3.0 * speed, 3.0 * speed, speed),
+            to_free("input_before", 0.0, -study.scales.input_max, study.scales.input_max, study.scales.input_max)};
+}
+
+std::vector<FreeParameter> parameters_of(const Effect& effect, const Scales& scales, std::size_t start) {
+    std::vector<FreeParameter> all;
+    for (const EffectParameter& parameter : effect.parameters(scales)) {
+        const double value = parameter.starts[start % parameter.starts.size()];
+        all.push_back(to_free(effect.name + "." + parameter.name, value, parameter.lower, parameter.upper,
+                              std::max(std::fabs(value - parameter.none), 0.02 * (parameter.upper - parameter.lower))));
+        all.back().fixed = parameter.discrete;
+    }
+    return all;
+}
+
+std::size_t starts_of(const Effect& effect, const Scales& scales) {
+    std::size_t most = 1;
+    for (const EffectParameter& parameter : effect.parameters(scales)) {
+        most = std::max(most, parameter.starts.size());
+    }
+    return most;
+}
+
+bool applies(const Effect& effect, const Scales& scales) { return !effect.parameters(scales).empty(); }
+
+std::vector<FreeParameter*> free_numbers(Candidate& candidate, bool own_only) {
+    std::vector<FreeParameter*> all;
+    const auto add = [&](std::vector<FreeParameter>& list) {
+        for (FreeParameter& parameter : list) {
+            if (!parameter.fixed) {
+                all.push_back(&parameter);
+            }
+        }
+    };
+    if (!own_only) {
+        add(candidate.base);
+        for (auto& list : candidate.lasting) {
+            add(list);
+        }
+    }
+    for (auto& list : candidate.own) {
+        add(list);
+    }
+    return all;
+}
+
+Scenario scenario_of(const Study& study, const Candidate& candidate, std::size_t record) {
+    std::vector<double> values;
+    const FreeParameter* next_base = candidate.base.data();
+    for (const drive::Parameter& parameter : study.base.form.parameters()) {
+        values.push_back(study.base.refit && is_fitted(parameter) ? (next_base++)->value : parameter.value);
+    }
+    Scenario scenario;
+    scenario.model = study.base.form.to_model(values);
+    const FreeParameter* own = candidate.own[record].data();
+    if (study.base.refit) {
+        scenario.forces.bias = study.scales.steady ? 0.0 : next_base->value;
+        scenario.operating_output = (own++)->value;
+        // The first reading is where it rests, whatever the operating point is.
+        scenario.initial_output = (own++)->value - scenario.operating_output;
+        scenario.initial_velocity = (own++)->value;
+        scenario.input_before = (own++)->value;
+    }
+    std::size_t next_lasting = 0;
+    for (const Effect* effect : candidate.effects) {
+        const FreeParameter* lasting =
+            effect->kind == Kind::lasting ? candidate.lasting[next_lasting++].data() : nullptr;
+        effect->add_to(scenario, next_values(*effect, study.scales, lasting != nullptr ? lasting : own));
+    }
+    return scenario;
+}
+
+std::vector<double> residuals_of(const Study& study, const Candidate& candidate, std::size_t record) {
+    const Course& course = study.courses[record];
+    std::vector<double> residuals = simulate(scenario_of(study, candidate, record), course);
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+        residuals[i] = course.record().output[i] - residuals[i];
+    }
+    if (study.horizon > 0) {
+        // The simulation goes on from the reading a horizon ago: what it missed until then is no longer missed.
+        for (std::size_t i = residuals.size(); i-- > 0;) {
+            residuals[i] -= residuals[i > study.horizon ? i - study.horizon : 0];
+        }
+    }
+    return residuals;
+}
+
+std::vector<std::vector<double>> all_residuals(const Study& study, const Candidate& candidate) {
+    std::vector<std::vector<double>> all;
+    for (std::size_t r = 0; r < study.courses.size(); ++r) {
+        all.push_back(residuals_of(study, candidate, r));
+    }
+    return all;
+}
+
+}  // namespace gap

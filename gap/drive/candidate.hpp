@@ -1,0 +1,52 @@
+// A base model with some effects and the numbers that it has.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gap/drive/study.hpp"
+
+namespace gap {
+
+/// One number that a fit may move.
+struct FreeParameter {
+    std::string name;  ///< "gain", "input_dead_zone.width", "initial_output"
+    double value;
+    double lower;
+    double upper;
+    double scale;  ///< what counts as a step: differences are taken over 3e-4 of it
+    bool fixed = false;
+    double deviation = 0.0;  ///< of a fitted value, by `add_deviations`; infinite if nothing tells it
+};
+
+struct Candidate {
+    std::vector<const Effect*> effects;
+    std::vector<FreeParameter> base;                  ///< shared by all records
+    std::vector<std::vector<FreeParameter>> lasting;  ///< by effect
+    std::vector<std::vector<FreeParameter>> own;      ///< by record: its state, then events' parameters
+    double cost = 0.0;                                ///< half the sum of squares of the (whitened) residuals
+    [[nodiscard]] std::string name() const;           ///< "none", or effects joined by " + "
+    [[nodiscard]] bool has(const std::string& effect) const;
+    [[nodiscard]] std::size_t effect_parameters() const;  ///< free ones of effects, those of events in one record
+    [[nodiscard]] std::size_t event_parameters() const;   ///< free ones, in all records
+};
+
+/// The base's free numbers at their starts; none unless it is refitted.
+[[nodiscard]] std::vector<FreeParameter> base_of(const Study& study);
+/// A record's own state likewise.
+[[nodiscard]] std::vector<FreeParameter> state_of(const Study& study, const Record& record);
+/// An effect's parameters at one of its starts.
+[[nodiscard]] std::vector<FreeParameter> parameters_of(const Effect& effect, const Scales& scales, std::size_t start);
+[[nodiscard]] std::size_t starts_of(const Effect& effect, const Scales& scales);
+[[nodiscard]] bool applies(const Effect& effect, const Scales& scales);
+
+/// The numbers that are not fixed: base, lasting and own in turn, or own alone.
+[[nodiscard]] std::vector<FreeParameter*> free_numbers(Candidate& candidate, bool own_only);
+
+[[nodiscard]] Scenario scenario_of(const Study& study, const Candidate& candidate, std::size_t record);
+/// measured - simulated, or - predicted over the study's horizon
+[[nodiscard]] std::vector<double> residuals_of(const Study& study, const Candidate& candidate, std::size_t record);
+/// Of every record.
+[[nodiscard]] std::vector<std::vector<double>> all_residuals(const Study& study, const Candidate& candidate);
+
+}  // namespace gap

@@ -1,0 +1,228 @@
+#include "gap/drive/decide.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "gap/flexible.hpp"
+
+namespace gap {
+namespace {
+
+// A likelihood ratio that chance does not reach among some hundred candidates.
+constexpr double clear_advantage = 8.0;
+// Below it two explanations are not told apart.
+constexpr double parting_advantage = 6.0;
+// An effect takes at least so much of the gap: a twentieth of the base's rms; a further one of what can be closed.
+constexpr double material_share = 0.04;
+// More than so much of the closable squared gap left, and foreseeable: something else is missing.
+constexpr double unexplained_share = 0.15;
+
+std::vector<Remainder> remainders(const Study& study, const std::vector<std::vector<double>>& residuals) {
+    std::vector<Remainder> all;
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
+        Remainder one{&study.courses[r].record(), study.courses[r].record().output, residuals[r], study.counts[r]};
+        for (std::size_t i = 0; i < one.simulated.size(); ++i) {
+            one.simulated[i] -= residuals[r][i];
+        }
+        all.push_back(std::move(one));
+    }
+    return all;
+}
+
+// What a model without physics still takes off the residuals of the validation records.
+Flexible remainder_of(const Ranked& ranked, const Study& study, const Study& validation, bool same_records) {
+    const drive::Model model = model_of(study.base.form);
+    std::vector<Remainder> also;
+    if (!same_records) {
+        also = remainders(study, all_residuals(study, ranked.trained));
+    }
+    return explain(remainders(validation, ranked.residuals), also, model.delay_s, study.scales.time_constant_s);
+}
+
+bool generalises(const Candidate& general, const Candidate& special) {
+    if (general.effects.size() != special.effects.size()) {
+        return false;
+    }
+    bool more = false;
+    for (const Effect* effect : special.effects) {
+        const bool same = general.has(effect->name);
+        const bool wider = std::any_of(general.effects.begin(), general.effects.end(), [&](const Effect* mine) {
+            return std::find(mine->generalises.begin(), mine->generalises.end(), effect->name) !=
+                   mine->generalises.end();
+        });
+        if (!same && !wider) {
+            return false;
+        }
+        more = more || wider;
+    }
+    return more;
+}
+
+bool is_clear(const Interval& over) { return over.mean > clear_advantage && over.low > 0.0; }
+
+// In [0.5, 0.97], by how far the nearest rival is.
+double confidence_by(double advantage) { return 0.5 + 0.47 * (1.0 - std::exp(-std::max(0.0, advantage) / 8.0)); }
+
+class Deciding {
+public:
+    Deciding(const std::vector<Ranked>& ranking, const Study& study, const Study& validation, bool same_records)
+        : ranking_(ranking), study_(study), validation_(validation), same_records_(same_records) {}
+
+    Decision decide() {
+        const std::size_t none = *best_of(0);
+        decision_.base_gap = ranking_[none].gap_after;
+        std::size_t chosen = none;
+        double least = decision_.base_gap;
+        for (const Ranked& ranked : ranking_) {
+            // Of those that are as likely as any: others may follow noise.
+            if (ranked.score() > ranking_.front().score() - clear_advantage) {
+                least = std::min(least, ranked.gap_after);
+            }
+        }
+        for (std::size_t size = 1; size <= 3; ++size) {
+            if (const auto wider = best_of(size); wider && is_better(*wider, chosen, least)) {
+                chosen = *wider;
+            }
+        }
+        decision_.chosen = chosen;
+        const Flexible flexible = remainder_of(ranking_[chosen], study_, validation_, same_records_);
+        const double after = ranking_[chosen].gap_after;
+        const bool foreseeable = flexible.certain && flexible.explained > 0.1;
+        const double left = foreseeable ? after * std::sqrt(1.0 - flexible.explained) : after;
+        decision_.noise_floor = std::min(left, least);
+        const double closable = square(decision_.base_gap) - square(decision_.noise_floor);
+        const double unexplained = closable > 0.0 ? (square(after) - square(left)) / closable : 0.0;
+        if (foreseeable) {
+            decision_.notes.push_back(fmt::format(
+                "of the squared gap that is left, {:.0f} % can be foreseen from input and output by a model "
+                "without physics",
+                100.0 * flexible.explained));
+        }
+        if (foreseeable && unexplained > unexplained_share && after - left > 0.02 * decision_.base_gap) {
+            decision_.outcome = Outcome::unknown;
+            decision_.confidence = std::clamp(0.5 + 0.5 * unexplained, 0.5, 0.95);
+        } else if (chosen == none) {
+            decision_.outcome = Outcome::no_gap;
+            // How near the best effect came to being named.
+            const auto best = best_of(1);
+            const double near = best ? std::max(0.0, advantage(ranking_[*best], ranking_[none]).mean) : 0.0;
+            decision_.confidence = 0.95 - 0.3 * std::min(1.0, near / clear_advantage);
+        } else {
+            attribute(chosen, none);
+        }
+        if (decision_.outcome == Outcome::no_gap) {
+            name_the_quantum(after);
+        }
+        if (decision_.outcome == Outcome::no_gap && is_slow(validation_, after * output_deviation(validation_)) &&
+            after > 0.05) {
+            decision_.outcome = Outcome::unknown;
+            decision_.confidence = 0.5;
+            decision_.notes.emplace_back(
+                "what is left is slow and many times what differs from sample to sample: no noise of a sensor, and "
+                "nothing "
+                "listed explains it");
+        }
+        doubt_what_does_not_belong(after);
+        return decision_;
+    }
+
+private:
+    static double square(double value) { return value * value; }
+
+    [[nodiscard]] std::optional<std::size_t> best_of(std::size_t size) const {
+        for (std::size_t i = 0; i < ranking_.size(); ++i) {
+            if (ranking_[i].trained.effects.size() == size) {
+                return i;
+            }
+        }
+        return std::nullopt;
+    }
+
+    [[nodiscard]] bool is_better(std::size_t wider, std::size_t chosen, double least) const {
+        const double before = ranking_[chosen].gap_after;
+        const double after = ranking_[wider].gap_after;
+        const double material =
+            ranking_[chosen].trained.effects.empty() ? 0.03 * before : material_share * (decision_.base_gap - least);
+        return is_clear(advantage(ranking_[wider], ranking_[chosen])) && before - after > material;
+    }
+
+    // The chosen one, and those that these data cannot part from it.
+    void attribute(std::size_t chosen, std::size_t none) {
+        decision_.effects.push_back(chosen);
+        double nearest = advantage(ranking_[chosen], ranking_[none]).mean;
+        for (std::size_t i = 0; i < ranking_.size(); ++i) {
+            const Candidate& other = ranking_[i].trained;
+            if (i == chosen || other.effects.size() != ranking_[chosen].trained.effects.size() ||
+                generalises(other, ranking_[chosen].trained)) {
+                continue;
+            }
+            const Interval over = advantage(ranking_[chosen], ranking_[i]);
+            if (over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage)) {
+                if (generalises(ranking_[chosen].trained, other)) {
+                    decision_.effects.front() = decision_.chosen = i;  // the simpler one says as much
+                } else {
+                    decision_.effects.push_back(i);
+                }
+            } else {
+                nearest = std::min(nearest, over.mean);
+            }
+        }
+        const bool alone = decision_.effects.size() == 1;
+        decision_.outcome = alone ? Outcome::attributed : Outcome::ambiguous;
+        decision_.confidence = alone ? confidence_by(nearest)
+                                     : 0.9 / static_cast<double>(std::min<std::size_t>(decision_.effects.size(), 6));
+    }
+
+    // That readings are multiples of a step is a fact of the log; here it is also most of what is left.
+    void name_the_quantum(double after) {
+        const double step = study_.scales.quantum / output_deviation(validation_);
+        const auto candidate = std::find_if(ranking_.begin(), ranking_.end(), [](const Ranked& ranked) {
+            return ranked.trained.name() == "encoder_quantisation";
+        });
+        if (candidate == ranking_.end() || step * step / 12.0 < 0.5 * square(after)) {
+            return;
+        }
+        decision_.chosen = static_cast<std::size_t>(candidate - ranking_.begin());
+        decision_.effects = {decision_.chosen};
+        decision_.outcome = Outcome::attributed;
+        decision_.noise_floor = std::min(decision_.noise_floor, candidate->gap_after);
+        decision_.confidence = 0.9;
+    }
+
+    void doubt_what_does_not_belong(double after) {
+        if (decision_.base_gap > 0.6 && after > 0.5) {
+            decision_.notes.emplace_back(
+                "no candidate explains even half of the output: do model and log belong together?");
+            decision_.outcome = Outcome::unknown;
+            decision_.effects.clear();
+            decision_.confidence = std::min(decision_.confidence, 0.3);
+        }
+        const bool moves = std::any_of(study_.courses.begin(), study_.courses.end(), [](const Course& course) {
+            const auto& input = course.record().input;
+            return std::any_of(input.begin(), input.end(), [&](double u) { return u != input.front(); });
+        });
+        if (!moves) {
+            decision_.notes.emplace_back(
+                "the input never moves within the training records: all that is known is one step at "
+                "their start");
+            decision_.confidence = std::min(decision_.confidence, 0.5);
+        }
+    }
+
+    const std::vector<Ranked>& ranking_;
+    const Study& study_;
+    const Study& validation_;
+    bool same_records_;
+    Decision decision_;
+};
+
+}  // namespace
+
+Decision decide(const std::vector<Ranked>& ranking, const Study& study, const Study& validation, bool same_records) {
+    return Deciding(ranking, study, validation, same_records).decide();
+}
+
+}  // namespace gap

@@ -1,0 +1,24 @@
+// From a ranking to a verdict.
+#pragma once
+
+#include "gap/drive/ranking.hpp"
+
+namespace gap {
+
+enum class Outcome { attributed, ambiguous, unknown, no_gap };
+
+struct Decision {
+    Outcome outcome = Outcome::no_gap;
+    std::vector<std::size_t> effects;  ///< into the ranking: the one, or the alternatives
+    std::size_t chosen = 0;            ///< into the ranking: what helps most, be it `none`
+    double base_gap = 0.0;
+    double noise_floor = 0.0;  ///< as a gap
+    double confidence = 0.0;
+    std::vector<std::string> notes;
+};
+
+/// \param ranking  the best first, `none` among them
+[[nodiscard]] Decision decide(const std::vector<Ranked>& ranking, const Study& study, const Study& validation,
+                              bool same_records);
+
+}  // namespace gap

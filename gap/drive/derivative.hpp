@@ -1,0 +1,70 @@
+// Fractional derivatives of a sampled signal, second order in the step, at a cost that does not grow with its past.
+//
+// On increments e_k = y_k - y_(k-1) the weights of D^v are those of h^-v (1-z)^(v-1) ((3-z)/2)^v [Lubich1986, BDF2]: a
+// few near ones are kept, the rest is a sum of exponentials whose decays are the same for all orders, so that a change
+// of order or coefficient costs one small least-squares solution and every order shares one set of states.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/QR>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace gap {
+
+/// A table on increments: near weights, newest first, and one weight for each shared exponential.
+struct Table {
+    Eigen::VectorXd near;
+    Eigen::VectorXd far;
+};
+
+/// The exponentials that all tables over one horizon share, and the tables that were asked for lately. Thread-safe.
+class Exponentials {
+public:
+    static constexpr Eigen::Index near_count = 14;
+
+    /// \param horizon  the longest past in samples
+    explicit Exponentials(std::size_t horizon);
+    [[nodiscard]] std::size_t horizon() const { return horizon_; }
+    /// Of each sample: r, in (0, 1).
+    [[nodiscard]] const Eigen::ArrayXd& ratios() const { return ratios_; }
+    /// D^v without its factor h^-v. \param order  v in (0, 3]
+    [[nodiscard]] Table table(double order) const;
+
+private:
+    static constexpr std::size_t most_tables = 64;
+    [[nodiscard]] Table make_table(double order) const;
+
+    std::size_t horizon_;
+    std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();
+    mutable std::map<double, Table> tables_;
+    Eigen::ArrayXd ratios_;
+    std::vector<std::size_t> indices_;
+    Eigen::ArrayXd row_weights_;
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver_;
+};
+
+/// sum_j m_j e_(k-j) as samples come.
+class Past {
+public:
+    Past(const Exponentials& exponentials, Table table);
+    /// The part of the sum that does not need e_k.
+    [[nodiscard]] double known() const;
+    /// The weight of e_k.
+    [[nodiscard]] double newest() const { return table_.near(0); }
+    void push(double increment);
+    /// What the past looks like before the first sample: increments that were all the same.
+    void fill_near(double increment);
+
+private:
+    const Exponentials* exponentials_;
+    Table table_;
+    bool remembers_;        // whole orders need no exponentials
+    Eigen::VectorXd near_;  // newest first, twice as long as needed
+    Eigen::Index head_ = 0;
+    Eigen::ArrayXd states_;
+};
+
+}  // namespace gap

@@ -1,0 +1,73 @@
+// An effect that a simulation may lack: what it does to a scenario, with which parameters.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gap/drive/scenario.hpp"
+
+namespace gap {
+
+class Course;
+
+/// How large things are in the training records, for bounds and starts, and what their audit found.
+struct Scales {
+    double input_max;   ///< of |u|
+    double output_low;  ///< of the readings
+    double output_high;
+    double output_span;
+    double speed_max;  ///< of |dz/dt|
+    double force;      ///< of the right-hand side: gain times the input
+    double length_s;
+    double interval_s;
+    double time_constant_s;  ///< of the model: how long it takes to most of its way
+    double quantum;          ///< readings are multiples of it; 0: of none
+    double held_share;       ///< of the readings that repeat the one before; 0 where a quantum explains them
+    double deployed_step_s;  ///< of the simulation that ran, where one may have: fractional, given, not too long; or 0
+    bool steady;             ///< the model rests somewhere for each input: it does not integrate
+};
+
+struct EffectParameter {
+    std::string name;
+    std::string unit;
+    double lower;
+    double upper;
+    double none;                 ///< the value at which the effect is not there
+    std::vector<double> starts;  ///< fits begin at each
+    bool discrete = false;       ///< stays at its start: a variant, or a value that the audit found
+};
+
+/// What an effect is bound to.
+enum class Kind {
+    lasting,  ///< keeps its fitted parameters in other records
+    event,    ///< happens at its own times in each record: located afresh
+};
+
+/// What a first guess may look at.
+struct Clue {
+    const Course& course;
+    const Scenario& scenario;           ///< without the effect
+    std::span<const double> residuals;  ///< of it, at the stamps
+    const Scales& scales;
+};
+
+struct Effect {
+    std::string name;
+    Kind kind;
+    /// None: it cannot occur in these records.
+    std::vector<EffectParameter> (*parameters)(const Scales& scales);
+    /// \param values  in the order of `parameters`
+    void (*add_to)(Scenario& scenario, std::span<const double> values);
+    /// Effects that are special cases of this one.
+    std::vector<std::string> generalises = {};
+    /// Where the residuals say that it happened: values in the order of `parameters`. For events.
+    std::vector<double> (*guess)(const Clue& clue) = nullptr;
+};
+
+/// All that there are, in the order of the list (effects.def).
+[[nodiscard]] const std::vector<const Effect*>& effects();
+/// \throws glsum::Failure (bad input) naming those there are
+[[nodiscard]] const Effect& effect_named(const std::string& name);
+
+}  // namespace gap

@@ -1,0 +1,38 @@
+// The reading is held for stretches: where the record itself repeats one value though no quantum makes it. Its rate is
+// the share of repeats that the audit counted.
+#include <algorithm>
+#include <cmath>
+
+#include "gap/drive/effect.hpp"
+
+namespace gap {
+
+const Effect& dropped_samples();
+
+namespace {
+
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    if (!(scales.held_share > 0.0)) {
+        return {};
+    }
+    return {{"rate", "1", scales.held_share, scales.held_share, 0.0, {scales.held_share}, true}};
+}
+
+void add(Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
+    scenario.logger.emplace_back([](std::span<double> reading, const Record& record) {
+        for (std::size_t i = 1; i < record.output.size(); ++i) {
+            if (record.output[i] == record.output[i - 1]) {
+                reading[i] = reading[i - 1];
+            }
+        }
+    });
+}
+
+}  // namespace
+
+const Effect& dropped_samples() {
+    static const Effect effect{"dropped_samples", Kind::lasting, parameters, add};
+    return effect;
+}
+
+}  // namespace gap

@@ -1,0 +1,33 @@
+// w = u ((1 - c) + c |u| / reference): a bend through 0 that leaves the reference where it is.
+#include <algorithm>
+#include <cmath>
+
+#include "gap/drive/effect.hpp"
+
+namespace gap {
+
+const Effect& input_curve();
+
+namespace {
+
+std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
+    return {{"curvature", "1", -0.9, 1.0, 0.0, {-0.3, 0.3, 0.8}},
+            {"reference", "u", scales.input_max, scales.input_max, scales.input_max, {scales.input_max}, true}};
+}
+
+void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
+    scenario.levels.emplace_back([c = values[0], reference = values[1]](std::span<double> levels) {
+        for (double& u : levels) {
+            u *= (1.0 - c) + c * std::fabs(u) / reference;
+        }
+    });
+}
+
+}  // namespace
+
+const Effect& input_curve() {
+    static const Effect effect{"input_curve", Kind::lasting, parameters, add};
+    return effect;
+}
+
+}  // namespace gap

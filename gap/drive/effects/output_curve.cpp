@@ -1,0 +1,45 @@
+// A memoryless bend of the output, z = y ((1 - c) + c |y| / reference), the reference being the largest reading. In its
+// other variant the same bend is that of the restoring term: an outflow.
+#include <algorithm>
+#include <cmath>
+
+#include "gap/drive/effect.hpp"
+
+namespace gap {
+
+const Effect& output_curve();
+
+namespace {
+
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    const double reference = std::max(std::fabs(scales.output_high), std::fabs(scales.output_low));
+    if (!scales.steady) {
+        return {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25}},
+                {"reference", "y", reference, reference, reference, {reference}, true},
+                {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0}, true}};
+    }
+    return {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25, -0.25, 0.25}},
+            {"reference", "y", reference, reference, reference, {reference}, true},
+            {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0, 0.0, 1.0, 1.0}, true}};
+}
+
+void add(Scenario& scenario, std::span<const double> values) {
+    if (values[2] > 0.5) {
+        scenario.forces.outflow = Outflow{values[0], values[1]};
+        return;
+    }
+    scenario.output.emplace_back([c = values[0], reference = values[1]](std::span<double> z, const Motion&) {
+        for (double& value : z) {
+            value *= (1.0 - c) + c * std::fabs(value) / reference;
+        }
+    });
+}
+
+}  // namespace
+
+const Effect& output_curve() {
+    static const Effect effect{"output_curve", Kind::lasting, parameters, add};
+    return effect;
+}
+
+}  // namespace gap

@@ -1,0 +1,314 @@
+#include "gap/drive/fit.hpp"
+
+#include <ceres/ceres.h>
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace gap {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// Residuals of a record as they count.
+std::vector<double> counted(const Study& study, const Candidate& candidate, std::size_t record,
+                            const Whitener* whitener) {
+    std::vector<double> residuals = residuals_of(study, candidate, record);
+    if (whitener != nullptr) {
+        residuals = whitener->apply(residuals);
+    }
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+        residuals[i] = study.counts[record][i] != 0 ? residuals[i] : 0.0;
+    }
+    return residuals;
+}
+
+// Residuals of all records in units that make them comparable, and their differences by each free number.
+class Cost : public ceres::CostFunction {
+public:
+    Cost(const Study& study, Candidate candidate, bool own_only, const Whitener* whitener)
+        : study_(study), candidate_(std::move(candidate)), own_only_(own_only), whitener_(whitener) {
+        int rows = 0;
+        for (const Course& course : study.courses) {
+            rows += static_cast<int>(course.record().size());
+        }
+        set_num_residuals(rows);
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(free_numbers(candidate_, own_only).size()));
+    }
+
+    bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
+        Candidate here = candidate_;
+        const std::vector<FreeParameter*> free = free_numbers(here, own_only_);
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            free[i]->value = parameters[0][i] * free[i]->scale;
+        }
+        std::vector<std::vector<double>> now;
+        std::size_t row = 0;
+        for (std::size_t r = 0; r < study_.courses.size(); ++r) {
+            now.push_back(counted(study_, here, r, whitener_));
+            for (const double value : now.back()) {
+                if (!std::isfinite(value)) {
+                    return false;
+                }
+                residuals[row++] = value;
+            }
+        }
+        if (jacobians == nullptr || jacobians[0] == nullptr) {
+            return true;
+        }
+        const std::size_t columns = free.size();
+        std::fill(jacobians[0], jacobians[0] + row * columns, 0.0);
+        for (std::size_t p = 0; p < columns; ++p) {
+            const double value = free[p]->value;
+            double by = 3e-4 * free[p]->scale;
+            by = value + by > free[p]->upper ? -by : by;
+            free[p]->value = value + by;
+            row = 0;
+            for (std::size_t r = 0; r < study_.courses.size(); ++r) {
+                if (!moves(here, *free[p], r)) {
+                    row += now[r].size();
+                    continue;
+                }
+                const std::vector<double> moved = counted(study_, here, r, whitener_);
+                for (std::size_t k = 0; k < moved.size(); ++k, ++row) {
+                    const double slope = (moved[k] - now[r][k]) / (by / free[p]->scale);
+                    if (!std::isfinite(slope)) {
+                        return false;
+                    }
+                    jacobians[0][row * columns + p] = slope;
+                }
+            }
+            free[p]->value = value;
+        }
+        return true;
+    }
+
+private:
+    // Another record's own numbers move nothing in this one.
+    static bool moves(const Candidate& candidate, const FreeParameter& parameter, std::size_t record) {
+        for (std::size_t r = 0; r < candidate.own.size(); ++r) {
+            const auto& list = candidate.own[r];
+            if (!list.empty() && &parameter >= list.data() && &parameter < list.data() + list.size()) {
+                return r == record;
+            }
+        }
+        return true;
+    }
+
+    const Study& study_;
+    Candidate candidate_;
+    bool own_only_;
+    const Whitener* whitener_;
+};
+
+double cost_of(const Study& study, const Candidate& candidate, const Whitener* whitener) {
+    double cost = 0.0;
+    for (std::size_t r = 0; r < study.courses.size(); ++r) {
+        for (const double value : counted(study, candidate, r, whitener)) {
+            cost += 0.5 * value * value;
+        }
+    }
+    return std::isfinite(cost) ? cost : infinity;
+}
+
+void descend(const Study& study, Candidate& candidate, bool own_only, const Whitener* whitener, int iterations) {
+    const std::vector<FreeParameter*> free = free_numbers(candidate, own_only);
+    candidate.cost = cost_of(study, candidate, whitener);
+    if (free.empty() || !std::isfinite(candidate.cost)) {
+        return;
+    }
+    std::vector<double> values;
+    for (const FreeParameter* parameter : free) {
+        values.push_back(parameter->value / parameter->scale);
+    }
+    ceres::Problem problem;
+    problem.AddResidualBlock(new Cost(study, candidate, own_only, whitener), nullptr, values.data());
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        problem.SetParameterLowerBound(values.data(), static_cast<int>(i), free[i]->lower / free[i]->scale);
+        problem.SetParameterUpperBound(values.data(), static_cast<int>(i), free[i]->upper / free[i]->scale);
+    }
+    ceres::Solver::Options options;
+    options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
+    options.max_num_iterations = iterations;
+    options.function_tolerance = iterations < 10 ? 1e-4 : 1e-6;
+    options.logging_type = ceres::SILENT;
+    ceres::Solver::Summary summary;
+    ceres::Solve(options, &problem, &summary);
+    if (summary.IsSolutionUsable() && summary.final_cost <= candidate.cost) {
+        for (std::size_t i = 0; i < free.size(); ++i) {
+            free[i]->value = values[i] * free[i]->scale;
+        }
+        candidate.cost = summary.final_cost;
+    }
+}
+
+bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
+
+// Events where the residuals of what is there without them say that they were.
+void guess_events(const Study& study, Candidate& attempt) {
+    if (std::none_of(attempt.effects.begin(), attempt.effects.end(),
+                     [](const Effect* effect) { return effect->guess != nullptr; })) {
+        return;
+    }
+    for (const Effect* effect : attempt.effects) {
+        if (effect->guess == nullptr) {
+            continue;
+        }
+        for (std::size_t r = 0; r < study.courses.size(); ++r) {
+            std::vector<double> residuals = residuals_of(study, attempt, r);
+            for (std::size_t i = 0; i < residuals.size(); ++i) {
+                residuals[i] = study.counts[r][i] != 0 && std::isfinite(residuals[i]) ? residuals[i] : 0.0;
+            }
+            const std::vector<double> values =
+                effect->guess({study.courses[r], scenario_of(study, attempt, r), residuals, study.scales});
+            std::size_t next = 0;
+            for (FreeParameter& parameter : attempt.own[r]) {
+                if (parameter.name.starts_with(effect->name + ".")) {
+                    parameter.value = std::clamp(values[next++], parameter.lower, parameter.upper);
+                }
+            }
+        }
+    }
+}
+
+// Own numbers of a record: those of another candidate as far as it has them, events at rest.
+std::vector<FreeParameter> own_of(const Study& study, std::size_t record, const std::vector<const Effect*>& effects,
+                                  const Candidate& start) {
+    std::vector<FreeParameter> own = state_of(study, study.courses[record].record());
+    if (record < start.own.size()) {
+        std::copy_n(start.own[record].begin(), own.size(), own.begin());
+    }
+    for (const Effect* effect : effects) {
+        if (effect->kind == Kind::event) {
+            auto more = parameters_of(*effect, study.scales, 0);
+            for (std::size_t i = 0; i < more.size(); ++i) {
+                if (effect->guess != nullptr) {
+                    more[i].value = std::clamp(effect->parameters(study.scales)[i].none, more[i].lower, more[i].upper);
+                }
+            }
+            own.insert(own.end(), more.begin(), more.end());
+        }
+    }
+    return own;
+}
+
+const std::vector<FreeParameter>* lasting_of(const Candidate& candidate, const Effect* effect) {
+    std::size_t at = 0;
+    for (const Effect* mine : candidate.effects) {
+        if (mine == effect && mine->kind == Kind::lasting) {
+            return &candidate.lasting[at];
+        }
+        at += mine->kind == Kind::lasting ? 1 : 0;
+    }
+    return nullptr;
+}
+
+}  // namespace
+
+Candidate fit(const Study& study, const std::vector<const Effect*>& effects, const Candidate& start,
+              const Whitener* whitener, const Effort& effort) {
+    std::size_t count = 1;
+    for (const Effect* effect : effects) {
+        if (lasting_of(start, effect) == nullptr) {
+            count = std::max(count, starts_of(*effect, study.scales));
+        }
+    }
+    std::vector<Candidate> attempts;
+    for (std::size_t s = 0; s < count; ++s) {
+        Candidate attempt;
+        attempt.effects = effects;
+        attempt.base = start.base.empty() ? base_of(study) : start.base;
+        for (const Effect* effect : effects) {
+            if (effect->kind == Kind::lasting) {
+                // What another candidate knows of the same effect is a better start than any.
+                const auto* known = lasting_of(start, effect);
+                attempt.lasting.push_back(known != nullptr ? *known : parameters_of(*effect, study.scales, s));
+            }
+        }
+        for (std::size_t r = 0; r < study.courses.size(); ++r) {
+            attempt.own.push_back(own_of(study, r, effects, start));
+        }
+        guess_events(study, attempt);
+        descend(study, attempt, false, whitener, count > 1 ? effort.first_iterations : effort.iterations);
+        attempts.push_back(std::move(attempt));
+    }
+    if (count > 1) {
+        std::stable_sort(attempts.begin(), attempts.end(), by_cost);
+        attempts.resize(std::min(effort.keep, attempts.size()));
+        for (Candidate& attempt : attempts) {
+            descend(study, attempt, false, whitener, effort.iterations);
+        }
+    }
+    return *std::min_element(attempts.begin(), attempts.end(), by_cost);
+}
+
+Candidate carried_over(const Study& study, const Candidate& fitted, const Whitener* whitener) {
+    Candidate carried = fitted;
+    carried.own.clear();
+    for (std::size_t r = 0; r < study.courses.size(); ++r) {
+        carried.own.push_back(own_of(study, r, fitted.effects, {}));
+    }
+    if (study.base.refit && fitted.event_parameters() > 0) {
+        // The state first: what an event is guessed from must not be an initial transient.
+        Candidate resting = carried;
+        descend(study, resting, true, whitener, 10);
+        if (std::isfinite(resting.cost)) {
+            for (std::size_t r = 0; r < carried.own.size(); ++r) {
+                std::copy_n(resting.own[r].begin(), state_of(study, study.courses[r].record()).size(),
+                            carried.own[r].begin());
+            }
+        }
+    }
+    guess_events(study, carried);
+    descend(study, carried, true, whitener, 25);
+    return carried;
+}
+
+void add_deviations(const Study& study, Candidate& candidate, const Whitener& whitener) {
+    const std::vector<FreeParameter*> free = free_numbers(candidate, false);
+    if (free.empty()) {
+        return;
+    }
+    Cost cost(study, candidate, false, &whitener);
+    std::vector<double> values;
+    for (const FreeParameter* parameter : free) {
+        values.push_back(parameter->value / parameter->scale);
+    }
+    const auto rows = static_cast<Eigen::Index>(cost.num_residuals());
+    const auto columns = static_cast<Eigen::Index>(free.size());
+    Eigen::VectorXd residuals(rows);
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> slopes(rows, columns);
+    const double* parameters = values.data();
+    double* jacobian = slopes.data();
+    Eigen::VectorXd spread = Eigen::VectorXd::Constant(columns, infinity);
+    if (cost.Evaluate(&parameters, residuals.data(), &jacobian)) {
+        const double variance =
+            std::max(1.0, residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows - columns)));
+        const Eigen::MatrixXd information = slopes.transpose() * slopes;
+        // A number that moves nothing is not known and takes nothing from the others.
+        std::vector<Eigen::Index> moving;
+        for (Eigen::Index i = 0; i < columns; ++i) {
+            if (information(i, i) > 0.0) {
+                moving.push_back(i);
+            }
+        }
+        const Eigen::VectorXd length = information(moving, moving).diagonal().cwiseSqrt();
+        const Eigen::MatrixXd scaled =
+            length.cwiseInverse().asDiagonal() * information(moving, moving) * length.cwiseInverse().asDiagonal();
+        const Eigen::LDLT<Eigen::MatrixXd> factors(scaled);
+        if (!moving.empty() && factors.info() == Eigen::Success && factors.isPositive() && factors.rcond() > 1e-13) {
+            const auto size = static_cast<Eigen::Index>(moving.size());
+            const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(size, size));
+            for (Eigen::Index i = 0; i < size; ++i) {
+                spread(moving[static_cast<std::size_t>(i)]) = std::sqrt(variance * inverse(i, i)) / length(i);
+            }
+        }
+    }
+    for (Eigen::Index i = 0; i < columns; ++i) {
+        free[static_cast<std::size_t>(i)]->deviation = spread(i) * free[static_cast<std::size_t>(i)]->scale;
+    }
+}
+
+}  // namespace gap

@@ -1,0 +1,26 @@
+// Fits candidates: the base, the effects and each record's own numbers together, by bounded least squares.
+#pragma once
+
+#include "gap/drive/candidate.hpp"
+#include "gap/whiten.hpp"
+
+namespace gap {
+
+struct Effort {
+    int first_iterations = 6;  ///< from each of the starts
+    std::size_t keep = 2;      ///< the best of them go on
+    int iterations = 25;
+};
+
+/// From `start` for all that it has and, for other effects, from each of their starts; where residuals are whitened,
+/// those count. Every candidate gets the same effort.
+[[nodiscard]] Candidate fit(const Study& study, const std::vector<const Effect*>& effects, const Candidate& start,
+                            const Whitener* whitener, const Effort& effort = {});
+
+/// The same candidate on other records: base and lasting parameters stay, the records' own are fitted afresh.
+[[nodiscard]] Candidate carried_over(const Study& study, const Candidate& fitted, const Whitener* whitener);
+
+/// Standard deviations of all that was fitted, from the whitened residuals' slopes; infinite where nothing tells.
+void add_deviations(const Study& study, Candidate& candidate, const Whitener& whitener);
+
+}  // namespace gap

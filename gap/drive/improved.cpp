@@ -1,0 +1,75 @@
+#include "gap/drive/improved.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "gap/drive/effect.hpp"
+#include "gap/drive/simulate.hpp"
+#include "qemu/failure.hpp"
+
+namespace gap {
+namespace {
+
+using Json = nlohmann::json;
+
+[[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
+
+// Every parameter of every effect has a name in it: bounds and starts do not matter here.
+Scales any_scales() { return {1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1e3, 1.0, 1.0, 1.0, 1.0, 1.0, true}; }
+
+std::vector<double> values_of(const Effect& effect, const Json& parameters, const std::string& name) {
+    std::vector<double> values;
+    const std::vector<EffectParameter> expected = effect.parameters(any_scales());
+    for (const EffectParameter& parameter : expected) {
+        if (!parameters.contains(parameter.name) || !parameters[parameter.name].is_number()) {
+            refuse(fmt::format("{}: effects: {}: expected a number {}", name, effect.name, parameter.name));
+        }
+        values.push_back(parameters[parameter.name].get<double>());
+    }
+    for (const auto& [key, value] : parameters.items()) {
+        if (std::none_of(expected.begin(), expected.end(), [&](const auto& one) { return one.name == key; })) {
+            refuse(fmt::format("{}: effects: {}: has no parameter {}", name, effect.name, key));
+        }
+    }
+    return values;
+}
+
+}  // namespace
+
+Improved simulate_improved(const drive::Model& model, const Record& record, const std::string& name) {
+    Improved result;
+    const Json notes = model.notes.empty() ? Json::object() : Json::parse(model.notes);
+    if (!notes.contains("effects")) {
+        return result;
+    }
+    if (!notes["effects"].is_array()) {
+        refuse(fmt::format("{}: effects: expected an array", name));
+    }
+    Scenario scenario;
+    scenario.model = model;
+    if (notes.contains("operating_output")) {
+        if (!notes["operating_output"].is_number()) {
+            refuse(fmt::format("{}: operating_output: expected a number", name));
+        }
+        scenario.operating_output = notes["operating_output"].get<double>();
+    }
+    Scenario plain = scenario;
+    for (const Json& one : notes["effects"]) {
+        if (!one.is_object() || !one.contains("effect") || !one["effect"].is_string() || !one.contains("parameters") ||
+            !one["parameters"].is_object()) {
+            refuse(fmt::format("{}: effects: expected {{\"effect\", \"parameters\"}}, found {}", name,
+                               one.dump().substr(0, 60)));
+        }
+        const Effect& effect = effect_named(one["effect"].get<std::string>());
+        effect.add_to(scenario, values_of(effect, one["parameters"], name));
+        result.effects.push_back(effect.name);
+    }
+    const auto [low, high] = std::minmax_element(record.input.begin(), record.input.end());
+    const double size = std::max(std::abs(*low), std::abs(*high)) * std::abs(model.gain);
+    result.output = simulate(scenario, make_course(record, plain, 1e-5 * std::max(size, 1e-300)));
+    return result;
+}
+
+}  // namespace gap

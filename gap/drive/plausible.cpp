@@ -1,0 +1,100 @@
+#include "gap/drive/plausible.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "qemu/failure.hpp"
+
+namespace gap {
+namespace {
+
+[[noreturn]] void refuse(const Record& record, const std::string& what) {
+    throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: {}", record.name, what));
+}
+
+// The longest of the model's times, its terms alone.
+double slowest_s(const drive::Model& model) {
+    const double constant = drive::constant_coefficient(model.denominator);
+    double slowest = 0.0;
+    for (const drive::Term& term : model.denominator) {
+        if (term.order > 0.0 && constant != 0.0) {
+            slowest = std::max(slowest, std::pow(std::fabs(term.coefficient / constant), 1.0 / term.order));
+        }
+    }
+    return slowest;
+}
+
+void check_times(const Record& record, const drive::Model& model) {
+    const double length_s = record.time_s.back() - record.time_s.front();
+    if (model.delay_s >= length_s) {
+        refuse(record,
+               fmt::format("expected a log longer than the model's dead time of {:.4g} s, found one of {:.4g} s",
+                           model.delay_s, length_s));
+    }
+    const double slowest = slowest_s(model);
+    if (slowest == 0.0) {
+        return;
+    }
+    if (length_s < 0.1 * slowest) {
+        refuse(record, fmt::format("lasts {:.4g} s, but the model takes {:.4g} s to move: are the stamps in seconds?",
+                                   length_s, slowest));
+    }
+    if (record.usual_interval_s > 5.0 * (slowest + model.delay_s)) {
+        refuse(record,
+               fmt::format("has a sample every {:.4g} s, but the model is done after {:.4g} s: are the stamps in "
+                           "seconds?",
+                           record.usual_interval_s, slowest + model.delay_s));
+    }
+}
+
+// Mean-free, how far the simulation must be scaled and how well it then fits.
+void check_units(const Course& course, const drive::Model& model) {
+    Scenario plain;
+    plain.model = model;
+    const std::vector<double> simulated = simulate(plain, course);
+    const std::vector<double>& measured = course.record().output;
+    const auto count = static_cast<double>(measured.size());
+    double mean_s = 0.0;
+    double mean_m = 0.0;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        if (!std::isfinite(simulated[i])) {
+            refuse(course.record(), fmt::format("the model runs away on its input: {}", drive::to_text(model)));
+        }
+        mean_s += simulated[i] / count;
+        mean_m += measured[i] / count;
+    }
+    double ss = 0.0;
+    double mm = 0.0;
+    double sm = 0.0;
+    for (std::size_t i = 0; i < measured.size(); ++i) {
+        ss += (simulated[i] - mean_s) * (simulated[i] - mean_s);
+        mm += (measured[i] - mean_m) * (measured[i] - mean_m);
+        sm += (simulated[i] - mean_s) * (measured[i] - mean_m);
+    }
+    if (!(ss > 0.0)) {
+        return;
+    }
+    const double ratio = std::sqrt(mm / ss);
+    if (std::fabs(sm) > 0.7 * std::sqrt(ss * mm) && (ratio > 50.0 || ratio < 0.02)) {
+        refuse(course.record(),
+               fmt::format("its output moves {:.3g} times as far as the model's: expected the model's units, "
+                           "found others, of input or output",
+                           ratio));
+    }
+}
+
+}  // namespace
+
+void check_plausible(const Study& study) {
+    if (study.base.refit) {
+        return;  // the base takes its gain and times from the records
+    }
+    const drive::Model model = model_of(study.base.form);
+    for (const Course& course : study.courses) {
+        check_times(course.record(), model);
+        check_units(course, model);
+    }
+}
+
+}  // namespace gap

@@ -1,0 +1,109 @@
+#include "gap/drive/ranking.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gap/drive/jitter.hpp"
+
+namespace gap {
+namespace {
+
+constexpr std::size_t most_coefficients = 8;
+
+// A number that was fitted where it is judged costs what chance gains by it; where an event happened was searched for
+// besides.
+double penalty_of(const Candidate& candidate, const Study& validation) {
+    double samples = 0.0;
+    for (const auto& count : validation.counts) {
+        samples += static_cast<double>(std::count(count.begin(), count.end(), 1));
+    }
+    double events = 0.0;
+    for (const Effect* effect : candidate.effects) {
+        events += effect->kind == Kind::event ? 1.0 : 0.0;
+    }
+    const double chance = std::log(std::max(samples, 3.0));
+    return 0.5 * chance * static_cast<double>(candidate.event_parameters()) +
+           events * chance * static_cast<double>(validation.courses.size()) +
+           2.0 * static_cast<double>(candidate.effect_parameters() + candidate.effects.size());
+}
+
+// Of readings that stand for all values within a step: the logarithm of the mass there, over the step, on the scale of
+// the whitener's, which leaves the constant of Student's density out. \param outside  by how much the simulation misses
+// them
+std::vector<double> log_mass(std::span<const double> outside, double step, const Whitener& whitener) {
+    constexpr double density_constant = 0.713;
+    const double variance = whitener.stationary_deviation * whitener.stationary_deviation - step * step / 12.0;
+    const double noise = std::sqrt(std::max(variance, 0.0025 * step * step));
+    std::vector<double> logs;
+    for (const double miss : outside) {
+        const double mass = miss == 0.0 ? std::max(0.5, 1.0 - 0.8 * noise / step)
+                                        : 0.5 * std::erfc(std::fabs(miss) / (noise * std::sqrt(2.0)));
+        logs.push_back(std::log(std::max(mass, 1e-9) / step) + density_constant);
+    }
+    return logs;
+}
+
+}  // namespace
+
+void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
+    const double step = ranked.candidate.has("encoder_quantisation") ? validation.scales.quantum : 0.0;
+    ranked.by_sample.clear();
+    ranked.log_likelihood = 0.0;
+    std::vector<std::vector<double>> left;
+    for (std::size_t r = 0; r < ranked.residuals.size(); ++r) {
+        const auto& residuals = ranked.residuals[r];
+        const auto logs = step > 0.0 ? log_mass(residuals, step, whitener)
+                                     : whitener.log_likelihood(
+                                           residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
+        for (std::size_t i = 0; i < logs.size(); ++i) {
+            if (validation.counts[r][i] != 0) {
+                ranked.by_sample.push_back(std::isfinite(logs[i]) ? logs[i] : -1e6);
+                ranked.log_likelihood += ranked.by_sample.back();
+            }
+        }
+        left.push_back(without_jitter(validation, ranked.candidate, r, residuals, whitener));
+    }
+    ranked.gap_after = rms_of(validation, left) / output_deviation(validation);
+    ranked.gap_after = std::isfinite(ranked.gap_after) ? ranked.gap_after : 1e6;  // it ran away
+    // Whitened residuals hardly know of slow ones. Of those each block of the records counts once.
+    constexpr double blocks = 24.0;
+    const double slow = std::max(rms_of(validation, ranked.residuals), 0.3 * step) / output_deviation(validation);
+    ranked.penalty = penalty_of(ranked.candidate, validation) + blocks * std::log(std::clamp(slow, 1e-9, 1e6));
+}
+
+Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener, const Whitener* fits_by,
+                 bool same_records) {
+    Ranked ranked;
+    ranked.trained = trained;
+    ranked.candidate = same_records ? trained : carried_over(validation, trained, fits_by);
+    ranked.residuals = all_residuals(validation, ranked.candidate);
+    judge(ranked, validation, whitener);
+    return ranked;
+}
+
+Interval advantage(const Ranked& a, const Ranked& b) {
+    std::vector<double> difference(a.by_sample.size());
+    for (std::size_t i = 0; i < difference.size(); ++i) {
+        difference[i] = a.by_sample[i] - b.by_sample[i];
+    }
+    Interval over = bootstrap_sum(difference, difference.size() / 40);
+    const double penalty = a.penalty - b.penalty;
+    return {over.mean - penalty, over.low - penalty, over.high - penalty};
+}
+
+Whitener whitener_of(const Study& study, const Candidate& candidate) {
+    std::vector<std::vector<double>> residuals = all_residuals(study, candidate);
+    for (std::size_t r = 0; r < residuals.size(); ++r) {
+        std::vector<double> kept;
+        for (std::size_t i = 0; i < residuals[r].size(); ++i) {
+            if (study.counts[r][i] != 0 && std::isfinite(residuals[r][i])) {
+                kept.push_back(residuals[r][i]);
+            }
+        }
+        residuals[r] = std::move(kept);
+    }
+    return fit_whitener(residuals, most_coefficients, study.least_deviation);
+}
+
+}  // namespace gap

@@ -1,0 +1,33 @@
+// Candidates by what they leave on data that they have not fitted.
+#pragma once
+
+#include "gap/drive/fit.hpp"
+
+namespace gap {
+
+struct Ranked {
+    Candidate candidate;                         ///< as it stands on the validation records
+    Candidate trained;                           ///< as it was fitted
+    std::vector<std::vector<double>> residuals;  ///< of the validation records
+    double gap_after = 0.0;                      ///< rms of what counts over the deviation of the measured output
+    double log_likelihood = 0.0;                 ///< over what counts
+    std::vector<double> by_sample;               ///< its summands
+    double penalty = 0.0;                        ///< for what is fitted there, and for effects and their numbers
+    [[nodiscard]] double score() const { return log_likelihood - penalty; }
+};
+
+/// The candidate on the validation records. \param fits_by  whitens residuals for fits there; null: they stay as they
+/// are \param same_records  validation is a part of the records that were fitted
+[[nodiscard]] Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener,
+                               const Whitener* fits_by, bool same_records);
+
+/// Likelihood and gap anew, after another whitener.
+void judge(Ranked& ranked, const Study& validation, const Whitener& whitener);
+
+/// By how much a is more likely than b, penalties included, with bounds from redrawn blocks of samples.
+[[nodiscard]] Interval advantage(const Ranked& a, const Ranked& b);
+
+/// An autoregressive model of what a candidate leaves on its own records.
+[[nodiscard]] Whitener whitener_of(const Study& study, const Candidate& candidate);
+
+}  // namespace gap

@@ -1,0 +1,89 @@
+#include "gap/drive/record.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "qemu/failure.hpp"
+
+namespace gap {
+namespace {
+
+// A record is stepped at no more nodes than this, however finely it is stamped.
+constexpr double most_nodes = 60000.0;
+
+bool moves(const std::vector<double>& values) {
+    return std::any_of(values.begin(), values.end(), [&](double value) { return value != values.front(); });
+}
+
+}  // namespace
+
+Grid Record::grid(unsigned per_interval) const {
+    Grid grid;
+    grid.first_s = time_s.front();
+    const double length_s = time_s.back() - time_s.front();
+    grid.step_s = std::max(usual_interval_s / per_interval, length_s / most_nodes);
+    grid.count = static_cast<std::size_t>(std::ceil(length_s / grid.step_s - 1e-6)) + 2;
+    return grid;
+}
+
+Record to_record(drive::Log log) {
+    const auto refuse = [&](const std::string& what) {
+        throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: {}", log.name, what));
+    };
+    Record record{log.name, std::move(log.time_s), std::move(log.input), std::move(log.output), 0.0};
+    if (record.size() < 32) {
+        refuse(fmt::format("expected 32 samples or more, found {}", record.size()));
+    }
+    if (!moves(record.input) && record.input.front() == 0.0) {
+        refuse("the input is 0 throughout: nothing was asked of the drive");
+    }
+    if (!moves(record.output)) {
+        refuse(fmt::format("the output is {} throughout: nothing can be diagnosed", record.output.front()));
+    }
+    std::vector<double> intervals;
+    for (std::size_t i = 1; i < record.size(); ++i) {
+        intervals.push_back(record.time_s[i] - record.time_s[i - 1]);
+    }
+    std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
+                     intervals.end());
+    record.usual_interval_s = intervals[intervals.size() / 2];
+    return record;
+}
+
+std::vector<double> held_on(const Grid& grid, std::span<const double> time_s, std::span<const double> levels) {
+    std::vector<double> held(grid.count, 0.0);
+    std::size_t i = 0;
+    for (std::size_t k = 0; k < grid.count; ++k) {
+        const double from = grid.at(k);
+        const double to = grid.at(k + 1);
+        double sum = 0.0;
+        double at = from;
+        while (at < to - 1e-9 * grid.step_s) {
+            while (i + 1 < time_s.size() && time_s[i + 1] <= at + 1e-9 * grid.step_s) {
+                ++i;
+            }
+            const double until = i + 1 < time_s.size() ? std::min(to, time_s[i + 1]) : to;
+            sum += (until - at) * levels[i];
+            at = until;
+        }
+        held[k] = sum / grid.step_s;
+    }
+    return held;
+}
+
+std::vector<double> read_at(const Grid& grid, std::span<const double> nodes, std::span<const double> times_s) {
+    std::vector<double> read;
+    read.reserve(times_s.size());
+    for (const double time : times_s) {
+        const double place =
+            std::clamp((time - grid.first_s) / grid.step_s, 0.0, static_cast<double>(nodes.size() - 1));
+        const auto below = std::min(static_cast<std::size_t>(place), nodes.size() - 2);
+        const double share = place - static_cast<double>(below);
+        read.push_back((1.0 - share) * nodes[below] + share * nodes[below + 1]);
+    }
+    return read;
+}
+
+}  // namespace gap

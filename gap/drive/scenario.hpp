@@ -1,0 +1,84 @@
+// A simulation with whatever effects are to be in it: what goes in, how it moves, how it is read.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drive/model.hpp"
+#include "gap/drive/record.hpp"
+
+namespace gap {
+
+/// The output cannot pass a limit; what arrives with a speed leaves with `restitution` of it.
+struct EndStop {
+    double limit;
+    double restitution;
+};
+
+/// An outside force for a time, counted from the record's first stamp.
+struct Push {
+    double from_s;
+    double to_s;
+    double size;
+};
+
+/// The restoring term a_0 y becomes a_0 y ((1 - c) + c |y| / reference), as an outflow that grows otherwise than the
+/// level.
+struct Outflow {
+    double curvature;
+    double reference;
+};
+
+/// In units of the model's right-hand side. Each is solved for within the step, so that what sticks, sticks.
+struct Forces {
+    double friction_up = 0.0;     ///< against motion upwards, at least 0
+    double friction_down = 0.0;   ///< against motion downwards
+    double drag = 0.0;            ///< drag y' |y'|
+    double angle_per_unit = 0.0;  ///< kappa: a_0 sin(kappa y) / kappa instead of a_0 y; 0: linear
+    double bias = 0.0;            ///< always there
+    std::optional<Outflow> outflow;
+    std::optional<EndStop> stop;
+    std::vector<Push> pushes;
+};
+
+/// What was run instead of the model: the Grünwald-Letnikov scheme in some numbers, over some memory.
+struct Deployed {
+    double step_s;
+    double taps;         ///< 0: all; between whole numbers, a mixture of both
+    std::string kernel;  ///< empty: double
+    bool increments = false;
+};
+
+/// What an output stage may look at, by nodes.
+struct Motion {
+    const Grid& grid;
+    std::span<const double> input;   ///< the effective input, before the dead time
+    std::span<const double> output;  ///< y
+};
+
+/// At the stamps, on the levels that are held from each to the next: exact for what has no memory.
+using LevelStage = std::function<void(std::span<double> levels)>;
+using InputStage = std::function<void(std::span<double> held, const Grid& grid)>;
+using OutputStage = std::function<void(std::span<double> reading, const Motion& motion)>;
+/// At the stamps: what the logger does with a reading.
+using LoggerStage = std::function<void(std::span<double> reading, const Record& record)>;
+
+struct Scenario {
+    drive::Model model;
+    double initial_output = 0.0;    ///< where it rests before the record
+    double initial_velocity = 0.0;  ///< per second
+    double operating_output = 0.0;  ///< added to the model's output: the point that it is linear about
+    double input_before = 0.0;      ///< the record, over the dead time
+    std::vector<LevelStage> levels;
+    std::vector<InputStage> input;
+    Forces forces;
+    std::vector<OutputStage> output;
+    std::vector<LoggerStage> logger;
+    std::optional<Deployed> deployed;
+    double jitter_s = 0.0;  ///< half width of what stamps are off by: spreads readings, moves none
+};
+
+}  // namespace gap

@@ -1,0 +1,182 @@
+#include "gap/drive/search.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "bench/parallel.hpp"
+#include "gap/drive/jitter.hpp"
+
+namespace gap {
+namespace {
+
+using Effects = std::vector<const Effect*>;
+
+constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
+constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
+constexpr std::size_t finalists = 8;     // pairs, and triples, that are fitted to the end
+constexpr Effort quick{3, 1, 6};
+
+bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
+bool by_score(const Ranked& a, const Ranked& b) { return a.score() > b.score(); }
+
+class Run {
+public:
+    explicit Run(const Search& of) : of_(of) {}
+
+    Found search() {
+        of_.say(fmt::format("fitting the base: {} record{}", of_.study.courses.size(),
+                            of_.study.courses.size() == 1 ? "" : "s"));
+        none_ = fit(of_.study, {}, {}, nullptr, {6, 2, 60});
+        of_.say(fmt::format("fitting {} effects, each alone", of_.list.size()));
+        std::vector<Effects> alone;
+        for (const Effect* effect : of_.list) {
+            alone.push_back({effect});
+        }
+        std::vector<Candidate> singles = fitted(alone, {&none_}, nullptr, {});
+        std::stable_sort(singles.begin(), singles.end(), by_cost);
+        found_.whitener = whitener_of(of_.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
+        none_ = fit(of_.study, {}, none_, fits_by());
+        bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
+            // Spread is not in the sum of squares: jitter stays in the race whatever its place.
+            if (i < shortlisted || singles[i].has("sampling_jitter")) {
+                singles[i] = fit(of_.study, singles[i].effects, singles[i], fits_by());
+                fit_jitter(of_.study, singles[i], found_.whitener);
+            }
+        });
+        of_.say("judging them by what was not fitted");
+        take({none_});
+        take(singles);
+        renew_whitener();
+        const Ranked& none = ranked_of({});
+        const Ranked& best = found_.ranking.front();
+        const bool slow = is_slow(of_.validation, none.gap_after * output_deviation(of_.validation));
+        if ((&best != &none && advantage(best, none).mean > 4.0) || slow) {
+            const std::vector<Candidate> pairs = widened(1, "pairs");
+            take(pairs);
+            renew_whitener();
+            if (found_.ranking.front().candidate.effects.size() == 2 &&
+                advantage(found_.ranking.front(), best_of(1)).mean > 8.0) {
+                take(widened(2, "triples"));
+                renew_whitener();
+            }
+        }
+        return std::move(found_);
+    }
+
+private:
+    // A refitted base is to simulate well: it takes its numbers from the residuals as they are. Where they are coloured
+    // because something is missing, whitened ones would tell little of what is slow.
+    [[nodiscard]] const Whitener* fits_by() const { return of_.study.base.refit ? nullptr : &found_.whitener; }
+
+    // Each from the candidate of `starts` at its place, or from the only one.
+    std::vector<Candidate> fitted(const std::vector<Effects>& all, const std::vector<const Candidate*>& starts,
+                                  const Whitener* whitener, const Effort& effort) const {
+        std::vector<Candidate> result(all.size());
+        bench::parallel_for(all.size(), of_.jobs, [&](std::size_t i) {
+            result[i] = fit(of_.study, all[i], *starts[starts.size() == 1 ? 0 : i], whitener, effort);
+        });
+        return result;
+    }
+
+    // The best candidates of some size with one effect more: all of them quickly, the best to the end.
+    std::vector<Candidate> widened(std::size_t size, const char* what) const {
+        std::vector<Effects> all;
+        std::vector<const Candidate*> starts;
+        std::set<Effects> seen;
+        for (const Ranked* of_lead : leads_of(size)) {
+            const Ranked& lead = *of_lead;
+            for (const Effect* effect : of_.list) {
+                Effects wider = lead.trained.effects;
+                wider.push_back(effect);
+                Effects key = wider;
+                std::sort(key.begin(), key.end());
+                // Jitter spreads what any other effect leaves where it moves: beside another it is not to be trusted.
+                if (effect->name != "sampling_jitter" && !lead.trained.has("sampling_jitter") &&
+                    !lead.trained.has(effect->name) && !nested(lead.trained.effects, *effect) &&
+                    seen.insert(key).second) {
+                    all.push_back(wider);
+                    starts.push_back(&lead.trained);
+                }
+            }
+        }
+        of_.say(fmt::format("fitting {} {}", all.size(), what));
+        std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
+        std::stable_sort(wide.begin(), wide.end(), by_cost);
+        wide.resize(std::min(wide.size(), finalists));
+        bench::parallel_for(wide.size(), of_.jobs,
+                            [&](std::size_t i) { wide[i] = fit(of_.study, wide[i].effects, wide[i], fits_by()); });
+        return wide;
+    }
+
+    // The best by what was not fitted, and those by what was.
+    [[nodiscard]] std::vector<const Ranked*> leads_of(std::size_t size) const {
+        std::vector<const Ranked*> sized;
+        for (const Ranked& ranked : found_.ranking) {
+            if (ranked.trained.effects.size() == size) {
+                sized.push_back(&ranked);
+            }
+        }
+        std::vector<const Ranked*> by_training = sized;
+        std::stable_sort(by_training.begin(), by_training.end(),
+                         [](const Ranked* a, const Ranked* b) { return a->trained.cost < b->trained.cost; });
+        std::vector<const Ranked*> first;
+        for (const auto* list : {&sized, &by_training}) {
+            for (std::size_t i = 0; i < std::min(leads, list->size()); ++i) {
+                if (std::find(first.begin(), first.end(), (*list)[i]) == first.end()) {
+                    first.push_back((*list)[i]);
+                }
+            }
+        }
+        return first;
+    }
+
+    static bool nested(const Effects& mine, const Effect& other) {
+        return std::any_of(mine.begin(), mine.end(), [&](const Effect* effect) {
+            const auto has = [](const Effect& general, const Effect& special) {
+                return std::find(general.generalises.begin(), general.generalises.end(), special.name) !=
+                       general.generalises.end();
+            };
+            return has(*effect, other) || has(other, *effect);
+        });
+    }
+
+    void take(const std::vector<Candidate>& candidates) {
+        std::vector<Ranked> more(candidates.size());
+        bench::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
+            more[i] = validated(of_.validation, candidates[i], found_.whitener, fits_by(), of_.same_records);
+        });
+        std::move(more.begin(), more.end(), std::back_inserter(found_.ranking));
+        std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
+    }
+
+    // The whitener of the best one's training residuals; likelihoods follow.
+    void renew_whitener() {
+        found_.whitener = whitener_of(of_.study, found_.ranking.front().trained);
+        for (Ranked& ranked : found_.ranking) {
+            judge(ranked, of_.validation, found_.whitener);
+        }
+        std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
+    }
+
+    [[nodiscard]] const Ranked& ranked_of(const Effects& effects) const {
+        return *std::find_if(found_.ranking.begin(), found_.ranking.end(),
+                             [&](const Ranked& ranked) { return ranked.trained.effects == effects; });
+    }
+    [[nodiscard]] const Ranked& best_of(std::size_t size) const {
+        return *std::find_if(found_.ranking.begin(), found_.ranking.end(),
+                             [&](const Ranked& ranked) { return ranked.trained.effects.size() == size; });
+    }
+
+    const Search& of_;
+    Candidate none_;
+    Found found_;
+};
+
+}  // namespace
+
+Found search(const Search& of) { return Run(of).search(); }
+
+}  // namespace gap

@@ -1,0 +1,26 @@
+// Which candidates are fitted: none, every effect alone, pairs and triples of those that help.
+#pragma once
+
+#include <functional>
+
+#include "gap/drive/ranking.hpp"
+
+namespace gap {
+
+struct Search {
+    const Study& study;  ///< training
+    const Study& validation;
+    bool same_records;  ///< validation is a part of the training records
+    std::vector<const Effect*> list;
+    unsigned jobs;
+    const std::function<void(const std::string&)>& say;
+};
+
+struct Found {
+    std::vector<Ranked> ranking;  ///< the best first; `none` is among them
+    Whitener whitener;
+};
+
+[[nodiscard]] Found search(const Search& of);
+
+}  // namespace gap

@@ -1,0 +1,45 @@
+// Simulates a scenario over a record.
+#pragma once
+
+#include <vector>
+
+#include "gap/drive/derivative.hpp"
+#include "gap/drive/scenario.hpp"
+
+namespace gap {
+
+/// A record with what its simulations share: the grid, the held input on it, the exponentials.
+class Course {
+public:
+    /// \param per_interval  nodes to the usual interval
+    Course(const Record& record, unsigned per_interval);
+    [[nodiscard]] const Record& record() const { return *record_; }
+    [[nodiscard]] const Grid& grid() const { return grid_; }
+    [[nodiscard]] const std::vector<double>& held() const { return held_; }
+    [[nodiscard]] const Exponentials& exponentials() const { return exponentials_; }
+    /// The output y at the nodes.
+    [[nodiscard]] std::vector<double> nodes_of(const Scenario& scenario) const;
+    /// Added to every simulated reading: what the steps are off by, for the scenario that the course was made for.
+    [[nodiscard]] const std::vector<double>& correction() const { return correction_; }
+    void correct(std::vector<double> correction);
+
+private:
+    const Record* record_;
+    Grid grid_;
+    std::vector<double> held_;
+    Exponentials exponentials_;
+    std::vector<double> correction_;
+};
+
+/// The output y at the nodes. Second order in the step; thread-safe.
+[[nodiscard]] std::vector<double> move(const Scenario& scenario, const Course& course,
+                                       std::vector<double>& effective_input);
+
+/// The readings at the stamps. Not finite where the scenario runs away.
+[[nodiscard]] std::vector<double> simulate(const Scenario& scenario, const Course& course);
+
+/// The coarsest course, of 1, 2, 4 or 8 nodes to the interval, whose simulation of the scenario is off by at most
+/// `allowed` in rms, as one at twice as many nodes tells; what it is off by is then its correction.
+[[nodiscard]] Course make_course(const Record& record, const Scenario& scenario, double allowed);
+
+}  // namespace gap

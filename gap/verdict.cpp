@@ -1,0 +1,249 @@
+#include "gap/verdict.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "drive/model_file.hpp"
+
+namespace gap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double shrink_of(const Decision& decision, double after) {
+    const double most = decision.base_gap - decision.noise_floor;
+    return most > 0.0 ? std::clamp((decision.base_gap - after) / most, -1.0, 1.0) : 0.0;
+}
+
+// "input_dead_zone.width" -> "width"
+std::string own_name(const std::string& name) { return name.substr(name.find('.') + 1); }
+
+Json shares(const std::vector<Share>& list, const char* from, const char* to) {
+    Json array = Json::array();
+    for (const Share& share : list) {
+        Json one{{from, share.from}, {to, share.to}, {"share", share.share}};
+        if (!share.what.empty()) {
+            one["after"] = share.what;
+        }
+        array.push_back(one);
+    }
+    return array;
+}
+
+// Numbers with 4 digits.
+std::string shown(const Json& value) {
+    if (value.is_array()) {
+        std::string all;
+        for (const Json& one : value) {
+            all += (all.empty() ? "" : ", ") + shown(one);
+        }
+        return all;
+    }
+    return value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : value.get<std::string>();
+}
+
+Json interval_of(const FreeParameter& parameter) {
+    if (parameter.fixed && parameter.deviation == 0.0) {
+        return {parameter.value, parameter.value};
+    }
+    if (!std::isfinite(parameter.deviation)) {
+        return {parameter.lower, parameter.upper};  // nothing tells
+    }
+    return {std::max(parameter.lower, parameter.value - 1.96 * parameter.deviation),
+            std::min(parameter.upper, parameter.value + 1.96 * parameter.deviation)};
+}
+
+// Jumps that happened, as lists; what the module fits one by one.
+void gather_jumps(Json& parameters, Json& interval) {
+    Json times = Json::array();
+    Json sizes = Json::array();
+    Json time_intervals = Json::array();
+    Json size_intervals = Json::array();
+    for (const char* number : {"", "2", "3"}) {
+        const std::string at = std::string("at") + number + "_s";
+        const std::string size = std::string("size") + number;
+        if (parameters[at].get<double>() > 0.0) {
+            times.push_back(parameters[at]);
+            sizes.push_back(parameters[size]);
+            time_intervals.push_back(interval[at]);
+            size_intervals.push_back(interval[size]);
+        }
+    }
+    parameters = {{"at_s", times}, {"sizes", sizes}};
+    interval = {{"at_s", time_intervals}, {"sizes", size_intervals}};
+}
+
+// The parameters of one of a candidate's effects, and their intervals.
+void fill(const Ranked& ranked, const Effect& effect, Json& parameters, Json& interval) {
+    parameters = Json::object();
+    interval = Json::object();
+    const auto add = [&](const std::vector<FreeParameter>& list) {
+        for (const FreeParameter& parameter : list) {
+            if (parameter.name.starts_with(effect.name + ".")) {
+                parameters[own_name(parameter.name)] = parameter.value;
+                interval[own_name(parameter.name)] = interval_of(parameter);
+            }
+        }
+    };
+    if (effect.kind == Kind::event) {
+        add(ranked.candidate.own.front());
+    } else {
+        for (const auto& list : ranked.trained.lasting) {
+            add(list);
+        }
+    }
+    if (effect.name == "missed_counts") {
+        gather_jumps(parameters, interval);
+    }
+    if (effect.name == "fixed_point") {
+        parameters["format"] = parameters["format"] > 20.0 ? "q31" : "q15";
+        interval.erase("format");
+    }
+}
+
+// One entry for each effect of a candidate.
+void add_effects(Json& array, const Answer& answer, const Ranked& ranked) {
+    for (const Effect* effect : ranked.trained.effects) {
+        Json parameters;
+        Json interval;
+        fill(ranked, *effect, parameters, interval);
+        array.push_back({{"effect", effect->name},
+                         {"parameters", parameters},
+                         {"interval", interval},
+                         {"gap_before", answer.decision.base_gap},
+                         {"gap_after", ranked.gap_after},
+                         {"shrink", shrink_of(answer.decision, ranked.gap_after)},
+                         {"confidence", answer.decision.confidence}});
+    }
+}
+
+}  // namespace
+
+const char* name_of(Outcome outcome) {
+    switch (outcome) {
+        case Outcome::attributed:
+            return "attributed";
+        case Outcome::ambiguous:
+            return "ambiguous";
+        case Outcome::unknown:
+            return "unknown";
+        case Outcome::no_gap:
+            return "no_gap";
+    }
+    return "unknown";
+}
+
+std::string to_json(const Answer& answer) {
+    const Decision& decision = answer.decision;
+    Json verdict;
+    verdict["schema"] = "glsum-gap-1";
+    verdict["verdict"] = name_of(decision.outcome);
+    verdict["effects"] = Json::array();
+    for (const std::size_t i : decision.effects) {
+        add_effects(verdict["effects"], answer, answer.ranking[i]);
+    }
+    verdict["ranking"] = Json::array();
+    for (const Ranked& ranked : answer.ranking) {
+        verdict["ranking"].push_back(
+            {{"effect", ranked.trained.name()}, {"gap_after", ranked.gap_after}, {"score", ranked.score()}});
+    }
+    verdict["gap"] = {{"metric", answer.metric},
+                      {"base", decision.base_gap},
+                      {"after", answer.chosen().gap_after},
+                      {"noise_floor", decision.noise_floor}};
+    verdict["where"] = {
+        {"time", shares(answer.where.time, "from_s", "to_s")},
+        {"frequency", shares(answer.where.frequency, "from_hz", "to_hz")},
+        {"input_level", shares(answer.where.input_level, "from", "to")},
+        {"output_level", shares(answer.where.output_level, "from", "to")},
+        {"direction",
+         {{"rising", answer.where.rising}, {"falling", answer.where.falling}, {"still", answer.where.still}}}};
+    verdict["next_experiment"] = answer.next_experiment;
+    verdict["confidence"] = decision.confidence;
+    verdict["split"] = answer.split;
+    verdict["notes"] = answer.notes;
+    return verdict.dump(2) + "\n";
+}
+
+std::string improved_model(const Answer& answer) {
+    const Ranked& chosen = answer.chosen();
+    Json model = Json::parse(drive::to_json(answer.model_of(chosen.trained)));
+    Json list = Json::array();
+    for (const Effect* effect : chosen.trained.effects) {
+        Json parameters = Json::object();
+        const auto add = [&](const std::vector<FreeParameter>& numbers) {
+            for (const FreeParameter& parameter : numbers) {
+                if (parameter.name.starts_with(effect->name + ".")) {
+                    parameters[own_name(parameter.name)] = parameter.value;
+                }
+            }
+        };
+        for (const auto& numbers : chosen.trained.lasting) {
+            add(numbers);
+        }
+        if (effect->kind == Kind::lasting) {  // an event is a record's, not the model's
+            list.push_back({{"effect", effect->name}, {"parameters", parameters}});
+        }
+    }
+    model["effects"] = list;
+    if (answer.refit) {
+        model["operating_output"] = chosen.candidate.own.front().front().value;
+    }
+    return model.dump(2) + "\n";
+}
+
+std::string to_text(const Answer& answer) {
+    const Decision& decision = answer.decision;
+    std::string text = fmt::format("verdict: {}", name_of(decision.outcome));
+    for (std::size_t i = 0; i < decision.effects.size(); ++i) {
+        text += fmt::format("{}{}", i == 0 ? ": " : " or ", answer.ranking[decision.effects[i]].trained.name());
+    }
+    text += fmt::format(" (confidence {:.2f})\n\n", decision.confidence);
+    text += fmt::format("gap, rms over the output's deviation, {}: {:.4f} before, {:.4f} after, {:.4f} at best\n",
+                        answer.metric, decision.base_gap, answer.chosen().gap_after, decision.noise_floor);
+    if (answer.split) {
+        text += "no validation record: parts of the training record were kept aside for it\n";
+    }
+    for (const std::size_t i : decision.effects) {
+        for (const Effect* effect : answer.ranking[i].trained.effects) {
+            Json parameters;
+            Json interval;
+            fill(answer.ranking[i], *effect, parameters, interval);
+            for (const auto& [name, value] : parameters.items()) {
+                text += fmt::format("  {}.{} = {}", effect->name, name, shown(value));
+                text += interval.contains(name) ? fmt::format("  [{}]\n", shown(interval[name])) : "\n";
+            }
+        }
+    }
+    text += "\n  candidate                                                gap left   score over none\n";
+    std::size_t rows = 0;
+    for (const Ranked& ranked : answer.ranking) {
+        if (rows++ < 10 || ranked.trained.effects.empty()) {
+            text += fmt::format("  {:<55} {:>9.4f} {:>17.1f}\n", ranked.trained.name(), ranked.gap_after,
+                                ranked.score() - answer.none().score());
+        }
+    }
+    text += "\nwhere the base's squared gap lies\n";
+    for (const Share& share : answer.where.time) {
+        if (share.share >= 0.05) {
+            text += fmt::format("  {:8.3f} to {:8.3f} s  {:5.1f} %  {}\n", share.from, share.to, 100.0 * share.share,
+                                share.what);
+        }
+    }
+    for (const Share& share : answer.where.frequency) {
+        if (share.share >= 0.1) {
+            text += fmt::format("  {:8.3f} to {:8.3f} Hz {:5.1f} %\n", share.from, share.to, 100.0 * share.share);
+        }
+    }
+    text += fmt::format("  rising {:.1f} %, falling {:.1f} %, still {:.1f} %\n", 100.0 * answer.where.rising,
+                        100.0 * answer.where.falling, 100.0 * answer.where.still);
+    for (const std::string& note : answer.notes) {
+        text += fmt::format("\nnote: {}", note);
+    }
+    return text + (answer.notes.empty() ? "" : "\n") + "\nnext: " + answer.next_experiment + "\n";
+}
+
+}  // namespace gap

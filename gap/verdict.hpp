@@ -1,0 +1,18 @@
+// The verdict as a file and for people.
+#pragma once
+
+#include <string>
+
+#include "gap/drive/diagnose.hpp"
+
+namespace gap {
+
+/// Schema glsum-gap-1.
+[[nodiscard]] std::string to_json(const Answer& answer);
+/// A model file with the chosen candidate's lasting effects in a field `effects`, which `glsum simulate` runs.
+[[nodiscard]] std::string improved_model(const Answer& answer);
+/// Some lines for a terminal.
+[[nodiscard]] std::string to_text(const Answer& answer);
+[[nodiscard]] const char* name_of(Outcome outcome);
+
+}  // namespace gap

@@ -1,0 +1,171 @@
+// The simulation with effects against exact responses and closed forms; the audit; the whitener.
+#include "gap/drive/simulate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "drive/response.hpp"
+#include "drive/simulation.hpp"
+#include "gap/drive/audit.hpp"
+#include "gap/drive/effect.hpp"
+#include "gap/flexible.hpp"
+#include "gap/whiten.hpp"
+#include "stand_case.hpp"
+
+namespace {
+
+drive::Model plant_12() {
+    drive::Model model;
+    model.denominator = {{0.18234, 1.9909}, {0.65536, 0.98319}, {0.9992, 0.0}};
+    model.delay_s = 1.0;
+    return model;
+}
+
+gap::Record pulses(double interval_s, double until_s) {
+    gap::Record record;
+    record.name = "pulses";
+    record.usual_interval_s = interval_s;
+    for (double t = 0.0; t < until_s; t += interval_s) {
+        record.time_s.push_back(t);
+        record.input.push_back(std::fmod(t, 5.0) < 2.6 ? 0.3 + 0.1 * std::floor(t / 5.0) : 0.0);
+        record.output.push_back(0.0);
+    }
+    return record;
+}
+
+double rms(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        sum += (a[i] - b[i]) * (a[i] - b[i]);
+    }
+    return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+TEST(GapSimulation, IsTheExactResponse) {
+    const gap::Record record = pulses(0.01, 20.0);
+    gap::Scenario plain;
+    plain.model = plant_12();
+    const std::vector<double> exact =
+        drive::respond(plain.model, drive::changes_of(record.time_s, record.input), record.time_s);
+    EXPECT_LT(rms(gap::simulate(plain, gap::Course(record, 1)), exact), 5e-5);
+    const gap::Course corrected = gap::make_course(record, plain, 1e-2);
+    EXPECT_EQ(corrected.grid().count, gap::Course(record, 1).grid().count);
+    EXPECT_LT(rms(gap::simulate(plain, corrected), exact), 5e-6);
+}
+
+TEST(GapSimulation, SticksUntilTheForceIsOvercome) {
+    gap::Record record = pulses(0.01, 4.0);
+    gap::Scenario scenario;
+    scenario.model = plant_12();
+    scenario.model.delay_s = 0.0;
+    scenario.forces.friction_up = scenario.forces.friction_down = 0.31;
+    for (const double y : gap::Course(record, 1).nodes_of(scenario)) {
+        ASSERT_EQ(y, 0.0);
+    }
+    scenario.forces.friction_up = 0.1;
+    scenario.forces.friction_down = 0.1;
+    std::fill(record.input.begin(), record.input.end(), 0.3);
+    // It stops where the force that is left balances the weight, or short of it by at most the friction.
+    const double end = gap::Course(record, 1).nodes_of(scenario).back();
+    EXPECT_GE(end, (0.3 - 0.1) / 0.9992 - 1e-3);
+    EXPECT_LE(end, (0.3 + 0.1) / 0.9992 + 1e-3);
+}
+
+TEST(GapSimulation, TakesWhatWasDeployedExactly) {
+    const gap::Record record = pulses(0.01, 10.0);
+    gap::Scenario plain;
+    plain.model = plant_12();
+    gap::Scenario forgetful = plain;
+    forgetful.deployed = gap::Deployed{0.01, 60.0, ""};
+    const gap::Course course = gap::make_course(record, plain, 1e-3);
+    drive::Scheme scheme;
+    scheme.step_s = 0.01;
+    scheme.taps = 60;
+    const std::vector<double> ran = drive::simulate(plain.model, scheme, record.input).output;
+    EXPECT_LT(rms(gap::simulate(forgetful, course), ran), 1e-9);
+    EXPECT_GT(rms(gap::simulate(plain, course), ran), 1e-3);
+}
+
+TEST(GapEffects, AreTheContractsAndChangeNothingAtTheirNeutralValue) {
+    const gap::Record record = gap_test::log_of({}, {});
+    const gap::Audit found = gap::audit({record});
+    gap::Scenario plain;
+    plain.model = gap::model_of(gap_test::linear_form());
+    const gap::Scales scales = gap::scales_of(plain.model, {record}, found);
+    const gap::Course course(record, 1);
+    const std::vector<double> usual = gap::simulate(plain, course);
+    EXPECT_EQ(gap::effects().size(), 33U);
+    for (const gap::Effect* effect : gap::effects()) {
+        const auto parameters = effect->parameters(scales);
+        if (parameters.empty()) {
+            continue;  // it cannot occur in this record
+        }
+        std::vector<double> values;
+        for (const gap::EffectParameter& parameter : parameters) {
+            EXPECT_LE(parameter.lower, parameter.upper) << effect->name;
+            values.push_back(parameter.none);
+        }
+        gap::Scenario scenario = plain;
+        effect->add_to(scenario, values);
+        EXPECT_LT(rms(gap::simulate(scenario, course), usual), 2e-4) << effect->name;
+    }
+}
+
+TEST(GapAudit, FindsTheQuantumAndTheHeldSamples) {
+    const gap::Record quantised = gap_test::log_of({{"encoder_quantisation.step", 0.0063}}, {.seed = 8});
+    EXPECT_NEAR(gap::audit({quantised}).quantum, 0.0063, 1e-6);
+    EXPECT_EQ(gap::audit({gap_test::log_of({}, {.seed = 8})}).quantum, 0.0);
+    const gap::Record dropping = gap_test::log_of({{"dropped_samples.rate", 0.1}}, {.seed = 9});
+    EXPECT_NEAR(gap::audit({dropping}).held_share, 0.1, 0.05);
+    EXPECT_EQ(gap::audit({gap_test::log_of({}, {.seed = 9})}).held_share, 0.0);
+    EXPECT_NEAR(gap::audit({gap_test::log_of({}, {.seed = 10})}).noise, 0.003, 3e-4);
+}
+
+TEST(GapWhitener, MakesColouredNoiseWhite) {
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> normal;
+    std::vector<double> coloured(4000);
+    double value = 0.0;
+    for (double& one : coloured) {
+        one = value = 0.9 * value + normal(engine);
+    }
+    const gap::Whitener whitener = gap::fit_whitener({coloured}, 8, 1e-9);
+    EXPECT_NEAR(whitener.coefficients.at(0), 0.9, 0.03);
+    EXPECT_NEAR(whitener.deviation, 1.0, 0.05);
+    const std::vector<double> white = whitener.apply(coloured);
+    double along = 0.0;
+    double square = 0.0;
+    for (std::size_t i = 1; i < white.size(); ++i) {
+        along += white[i] * white[i - 1];
+        square += white[i] * white[i];
+    }
+    EXPECT_LT(std::fabs(along / square), 0.05);
+}
+
+TEST(GapFlexible, ForeseesWhatDependsOnTheInputAndNothingElse) {
+    gap::Record record = pulses(0.02, 40.0);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        record.input[i] = std::fmod(record.time_s[i], 5.0) < 2.6 ? 0.9 : 0.2;
+    }
+    gap::Scenario plain;
+    plain.model = plant_12();
+    gap::Remainder remainder{
+        &record, gap::simulate(plain, gap::Course(record, 1)), {}, std::vector<char>(record.size(), 1)};
+    std::mt19937_64 engine(2);
+    std::normal_distribution<double> normal;
+    double noise = 0.0;
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        noise = 0.8 * noise + 0.01 * normal(engine);
+        remainder.residuals.push_back(noise);
+    }
+    EXPECT_LT(gap::explain({remainder}, {}, 1.0, 0.5).explained, 0.1);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        remainder.residuals[i] += 0.05 * remainder.simulated[i] * remainder.simulated[i] * remainder.simulated[i];
+    }
+    const gap::Flexible found = gap::explain({remainder}, {}, 1.0, 0.5);
+    EXPECT_TRUE(found.certain);
+}
+
+}  // namespace

@@ -1,0 +1,217 @@
+// Verdicts on logs of the virtual stand whose effect is known.
+#include "gap/verdict.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "qemu/failure.hpp"
+#include "stand_case.hpp"
+
+namespace {
+
+using gap::Outcome;
+using gap_test::ask;
+using gap_test::names;
+using gap_test::Sizes;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+std::string text_of(const gap::Answer& answer) { return gap::to_text(answer); }
+
+struct Known {
+    const char* effect;
+    Sizes sizes;
+    const char* parameter;  ///< of the effect
+    double expected;
+    double tolerance;
+};
+
+void PrintTo(const Known& known, std::ostream* out) { *out << known.effect; }
+
+class KnownEffect : public testing::TestWithParam<Known> {};
+
+TEST_P(KnownEffect, IsNamedWithItsSize) {
+    const Known& known = GetParam();
+    const gap::Answer answer = ask(known.sizes);
+    ASSERT_EQ(answer.decision.outcome, Outcome::attributed) << text_of(answer);
+    ASSERT_THAT(names(answer), ElementsAre(known.effect)) << text_of(answer);
+    const auto* parameter = gap_test::find(answer, std::string(known.effect) + "." + known.parameter);
+    ASSERT_NE(parameter, nullptr);
+    EXPECT_NEAR(parameter->value, known.expected, known.tolerance) << text_of(answer);
+    EXPECT_LT(answer.chosen().gap_after, answer.decision.base_gap);
+    EXPECT_LE(answer.decision.noise_floor, answer.chosen().gap_after * (1.0 + 1e-12));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Gap, KnownEffect,
+    testing::Values(
+        Known{"input_dead_zone", {{"input_dead_zone.width", 0.015}}, "width", 0.015, 1e-3},
+        Known{"input_saturation", {{"input_saturation.limit", 0.08}}, "limit", 0.08, 1e-3},
+        Known{"gain_error", {{"gain_error.gain", 0.9}}, "gain", 0.9, 5e-3},
+        Known{"time_scale_error", {{"time_scale_error.scale", 1.15}}, "scale", 1.15, 0.02},
+        Known{"dead_time_error", {{"dead_time_error.extra_s", 0.06}}, "extra_s", 0.06, 5e-3},
+        Known{"rate_limit", {{"rate_limit.per_s", 0.1}}, "per_s", 0.1, 0.01},
+        Known{"gain_drift", {{"gain_drift.per_s", -0.01}}, "per_s", -0.01, 1e-3},
+        Known{"coulomb_friction",
+              {{"coulomb_friction.force", 0.006}, {"coulomb_friction.stiction", 1.0}},
+              "force",
+              0.006,
+              6e-4},
+        Known{"gravity_nonlinearity", {{"gravity_nonlinearity.angle_per_unit", 1.0}}, "angle_per_unit", 1.0, 0.05},
+        Known{"end_stop", {{"end_stop.limit", 0.8}}, "limit", 0.8, 0.01},
+        Known{"backlash", {{"backlash.gap", 0.06}}, "gap", 0.06, 6e-3},
+        Known{"sensor_offset", {{"sensor_offset.offset", 0.03}}, "offset", 0.03, 2e-3},
+        Known{"sensor_drift", {{"sensor_drift.per_s", 0.003}}, "per_s", 0.003, 3e-4},
+        Known{"sensor_saturation", {{"sensor_saturation.limit", 0.7}}, "limit", 0.7, 0.01},
+        Known{"direction_asymmetry",
+              {{"direction_asymmetry.tau_up_s", 0.02}, {"direction_asymmetry.tau_down_s", 0.2}},
+              "tau_down_s",
+              0.2,
+              0.02},
+        Known{"sampling_jitter", {{"sampling_jitter.half_width_s", 0.015}}, "half_width_s", 0.015, 3e-3}),
+    [](const auto& known) { return std::string(known.param.effect); });
+
+TEST(Verdict, OfAPerfectModelIsNoGapWhateverTheNoise) {
+    for (const double colour : {0.0, 0.9}) {
+        for (const char* experiment : {"prbs", "chirp", "ramp"}) {
+            const gap::Answer answer = ask({}, {.seed = 3, .colour = colour},
+                                           {.experiment = experiment, .duty = 0.12, .seed = 4, .colour = colour});
+            EXPECT_EQ(answer.decision.outcome, Outcome::no_gap) << experiment << '\n' << text_of(answer);
+        }
+    }
+}
+
+TEST(Verdict, OfTwoEffectsIsTheirPair) {
+    const gap::Answer answer = ask({{"input_dead_zone.width", 0.015}, {"sensor_drift.per_s", 0.005}}, 2);
+    ASSERT_EQ(answer.decision.outcome, Outcome::attributed) << text_of(answer);
+    EXPECT_THAT(names(answer), ElementsAre(testing::AllOf(HasSubstr("input_dead_zone"), HasSubstr("sensor_drift"))));
+}
+
+TEST(Verdict, OnOneLevelCannotPartWhatEqualsAGain) {
+    const gap::Answer answer =
+        ask({{"input_dead_zone.width", 0.02}}, {.experiment = "step", .seed = 5}, {.experiment = "pulse", .seed = 6});
+    EXPECT_EQ(answer.decision.outcome, Outcome::ambiguous) << text_of(answer);
+    EXPECT_THAT(names(answer), testing::IsSupersetOf({"gain_error", "input_dead_zone", "input_saturation"}));
+    EXPECT_THAT(answer.next_experiment, HasSubstr("staircase"));
+}
+
+TEST(Verdict, CannotPartLagsThatCommute) {
+    const gap::Answer answer = ask({{"sensor_lag.tau_s", 0.1}}, 3);
+    EXPECT_EQ(answer.decision.outcome, Outcome::ambiguous) << text_of(answer);
+    EXPECT_THAT(names(answer), testing::IsSupersetOf({"sensor_lag", "actuator_lag"}));
+    EXPECT_THAT(answer.next_experiment, HasSubstr("no input parts them"));
+}
+
+// Cogging: a force that waves over the angle is on no list.
+gap::Record with_cogging(gap::Record record) {
+    const gap::Course course(record, 4);
+    gap::Scenario scenario;
+    scenario.model = gap::model_of(gap_test::linear_form());
+    const std::vector<double> nodes = course.nodes_of(scenario);
+    const std::vector<double> plain = gap::read_at(course.grid(), nodes, record.time_s);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        record.output[i] += 0.05 * std::sin(9.0 * plain[i]);
+    }
+    return record;
+}
+
+TEST(Verdict, OfWhatIsNotListedIsUnknown) {
+    gap::Question question{gap_test::linear_form(),
+                           false,
+                           {with_cogging(gap_test::log_of({}, {.seed = 31}))},
+                           {with_cogging(gap_test::log_of({}, {.experiment = "prbs", .low_duty = 0.02, .seed = 32}))},
+                           std::nullopt,
+                           gap::Metric::simulation,
+                           {},
+                           2};
+    const gap::Answer answer = gap::diagnose(question, [](const std::string&) {});
+    EXPECT_EQ(answer.decision.outcome, Outcome::unknown) << text_of(answer);
+    EXPECT_TRUE(answer.decision.effects.empty());
+    EXPECT_LT(answer.decision.noise_floor, 0.7 * answer.decision.base_gap);
+}
+
+TEST(Verdict, OfAnEffectThatIsTakenOffTheListIsNotAnother) {
+    for (const auto& [effect, sizes] :
+         {std::pair<std::string, Sizes>{"backlash", {{"backlash.gap", 0.1}}},
+          std::pair<std::string, Sizes>{"sensor_saturation", {{"sensor_saturation.limit", 0.6}}}}) {
+        const gap::Answer answer = ask(sizes, 4, {effect});
+        EXPECT_THAT(names(answer), Not(Contains(HasSubstr(effect))));
+        EXPECT_TRUE(answer.decision.outcome == Outcome::unknown || answer.decision.confidence < 0.97)
+            << text_of(answer);
+        EXPECT_GT(answer.chosen().gap_after, 1.5 * 0.003 / 0.3) << text_of(answer);  // what is left is reported
+    }
+}
+
+TEST(Verdict, AsAFileHoldsWhatItPromises) {
+    const gap::Answer answer = ask({{"input_dead_zone.width", 0.02}}, 5);
+    const auto file = nlohmann::json::parse(gap::to_json(answer));
+    EXPECT_EQ(file["schema"], "glsum-gap-1");
+    for (const char* list : {"time", "frequency", "input_level", "output_level"}) {
+        double sum = 0.0;
+        for (const auto& share : file["where"][list]) {
+            sum += share["share"].get<double>();
+        }
+        EXPECT_NEAR(sum, 1.0, 1e-9) << list;
+    }
+    const auto& direction = file["where"]["direction"];
+    EXPECT_NEAR(
+        direction["rising"].get<double>() + direction["falling"].get<double>() + direction["still"].get<double>(), 1.0,
+        1e-9);
+    // The gap is what anyone computes from the log and the model: rms of measured - simulated over the deviation.
+    const gap::Record& record = answer.records.front();
+    double mean = 0.0;
+    for (const double z : record.output) {
+        mean += z / static_cast<double>(record.size());
+    }
+    double squares = 0.0;
+    double deviation = 0.0;
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        squares += answer.none().residuals[0][i] * answer.none().residuals[0][i];
+        deviation += (record.output[i] - mean) * (record.output[i] - mean);
+    }
+    EXPECT_NEAR(file["gap"]["base"].get<double>(), std::sqrt(squares / deviation), 1e-9);
+    const auto& effect = file["effects"][0];
+    const double base = file["gap"]["base"];
+    const double floor = file["gap"]["noise_floor"];
+    EXPECT_NEAR(effect["shrink"].get<double>(), (base - effect["gap_after"].get<double>()) / (base - floor), 1e-9);
+    const double width = effect["parameters"]["width"];
+    EXPECT_LT(effect["interval"]["width"][0], width);
+    EXPECT_GT(effect["interval"]["width"][1], width);
+    EXPECT_LT(effect["interval"]["width"][0].get<double>(), 0.02);
+    EXPECT_GT(effect["interval"]["width"][1].get<double>(), 0.02);
+    EXPECT_THAT(gap::improved_model(answer), HasSubstr("input_dead_zone"));
+}
+
+std::string message_of(const gap::Question& question) {
+    try {
+        (void)gap::diagnose(question, [](const std::string&) {});
+    } catch (const glsum::Failure& failure) {
+        return failure.what();
+    }
+    return "no failure";
+}
+
+TEST(Verdict, IsRefusedWhereModelAndLogCannotBelongTogether) {
+    gap::Question question{
+        gap_test::linear_form(), false, {gap_test::log_of({}, {})}, {}, std::nullopt, gap::Metric::simulation, {}, 1};
+    for (double& angle : question.train[0].output) {
+        angle *= 1000.0;
+    }
+    EXPECT_THAT(message_of(question), HasSubstr("expected the model's units"));
+    question.train = {gap_test::log_of({}, {})};
+    for (double& t : question.train[0].time_s) {
+        t *= 1000.0;
+    }
+    question.train[0].usual_interval_s *= 1000.0;
+    EXPECT_THAT(message_of(question), HasSubstr("are the stamps in seconds?"));
+    question.train = {gap_test::log_of({}, {})};
+    question.form.parameter("delay_s").value = 25.0;
+    EXPECT_THAT(message_of(question), HasSubstr("expected a log longer than the model's dead time"));
+}
+
+}  // namespace
