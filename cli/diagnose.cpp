@@ -6,6 +6,9 @@
 #include <optional>
 #include <thread>
 
+#include "bench/parallel.hpp"
+#include "bench/progress.hpp"
+#include "bench/sha256.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose_cycles.hpp"
 #include "cli/drive_files.hpp"
@@ -73,6 +76,78 @@ void check_split(const gap::Question& question) {
     }
 }
 
+// A folder of a blind set: its model, and its records by the beginning of their names.
+gap::Question question_of(const std::filesystem::path& folder) {
+    const auto logs = [&](const std::string& name) {
+        std::vector<std::filesystem::path> found;
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            if (entry.path().extension() == ".csv" && entry.path().filename().string().starts_with(name)) {
+                found.push_back(entry.path());
+            }
+        }
+        std::sort(found.begin(), found.end());
+        return read_records(found, {});
+    };
+    return {gap::form_of(read_model((folder / "model.json").string())),
+            false,
+            logs("train"),
+            logs("validate"),
+            std::nullopt,
+            gap::Metric::simulation,
+            {},
+            1};
+}
+
+// Every case of a set is judged and hashed; one that cannot be read is said and left out, the others are kept.
+void run_batch(const std::filesystem::path& set, unsigned jobs) {
+    std::vector<std::filesystem::path> cases;
+    std::error_code unreadable;
+    for (const auto& entry : std::filesystem::directory_iterator(set, unreadable)) {
+        if (std::filesystem::exists(entry.path() / "model.json")) {
+            cases.push_back(entry.path());
+        }
+    }
+    if (cases.empty()) {
+        throw glsum::Failure(
+            glsum::Exit::bad_input,
+            fmt::format("--batch {}: expected folders with model.json, train*.csv and validate*.csv, found none",
+                        set.string()));
+    }
+    std::sort(cases.begin(), cases.end());
+    std::vector<std::string> verdicts(cases.size());
+    std::vector<std::string> failures(cases.size());
+    {
+        bench::Progress progress("cases", cases.size());
+        bench::parallel_for(cases.size(), jobs, [&](std::size_t i) {
+            try {
+                const gap::Answer answer = gap::diagnose(question_of(cases[i]), [](const std::string&) {});
+                put(gap::to_json(answer), cases[i] / "verdict.json");
+                verdicts[i] = gap::name_of(answer.decision.outcome);
+            } catch (const glsum::Failure& failure) {
+                failures[i] = failure.what();
+            }
+            progress.advance();
+        });
+    }
+    std::string hashes;
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const std::string name = cases[i].filename().string();
+        if (!failures[i].empty()) {
+            fmt::print(stderr, "glsum: {}: {}\n", name, failures[i]);
+            ++failed;
+            continue;
+        }
+        fmt::print("{}  {}\n", name, verdicts[i]);
+        hashes += bench::sha256_line(bench::sha256_of(cases[i] / "verdict.json"), name + "/verdict.json");
+    }
+    put(hashes, set / "verdicts.sha256");
+    if (failed > 0) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{} of {} cases have no verdict", failed, cases.size()));
+    }
+}
+
 void run(const Options& options) {
     std::vector<gap::Record> train = read_records(options.logs, options.columns);
     for (const std::string& name : options.without) {
@@ -113,10 +188,27 @@ void run(const Options& options) {
 void add_diagnose(CLI::App& app) {
     CLI::App* command =
         app.add_subcommand("diagnose", "Where simulation and measurement part, and which effect explains it");
-    command->require_subcommand(1);
-    add_diagnose_cycles(*command);
+    command->require_subcommand(0, 1);
     auto options = std::make_shared<Options>();
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
+    command->add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    auto set = std::make_shared<std::filesystem::path>();
+    command->add_option(
+        "--batch", *set,
+        "Judge each case of a blind set: DIR/NNN/ with model.json, train*.csv and validate*.csv; writes "
+        "DIR/NNN/verdict.json and DIR/verdicts.sha256");
+    command->footer(
+        "Examples: glsum diagnose drive --model model.json --log train.csv --validate other.csv\n"
+        "          glsum diagnose cycles --measured results/silicon/h747_per_sample_fir.csv\n"
+        "          glsum diagnose --batch build/blind");
+    command->callback([command, options, set] {
+        if (!set->empty()) {
+            run_batch(*set, options->jobs);
+        } else if (command->get_subcommands().empty()) {
+            throw glsum::Failure(glsum::Exit::bad_input, "diagnose: expected drive, cycles or --batch DIR");
+        }
+    });
+    add_diagnose_cycles(*command);
     CLI::App* of_drive = command->add_subcommand("drive", "A model of a drive against its logs");
     of_drive->footer(
         "Without --refit the model is judged as it is, its parameters included. With it, or with fit:FORM, its gain, "

@@ -62,4 +62,21 @@ expect 2 "the input is 0 throughout" diagnose drive --model "$folder/linear.json
 # The log of one drive, the model of another: never a confident verdict.
 awk -F, 'NR < 3 {print; next} {printf "%s,%s,%.6f\n", $1, $2, 0.3 * sin(1.7 * $1) + 0.2 * sin(5.1 * $1 + 1)}' "$folder/clean.csv" >"$folder/foreign.csv"
 expect 0 "do model and log belong together?" diagnose drive --model "$folder/linear.json" --log "$folder/foreign.csv"
+# As the launcher calls it, and a whole set, hashed as `score` wants it.
+expect 2 "expected drive, cycles or --batch DIR" diagnose --jobs 2
+expect 0 "verdict: no_gap" diagnose --jobs 1 drive --model "$folder/linear.json" --log "$folder/clean.csv" --validate "$folder/cleaner.csv"
+for case in 001 002; do
+    mkdir -p "$folder/set/$case"
+    cp "$folder/linear.json" "$folder/set/$case/model.json"
+done
+cp "$folder/train.csv" "$folder/set/001/train.csv"
+cp "$folder/clean.csv" "$folder/set/002/train.csv"
+cp "$folder/cleaner.csv" "$folder/set/002/validate.csv"
+cp "$folder/cleaner.csv" "$folder/set/001/validate.csv"
+expect 0 "002  no_gap" diagnose --jobs 2 --batch "$folder/set"
+(cd "$folder/set" && sha256sum --quiet -c verdicts.sha256) || { echo "expected hashes of the verdicts"; failures=$((failures + 1)); }
+[ "$(wc -l <"$folder/set/verdicts.sha256")" -eq 2 ] || { echo "expected two hashes"; failures=$((failures + 1)); }
+echo broken >"$folder/set/001/model.json"
+expect 2 "1 of 2 cases have no verdict" diagnose --batch "$folder/set"
+expect 2 "expected folders with model.json" diagnose --batch "$folder/nothing"
 [ "$failures" -eq 0 ]
