@@ -15,6 +15,9 @@ namespace {
 // A replay need not be longer: the counted calls, whose outputs are compared too, go past the whole window and a wrap
 // of every history.
 constexpr std::size_t longest_replay = 1100;
+// Software doubles take a hundred instructions a tap, whatever the call: ten of their replays would take longer than all
+// others together.
+constexpr std::size_t longest_replay_in_software = 128;
 
 std::vector<std::string> target_kernels(const Sweep& sweep) {
     std::vector<std::string> kernels;
@@ -45,7 +48,8 @@ TargetPlan make_target_plan(const Sweep& sweep) {
             if (is_new) {
                 plan.counts.push_back({kernel, order, taps, signals, qemu::calls_to_measure(taps)});
             }
-            const std::size_t calls = std::min({sweep.samples, taps + 64, longest_replay});
+            const std::size_t longest = double_in_software(kernel) ? longest_replay_in_software : longest_replay;
+            const std::size_t calls = std::min({sweep.samples, taps + 64, longest});
             for (std::size_t turn = place; turn == place || turn < signals; turn += places) {
                 plan.replays.push_back({plan.rows.size(), {kernel, order, taps, (turn + k) % signals, calls}});
             }

@@ -4,70 +4,13 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "drive/log.hpp"
-#include "drive/model.hpp"
-#include "drive/response.hpp"
+#include "drive/form.hpp"
+#include "drive/record.hpp"
 
 namespace drive {
-
-/// One experiment, from rest: the held input and the stamps' outputs. Stamps need not be even.
-struct Record {
-    std::string name;
-    std::vector<Change> changes;
-    std::vector<double> time_s;  ///< from the first stamp
-    std::vector<double> output;
-    /// In a closed loop: what made the input of the reference and the output. Then `changes` are the reference's.
-    std::optional<Model> controller = {};
-    std::vector<double> reference = {};  ///< at the stamps
-};
-
-/// \param controller  of a closed loop; the reference is the log's, or else what its input and output leave no choice
-/// about (`recover_reference`)
-/// \throws glsum::Failure (bad input) where nothing can be identified: an input or reference that never changes from 0,
-/// an output that never moves, fewer than 8 samples.
-[[nodiscard]] Record to_record(const Log& log, const std::optional<Model>& controller = {});
-
-/// What a model, and in a closed loop the record's controller, make of a record's input or reference. \param offset  of
-/// the readings
-[[nodiscard]] std::vector<double> respond_to(const Model& model, const Record& record, double offset = 0.0);
-
-struct Parameter {
-    std::string name;
-    double value;  ///< the start; in a result, the estimate
-    double lower;
-    double upper;
-    bool fixed = false;
-};
-
-/// A family of models and its parameters:
-///   fopdt, sopdt  gain, time_constant_s, delay_s
-///   niopdt        a2 alpha2 a1 alpha1 a0 delay_s, with gain 1 and alpha0 0 fixed
-///   fotf          gain, b<i> beta<i> of each numerator term, a<i> alpha<i> of each denominator term, delay_s; those
-///   that are
-///                 superfluous (gain, a numerator of one term, orders of 0) are fixed
-/// and `offset`, of the output, fixed at 0. Indices count down with the order, to 0.
-class Form {
-public:
-    /// The parameters of `kind` that are nearest to a start of any kind: (11) as the start of (12) becomes
-    /// a2 = T^2, alpha2 = 2, a1 = 2 T, alpha1 = 1, a0 = 1 / gain. A fopdt start gives a niopdt without its highest
-    /// term's weight, T^2/4.
-    Form(Kind kind, const Model& start);
-
-    [[nodiscard]] const std::vector<Parameter>& parameters() const { return parameters_; }
-    [[nodiscard]] std::vector<Parameter>& parameters() { return parameters_; }
-    /// \throws glsum::Failure (bad input) naming those there are, if there is none of that name
-    [[nodiscard]] Parameter& parameter(const std::string& name);
-    [[nodiscard]] Model to_model(const std::vector<double>& values) const;
-
-private:
-    Kind kind_;
-    Model shape_;  // its terms and their order
-    std::vector<Parameter> parameters_;
-};
 
 struct FitOptions {
     double accepted_error = 0.0;  ///< E_c of (9): stop when the sum of squares is at most this

@@ -41,19 +41,45 @@ struct Event : AccessEvent {
     [[nodiscard]] bool fetch_delayed() const { return std::bit_cast<std::uint64_t>(fetch_delays) != 0; }
 };
 
-/// Equal events have equal words, others others, provided that `packs`.
+/// What the words below hold of stores that their memory delays: one delay, and which of the first eight it met.
+struct DelayedStores {
+    std::uint16_t delay = 0;
+    std::uint8_t which = 0;
+    bool whole = true;  ///< that is all
+};
+[[nodiscard]] inline DelayedStores delayed_stores(const Event& e) {
+    DelayedStores found;
+    for (std::size_t n = 0; n < e.store_delays.size(); ++n) {
+        if (e.store_delays[n] != 0) {
+            found.whole = found.whole && n < 8 && (found.delay == 0 || found.delay == e.store_delays[n]);
+            found.delay = e.store_delays[n];
+            found.which = static_cast<std::uint8_t>(found.which | (n < 8 ? 1U << n : 0U));
+        }
+    }
+    return found;
+}
+
+/// Equal events of one instruction have equal words, others others, provided that `packs`.
 struct PackedEvent {
     static constexpr unsigned bits = 54;  ///< of `event`, the lowest
     std::uint64_t event;
     std::uint64_t fetch_delays;  ///< 0: none, and `event` says so
 };
-[[nodiscard]] inline bool packs(const Event& e) { return !e.store_delayed && e.words <= e.fetch_delays.size(); }
+[[nodiscard]] inline bool packs(const Event& e) {
+    return e.words <= e.fetch_delays.size() && (!e.store_delayed || delayed_stores(e).whole);
+}
 [[nodiscard]] inline PackedEvent packed(const Event& e) {
-    const auto accesses = std::bit_cast<std::uint64_t>(static_cast<const AccessEvent&>(e));
-    const std::uint64_t load = e.load_delay > 0 ? index(e.load_effect) : 0;
+    AccessEvent accesses = e;
+    std::uint64_t effect = accesses.load_delay > 0 ? index(e.load_effect) : 0;
+    if (e.store_delayed) {  // in the bits of what only a load has
+        const DelayedStores stores = delayed_stores(e);
+        accesses.load_delay = stores.delay;
+        accesses.meets = stores.which;
+        effect = index(e.store_effect);
+    }
     const std::uint64_t fetch = e.fetch_delayed() ? 1 + index(e.fetch_effect) : 0;
-    return {accesses | load << 39 | fetch << 43 | std::uint64_t{e.words} << 48 | std::uint64_t{e.taken} << 51 |
-                static_cast<std::uint64_t>(e.prediction) << 52,
+    return {std::bit_cast<std::uint64_t>(accesses) | effect << 39 | fetch << 43 | std::uint64_t{e.words} << 48 |
+                std::uint64_t{e.taken} << 51 | static_cast<std::uint64_t>(e.prediction) << 52,
             std::bit_cast<std::uint64_t>(e.fetch_delays)};
 }
 

@@ -94,6 +94,14 @@ Delay Memory::store(std::uint32_t address) {
     return {sram_line(), Effect::dcache_misses};
 }
 
+std::int64_t Memory::longest_fetch() const {
+    if (placement_.code == CodePlace::itcm && placement_.data == DataPlace::dtcm) {
+        return 0;
+    }
+    const std::int64_t flash = (wait_states_ + 1 + figures_.memory_bus_overhead) * figures_.memory_bus_clocks;
+    return std::max(flash, sram_line());
+}
+
 bool Memory::has_banks(std::uint32_t address) const {
     if (in_dtcm(address)) {
         return true;

@@ -29,6 +29,9 @@ public:
     /// Extra cycles that a store takes to leave the store buffer.
     Delay store(std::uint32_t address);
 
+    /// The most that `fetch` ever says.
+    [[nodiscard]] std::int64_t longest_fetch() const;
+
     /// Whether loads of this address come from two banks of 32 bits: DTCM and the data cache.
     [[nodiscard]] bool has_banks(std::uint32_t address) const;
     [[nodiscard]] bool in_dtcm(std::uint32_t address) const {

@@ -22,8 +22,13 @@ State::State() {
     multiplicand_of_mac.fill(never);
 }
 
-Pipeline::Pipeline(const Figures& figures, Effects off) : figures_(figures), off_(off), latencies_(figures_) {
+Pipeline::Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects off)
+    : figures_(figures), off_(off), latencies_(figures_) {
     const auto& f = figures_;
+    fetch_queue_ = static_cast<std::size_t>(std::clamp<std::int64_t>(f.fetch_queue, 1, 8));
+    // The next words come a cycle and at most the longest delay apart, as long as none of them is used in cycle 0 or
+    // later.
+    fetch_memory_ = static_cast<std::int32_t>(static_cast<std::int64_t>(fetch_queue_ + 1) * (1 + longest_fetch));
     fp_memory_ = static_cast<std::int32_t>(
         2 + std::max({f.fp_bar_after_mac, f.fp_younger_bar_after_mac, f.fp_fma_bar_after_mla, f.fp_load_bar_after_mac,
                       f.fp_overwrite_bar_after_mac, f.fp_mac_bar_after_load, f.fp_mac_bar_after_store,
@@ -77,8 +82,7 @@ void Pipeline::execute(const Prepared& instruction, const Event& event) {
 // takes up a new word, at once if it was foreseen.
 void Pipeline::wait_for_bytes(const Event& event) {
     for (std::size_t n = 0; n < std::min<std::size_t>(event.words, event.fetch_delays.size()); ++n) {
-        const auto depth = static_cast<std::size_t>(std::clamp<std::int64_t>(figures_.fetch_queue, 1, 8));
-        const std::int32_t on_time = std::max(state.fetch_ready + 1, state.fetch_used[depth - 1]);
+        const std::int32_t on_time = std::max(state.fetch_ready + 1, state.fetch_used[fetch_queue_ - 1]);
         hold_cycle(Effect::fetch_alignment, on_time);
         state.fetch_ready = on_time;
         if (event.fetch_delays[n] > 0) {
@@ -451,11 +455,10 @@ std::int32_t Pipeline::settle() {
     ends(state.fp_blocks_until);
     state.fp_blocks_from = state.fp_blocks_until == 0 ? 0 : state.fp_blocks_from - back;
 
-    state.fetch_ready -= back;
-    for (std::int32_t& used : state.fetch_used) {
-        used = std::max(used - back, never);
+    state.fetch_ready = std::max(state.fetch_ready - back, -fetch_memory_);
+    for (std::size_t n = 0; n < state.fetch_used.size(); ++n) {
+        state.fetch_used[n] = n < fetch_queue_ ? std::max(state.fetch_used[n] - back, -fetch_memory_) : never;
     }
-    state.fetch_ready = std::max(state.fetch_ready, never);
 
     for (std::int32_t& cycle : state.stored) {
         fades(cycle, figures_.store_to_load);
@@ -472,7 +475,10 @@ std::int32_t Pipeline::settle() {
         if (value.producer == Producer::nothing) {
             continue;
         }
-        fades(value.cycle, std::max<std::int64_t>(latencies_.longest(value.producer), fp_memory_));
+        // Beside its latency a MAC's result is asked for its chain, and the flags for how long they are known.
+        const bool remembered = value.producer == Producer::fma || value.producer == Producer::mla ||
+                                &value == &state.values[registers::flags];
+        fades(value.cycle, std::max<std::int64_t>(latencies_.longest(value.producer), remembered ? fp_memory_ : 0));
         if (value.cycle == never) {
             value.producer = Producer::nothing;
         }

@@ -81,7 +81,8 @@ struct State {
 /// The core under one rule set.
 class Pipeline {
 public:
-    Pipeline(const Figures& figures, Effects off);
+    /// \param longest_fetch  the most extra cycles that a word of a fetch will come with (`Memory::longest_fetch`)
+    Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects off);
     Pipeline(const Pipeline&) = delete;
     Pipeline& operator=(const Pipeline&) = delete;
 
@@ -118,6 +119,8 @@ private:
     Figures figures_;
     Effects off_;
     Latencies latencies_;
+    std::size_t fetch_queue_;        // words, 1 to 8
+    std::int32_t fetch_memory_;      // cycles behind which the queue does not look back
     std::int32_t fp_memory_;         // cycles behind which no rule looks back at an FP instruction
     std::int64_t result_delay_ = 0;  // cycles that the loads of the instruction at work come late
 };
@@ -127,7 +130,7 @@ private:
 class Model {
 public:
     Model(const Figures& figures, Placement placement, Effects off)
-        : surroundings_(figures, placement), pipeline_(figures, off) {}
+        : surroundings_(figures, placement), pipeline_(figures, surroundings_.memory().longest_fetch(), off) {}
 
     /// One executed instruction. \param next  address of the one that was executed after it
     /// \return the half cycle in which it issues

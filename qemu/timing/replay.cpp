@@ -17,8 +17,10 @@ constexpr std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
 }  // namespace
 
 Replay::Replay(const CoreFile& core) {
+    // All sets are given the delays of the nominal one's memory.
+    const std::int64_t longest_fetch = Memory(core.sets[0].figures, core.placement).longest_fetch();
     for (const RuleSet& set : core.sets) {
-        pipelines_.push_back(std::make_unique<Pipeline>(set.figures, core.off));
+        pipelines_.push_back(std::make_unique<Pipeline>(set.figures, longest_fetch, core.off));
     }
     positions_.fill(-1);
     forget();

@@ -35,6 +35,8 @@ public:
     void meet(std::span<const CodeBlock::Line> lines, std::span<const qemu::Access> accesses, std::uint32_t next,
               BlockEvents& met);
 
+    [[nodiscard]] const Memory& memory() const { return memory_; }
+
 private:
     void fetch(const Decoded& d, std::uint32_t address, Event& event);
     void access(std::span<const qemu::Access> accesses, Event& event);

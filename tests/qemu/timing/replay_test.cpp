@@ -93,7 +93,8 @@ TEST(Replay, EqualsTheComputationStepByStep) {
         timing::Replay replay(core);
         std::vector<std::unique_ptr<timing::Pipeline>> direct;
         for (const timing::RuleSet& set : core.sets) {
-            direct.push_back(std::make_unique<timing::Pipeline>(set.figures, core.off));
+            direct.push_back(
+                std::make_unique<timing::Pipeline>(set.figures, surroundings.memory().longest_fetch(), core.off));
         }
         std::uint64_t steps = 0;
         std::size_t at = 0;
@@ -161,7 +162,8 @@ TEST(BlockReplay, EqualsTheComputationStepByStep) {
         timing::BlockReplay replay(core);
         std::vector<std::unique_ptr<timing::Pipeline>> direct;
         for (const timing::RuleSet& set : core.sets) {
-            direct.push_back(std::make_unique<timing::Pipeline>(set.figures, core.off));
+            direct.push_back(
+                std::make_unique<timing::Pipeline>(set.figures, of_steps.memory().longest_fetch(), core.off));
         }
         std::vector<timing::BlockEvents> met(blocks.size());
         std::vector<std::int64_t> half_cycles(sites.size());
