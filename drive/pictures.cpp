@@ -37,11 +37,19 @@ bench::Picture picture_of_curves(const std::vector<Curve>& curves, const std::st
                                     curves[i].points ? "points pt 7 ps 0.5" : fmt::format("lines lw 2 dt {}", dash),
                                     curves[i].points ? "#AAAAAA" : palette[i % std::size(palette)], curves[i].title));
     }
+    const std::size_t key_rows = (plots.size() + 2) / 3;
     script += fmt::format(
-        "set title \"{}\" noenhanced\nset xlabel \"t [s]\" offset 0,0.6\nset ylabel \"{}\"\nset grid lc rgb \"#dddddd\"\n"
-        "set key outside below horizontal maxcols 3 width 2\nset border 3\nset tics nomirror\nset xrange [*:*] "
-        "noextend\nplot {}\n",
-        title, unit, fmt::join(plots, ", \\\n  "));
+        "set title \"{}\" noenhanced\n"
+        "set xlabel \"t [s]\" offset 0,0.6\n"
+        "set ylabel \"{}\"\n"
+        "set grid lc rgb \"#dddddd\"\n"
+        "set key outside below horizontal maxcols 3 width 2\n"
+        "set bmargin {}\n"
+        "set border 3\n"
+        "set tics nomirror\n"
+        "set xrange [*:*] noextend\n"
+        "plot {}\n",
+        title, unit, 4 + key_rows, fmt::join(plots, ", \\\n  "));
     return {script, 900, 520};
 }
 

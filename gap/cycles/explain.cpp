@@ -53,6 +53,9 @@ std::string placement_of(const qemu::MeasuredCycles& row) {
     return fmt::format("code={} data={}{}", row.code, row.data, row.maintenance ? " maintenance" : "");
 }
 
+// Whether the call's code or data come over a bus that others use too.
+bool on_bus(const qemu::MeasuredCycles& row) { return row.code == "flash" || row.data == "axi"; }
+
 // What a core pays.
 struct State {
     std::string core;
@@ -62,6 +65,7 @@ struct State {
     double ratio = 1.0;                    // measured clock over the core's
     double overhead = 0.0;                 // cycles a call
     double maintenance = 0.0;              // and beside them where caches are maintained
+    double contention = 0.0;               // a part of the call's cycles where it is on the bus
 };
 
 class Explainer {
@@ -85,6 +89,7 @@ public:
             return result_;
         }
         State by_clock = best_reference();
+        State by_bus = by_clock;
         State found = by_clock;
         take_away(found);
         find_factors(found);
@@ -93,6 +98,10 @@ public:
         find_ratio(by_clock);
         if (by_clock.ratio != 1.0 && fitted_gap(by_clock) <= fitted_gap(found) + worth) {
             found = by_clock;
+        }
+        find_contention(by_bus);
+        if (by_bus.contention != 0.0 && fitted_gap(by_bus) <= fitted_gap(found) + worth) {
+            found = by_bus;
         }
         result_.reference = found.core;
         decide(found);
@@ -171,7 +180,8 @@ private:
                 const auto index = timing::index(*timing::effect_named(effect));
                 sum += (factor - 1.0) * static_cast<double>(p.half_cycles[index]) / 2.0;
             }
-            cycles.push_back(sum * state.ratio);
+            const bool waits = on_bus(question_.rows[cycles.size()]);
+            cycles.push_back(sum * state.ratio * (waits ? 1.0 + state.contention : 1.0));
         }
         return cycles;
     }
@@ -209,7 +219,7 @@ private:
 
     Cycles predicted_base() {
         Cycles cycles;
-        for (const qemu::PredictedCycles& p : of({question_.base, "", {}, {}, 1.0, 0.0, 0.0})) {
+        for (const qemu::PredictedCycles& p : of({question_.base, "", {}, {}, 1.0, 0.0, 0.0, 0.0})) {
             cycles.push_back(p.nominal);
             base_overhead_ = question_.rows[cycles.size() - 1].maintenance ? base_overhead_ : p.beside;
             base_maintained_ = question_.rows[cycles.size() - 1].maintenance ? p.beside : base_maintained_;
@@ -221,7 +231,7 @@ private:
         State best;
         double least = std::numeric_limits<double>::infinity();
         for (const std::string& core : question_.references) {
-            State state{core, "", {}, {}, 1.0, 0.0, 0.0};
+            State state{core, "", {}, {}, 1.0, 0.0, 0.0, 0.0};
             const double gap = fitted_gap(state);
             if (gap < least) {
                 least = gap;
@@ -306,6 +316,24 @@ private:
         }
     }
 
+    // Only where some rows are on the bus and others are not: in all of them it would be a clock.
+    void find_contention(State& state) {
+        const auto shared = std::count_if(question_.rows.begin(), question_.rows.end(), on_bus);
+        if (shared == 0 || static_cast<std::size_t>(shared) == question_.rows.size()) {
+            return;
+        }
+        const double gap = fitted_gap(state);
+        State tried = state;
+        const auto of_contention = [&](double contention) {
+            tried.contention = contention;
+            return fitted_gap(tried);
+        };
+        const double contention = least_at(of_contention, 0.0, 3.0);
+        if (better(of_contention(contention), gap)) {
+            state = tried;
+        }
+    }
+
     // From the base to what was found, the step that takes off most first.
     // \param fitted  whose costs beside the call are resampled
     std::vector<Step> steps_to(const State& found, State now, const State& fitted) {
@@ -351,6 +379,11 @@ private:
         if (found.ratio != 1.0) {
             moves.push_back(
                 {"clock_ratio", [&found](State& state) { state.ratio = found.ratio; }, {{"ratio", found.ratio}}});
+        }
+        if (found.contention != 0.0) {
+            moves.push_back({"bus_contention",
+                             [&found](State& state) { state.contention = found.contention; },
+                             {{"share", found.contention}}});
         }
         std::vector<Step> steps;
         double gap = gap_of(measured_, whole(now), judge_);
@@ -425,14 +458,16 @@ private:
                                           {},
                                           1.0,
                                           base_overhead_,
-                                          base_maintained_ - base_overhead_}
+                                          base_maintained_ - base_overhead_,
+                                          0.0}
                                   : State{question_.base,
                                           "",
                                           {},
                                           {},
                                           1.0,
                                           base_overhead_,
-                                          std::max(0.0, base_maintained_ - base_overhead_)};
+                                          std::max(0.0, base_maintained_ - base_overhead_),
+                                          0.0};
         if (base_maintained_ == 0.0) {
             base.maintenance = 0.0;
         }
@@ -455,6 +490,11 @@ private:
                 other.effect = "interrupt_load";
                 other.parameters = {{"share", 1.0 - 1.0 / found.ratio}};
                 result_.alternatives.push_back(other);
+                if (std::all_of(question_.rows.begin(), question_.rows.end(), on_bus)) {
+                    other.effect = "bus_contention";
+                    other.parameters = {{"share", found.ratio - 1.0}};
+                    result_.alternatives.push_back(other);
+                }
                 result_.apart = "a part of every row's time";
                 std::erase_if(result_.steps, [](const Step& step) { return step.effect == "clock_ratio"; });
                 result_.next_experiment =

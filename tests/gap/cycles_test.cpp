@@ -162,6 +162,15 @@ TEST(Cycles, AFasterClockIsNamedAndASlowerOneMayBeInterrupts) {
     EXPECT_FALSE(slower.next_experiment.empty());
 }
 
+TEST(Cycles, WhatOnlyRowsOnTheBusLoseIsContention) {
+    const Explanation found = diagnose(
+        "real", {}, [](const auto& row, const auto& p) { return p.nominal * (row.data == "axi" ? 1.3 : 1.0); });
+    EXPECT_EQ(found.verdict, "attributed");
+    ASSERT_EQ(effects_of(found), std::vector<std::string>{"bus_contention"});
+    EXPECT_NEAR(found.steps[0].parameters.at("share"), 0.3, 0.005);
+    EXPECT_LT(found.after_gap, 0.003);
+}
+
 TEST(Cycles, WhatNoEffectDoesIsUnknown) {
     const Explanation found =
         diagnose("real", {}, [](const auto& row, const auto& p) { return p.nominal + 1.5e-2 * row.taps * row.taps; });
