@@ -18,6 +18,7 @@
 #include "qemu/timing/latency.hpp"
 #include "qemu/timing/prepared.hpp"
 #include "qemu/timing/store_buffer.hpp"
+#include "qemu/timing/stored_words.hpp"
 #include "qemu/timing/surroundings.hpp"
 
 namespace timing {

@@ -25,9 +25,7 @@ Surroundings::Surroundings(const Figures& figures, Placement placement)
     : figures_(figures),
       fetch_shift_(static_cast<unsigned>(std::countr_zero(static_cast<std::uint32_t>(figures.fetch_bytes)))),
       memory_(figures_, placement),
-      predictor_(figures.branch_target_entries) {
-    stored_words_.fill(0xFFFFFFFFU);
-}
+      predictor_(figures.branch_target_entries) {}
 
 const Event& Surroundings::meet(const Decoded& d, std::uint32_t address, std::span<const qemu::Access> accesses,
                                 std::uint32_t next) {
@@ -134,11 +132,7 @@ void Surroundings::fetch(const Decoded& d, std::uint32_t address, Event& event) 
 }
 
 void Surroundings::load(std::span<const qemu::Access> accesses, AccessEvent& event, Effect& effect) {
-    unsigned meets = 0;
-    for (std::size_t n = 0; n < stored_words_.size(); ++n) {
-        meets |= stored_words_[n] == accesses.front().address >> 2 ? 1U << n : 0U;
-    }
-    event.meets = meets & 0xFFU;
+    event.meets = stored_words_.met_by(accesses.front().address) & 0xFFU;
     std::int64_t cycles = 0;
     for (const qemu::Access& access : accesses) {
         const Delay delay = memory_.load(access.address);
@@ -159,10 +153,7 @@ void Surroundings::store(std::span<const qemu::Access> accesses, Event& event) {
             event.store_effect = delay.effect;
             event.store_delays[nth % event.store_delays.size()] = narrowed(delay.cycles);
         }
-        for (std::size_t n = stored_words_.size() - 1; n > 0; --n) {
-            stored_words_[n] = stored_words_[n - 1];
-        }
-        stored_words_[0] = access.address >> 2;
+        stored_words_.add(access.address);
         ++nth;
     }
 }

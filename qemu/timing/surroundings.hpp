@@ -2,7 +2,6 @@
 // last. Told each executed instruction, it says what the core meets there. One for a core file, whatever its rule sets.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 
@@ -13,11 +12,9 @@
 #include "qemu/timing/memory.hpp"
 #include "qemu/timing/predictor.hpp"
 #include "qemu/timing/prepared.hpp"
+#include "qemu/timing/stored_words.hpp"
 
 namespace timing {
-
-/// Stores that a load may meet, the newest first.
-inline constexpr std::size_t stores_watched = 8;
 
 class Surroundings {
 public:
@@ -49,7 +46,7 @@ private:
     Memory memory_;
     Predictor predictor_;
     std::uint32_t fetched_ = 0xFFFFFFFFU;  // number of the word at hand
-    std::array<std::uint32_t, stores_watched> stored_words_;
+    StoredWords stored_words_;
     Event event_;
 };
 
