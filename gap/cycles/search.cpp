@@ -1,0 +1,150 @@
+#include "gap/cycles/search.hpp"
+
+#include <algorithm>
+#include <boost/math/tools/minima.hpp>
+#include <limits>
+
+namespace gap::cycles {
+namespace {
+
+// An effect is believed where it takes off this much of the sum of measured cycles, and this share of the gap.
+constexpr double worth = 0.003;
+constexpr double worth_of_gap = 0.15;
+
+// Where a function of one variable is least. Bounded: on what is flat the search would not end.
+template <class Function>
+double least_at(const Function& function, double low, double high) {
+    std::uintmax_t most = 100;
+    return boost::math::tools::brent_find_minima(function, low, high, 24, most).first;
+}
+
+State best_reference(Evidence& evidence, const Question& question) {
+    State best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::string& core : question.references) {
+        State state{.core = core};
+        const double gap = evidence.fitted_gap(state);
+        if (gap < least) {
+            least = gap;
+            best = state;
+        }
+    }
+    return best;
+}
+
+// Effects that these rows do not show, or speak against: the one whose absence fits best goes first.
+void take_away(Evidence& evidence, State& state) {
+    double gap = evidence.fitted_gap(state);
+    while (true) {
+        std::vector<State> without;
+        for (const std::string_view effect : timing::effect_names) {
+            if (!state.off.contains(std::string(effect))) {
+                without.push_back(state);
+                without.back().off.insert(std::string(effect));
+            }
+        }
+        evidence.simulate(without);
+        State* best = nullptr;
+        double least = std::numeric_limits<double>::infinity();
+        for (State& one : without) {
+            const double now = evidence.fitted_gap(one);
+            // What changes nothing is not there.
+            if (now < least) {
+                least = now;
+                best = &one;
+            }
+        }
+        const bool changes_nothing = best != nullptr && evidence.inside(*best) == evidence.inside(state);
+        if (best == nullptr || !(changes_nothing || better(least, gap))) {
+            return;
+        }
+        if (!changes_nothing) {
+            gap = least;
+        }
+        state = *best;
+    }
+}
+
+void find_factors(Evidence& evidence, State& state) {
+    double gap = evidence.fitted_gap(state);
+    for (int n = 0; n < 2; ++n) {
+        State best = state;
+        double least = gap;
+        for (const std::string_view effect : timing::effect_names) {
+            if (state.off.contains(std::string(effect)) || state.factor.contains(std::string(effect))) {
+                continue;
+            }
+            State tried = state;
+            const auto of_factor = [&](double factor) {
+                tried.factor[std::string(effect)] = factor;
+                return evidence.fitted_gap(tried);
+            };
+            const double factor = least_at(of_factor, 0.0, 4.0);
+            const double now = of_factor(factor);
+            if (now < least) {
+                least = now;
+                best = tried;
+            }
+        }
+        if (!better(least, gap)) {
+            return;
+        }
+        gap = least;
+        state = best;
+    }
+}
+
+void find_ratio(Evidence& evidence, State& state) {
+    const double gap = evidence.fitted_gap(state);
+    State tried = state;
+    const auto of_ratio = [&](double ratio) {
+        tried.ratio = ratio;
+        return evidence.fitted_gap(tried);
+    };
+    const double ratio = least_at(of_ratio, 0.25, 4.0);
+    if (better(of_ratio(ratio), gap)) {
+        state = tried;
+    }
+}
+
+// Only where some rows are on the bus and others are not: in all of them it would be a clock.
+void find_contention(Evidence& evidence, State& state) {
+    const auto shared = std::count_if(evidence.rows().begin(), evidence.rows().end(), on_bus);
+    if (shared == 0 || static_cast<std::size_t>(shared) == evidence.rows().size()) {
+        return;
+    }
+    const double gap = evidence.fitted_gap(state);
+    State tried = state;
+    const auto of_contention = [&](double contention) {
+        tried.contention = contention;
+        return evidence.fitted_gap(tried);
+    };
+    const double contention = least_at(of_contention, 0.0, 3.0);
+    if (better(of_contention(contention), gap)) {
+        state = tried;
+    }
+}
+
+}  // namespace
+
+bool better(double now, double before) { return before - now > std::max(worth, worth_of_gap * before); }
+
+State search(Evidence& evidence, const Question& question) {
+    State by_clock = best_reference(evidence, question);
+    State by_bus = by_clock;
+    State found = by_clock;
+    take_away(evidence, found);
+    find_factors(evidence, found);
+    find_ratio(evidence, found);
+    find_ratio(evidence, by_clock);
+    if (by_clock.ratio != 1.0 && evidence.fitted_gap(by_clock) <= evidence.fitted_gap(found) + worth) {
+        found = by_clock;
+    }
+    find_contention(evidence, by_bus);
+    if (by_bus.contention != 0.0 && evidence.fitted_gap(by_bus) <= evidence.fitted_gap(found) + worth) {
+        found = by_bus;
+    }
+    return found;
+}
+
+}  // namespace gap::cycles

@@ -1,0 +1,128 @@
+#include "gap/cycles/steps.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <random>
+
+namespace gap::cycles {
+namespace {
+
+// Whether an effect costs these rows anything: an effect that is absent there is no difference.
+bool matters(Evidence& evidence, const State& found, const State& base, const std::string& effect) {
+    State with = found.off.contains(effect) ? base : found;
+    with.off.erase(effect);
+    const auto index = timing::index(*timing::effect_named(effect));
+    const auto& predicted = evidence.predicted(with);
+    return std::any_of(predicted.begin(), predicted.end(), [&](const auto& p) { return p.half_cycles[index] != 0; });
+}
+
+// Of the costs beside the call: rows drawn again and again.
+void add_intervals(Evidence& evidence, const State& found, std::vector<Step>& steps) {
+    std::mt19937_64 random(1);
+    std::vector<double> overhead;
+    std::vector<double> maintenance;
+    for (int n = 0; n < 400; ++n) {
+        Rows drawn;
+        for (std::size_t i = 0; i < evidence.rows().size(); ++i) {
+            drawn.push_back(random() % evidence.rows().size());
+        }
+        State state = found;
+        evidence.fit_beside(state, drawn);
+        overhead.push_back(state.overhead);
+        maintenance.push_back(state.maintenance);
+    }
+    const auto interval = [](std::vector<double>& values) {
+        std::sort(values.begin(), values.end());
+        return Interval{values[values.size() / 40], values[values.size() - 1 - values.size() / 40]};
+    };
+    for (Step& step : steps) {
+        if (step.effect == "call_overhead") {
+            step.interval["cycles"] = interval(overhead);
+        } else if (step.effect == "cache_maintenance") {
+            step.interval["cycles"] = interval(maintenance);
+        }
+    }
+}
+
+}  // namespace
+
+std::vector<Step> steps_to(Evidence& evidence, const State& found, State now, const State& fitted, double cost_worth) {
+    struct Move {
+        std::string effect;
+        std::function<void(State&)> apply;
+        std::map<std::string, double> parameters;
+    };
+    std::vector<Move> moves;
+    for (const std::string_view name : timing::effect_names) {
+        const std::string effect(name);
+        const double had = now.off.contains(effect) ? 0.0 : 1.0;
+        const double has = found.off.contains(effect)      ? 0.0
+                           : found.factor.contains(effect) ? found.factor.at(effect)
+                                                           : 1.0;
+        if (had == has || !matters(evidence, found, now, effect)) {
+            continue;
+        }
+        moves.push_back({effect,
+                         [effect, has, &found](State& state) {
+                             if (found.off.contains(effect)) {
+                                 state.off.insert(effect);
+                             } else {
+                                 state.off.erase(effect);
+                             }
+                             if (has != 0.0 && has != 1.0) {
+                                 state.factor[effect] = has;
+                             }
+                         },
+                         {{"factor", has}}});
+    }
+    if (std::fabs(found.overhead - now.overhead) > cost_worth) {
+        moves.push_back({"call_overhead",
+                         [&found](State& state) { state.overhead = found.overhead; },
+                         {{"cycles", found.overhead}}});
+    }
+    if (std::fabs(found.maintenance - now.maintenance) > cost_worth) {
+        moves.push_back({"cache_maintenance",
+                         [&found](State& state) { state.maintenance = found.maintenance; },
+                         {{"cycles", found.maintenance}}});
+    }
+    if (found.ratio != 1.0) {
+        moves.push_back(
+            {"clock_ratio", [&found](State& state) { state.ratio = found.ratio; }, {{"ratio", found.ratio}}});
+    }
+    if (found.contention != 0.0) {
+        moves.push_back({"bus_contention",
+                         [&found](State& state) { state.contention = found.contention; },
+                         {{"share", found.contention}}});
+    }
+    const double floor = evidence.floor();
+    std::vector<Step> steps;
+    double gap = gap_of(evidence.measured(), evidence.whole(now), evidence.to_judge());
+    while (!moves.empty()) {
+        std::vector<State> next;
+        for (const Move& move : moves) {
+            next.push_back(now);
+            move.apply(next.back());
+        }
+        evidence.simulate(next);
+        std::size_t best = 0;
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < next.size(); ++i) {
+            const double after = gap_of(evidence.measured(), evidence.whole(next[i]), evidence.to_judge());
+            if (after < least) {
+                least = after;
+                best = i;
+            }
+        }
+        const double confidence = std::fabs(gap - least) > 5.0 * std::max(floor, 0.001) ? 0.95 : 0.6;
+        steps.push_back({moves[best].effect, moves[best].parameters, {}, gap, least, confidence});
+        now = next[best];
+        gap = least;
+        moves.erase(moves.begin() + static_cast<std::ptrdiff_t>(best));
+    }
+    add_intervals(evidence, fitted, steps);
+    return steps;
+}
+
+}  // namespace gap::cycles
