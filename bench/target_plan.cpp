@@ -16,8 +16,8 @@ namespace {
 // A replay need not be longer: the counted calls, whose outputs are compared too, go past the whole window and a wrap
 // of every history.
 constexpr std::size_t longest_replay = 1100;
-// Software doubles take a hundred instructions a tap, whatever the call: ten of their replays would take longer than all
-// others together.
+// Software doubles take a hundred instructions a tap, whatever the call: ten of their replays would take longer than
+// all others together.
 constexpr std::size_t longest_replay_in_software = 128;
 
 std::vector<std::string> target_kernels(const Sweep& sweep) {
