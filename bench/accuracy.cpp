@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
+#include "bench/designs.hpp"
 #include "bench/host_line.hpp"
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
+#include "bench/reference/modes.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signal_derivatives.hpp"
 #include "bench/signals.hpp"
@@ -51,12 +54,15 @@ struct Case {
     std::vector<reference::Sums> exact;  // of each length, full memory last
     double peak = 0.0;                   // max_k |E_k|
     std::optional<double> discretisation;
+    std::map<std::string, reference::Sums> of_designs;  // by the length's text: of those with modes
 
     Case(const Sweep& sweep, double v, const std::string& name)
         : order(v), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
         std::vector<std::size_t> lengths;
         for (const Length& length : sweep.lengths) {
-            lengths.push_back(length.taps);
+            if (!length.modes) {
+                lengths.push_back(length.taps);
+            }
         }
         lengths.push_back(sweep.samples);
         exact = reference::sums(reference::weights(reference::Real(order), sweep.samples), record, lengths);
@@ -64,6 +70,18 @@ struct Case {
             peak = std::max(peak, std::fabs(sum.high));
         }
         discretisation = discretisation_error(exact.back(), order, derivative_of_signal(name, sweep.samples));
+    }
+
+    /// The exact sums of the design of a length; of a window those of entry `i` of its lengths.
+    const reference::Sums& exact_of(const Length& length, std::size_t i, const glsum::Design& design) {
+        if (!length.modes) {
+            return exact[i];
+        }
+        auto& sums = of_designs[length.text()];
+        if (sums.empty()) {
+            sums = reference::sums_of(design, record);
+        }
+        return sums;
     }
 };
 
@@ -82,7 +100,7 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
         aspect += fmt::format("/amplitude:{}", amplitude);
     }
     Json row = make_row(row_name(std::string(K::name()), test.order, length, aspect), test.record.size());
-    HostLine<K> line({test.order, length.taps});
+    HostLine<K> line(design_of(test.order, length, test.record.size()));
     if (line.status() != glsum::Status::ok) {
         mark_error(row, to_text(line.status()));
         return row;
@@ -114,7 +132,10 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
     if constexpr (K::FormatPart::fixed_point) {
         row["saturations"] = line.state().scale.saturations;
     }
-    row["effective_taps"] = line.effective_taps();
+    if (!length.modes) {
+        row["effective_taps"] = line.effective_taps();
+    }
+    row["horizon_samples"] = length.modes ? test.record.size() : std::min(length.taps, test.record.size());
     row["macs_per_sample"] = K::multiplications(length.taps);
     row["coefficient_bytes"] = line.coefficient_bytes();
     row["state_bytes"] = line.state_bytes();
@@ -128,19 +149,24 @@ std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::v
     std::vector<std::vector<Json>> rows(cases.size());
     Progress progress("accuracy", cases.size());
     parallel_for(cases.size(), sweep.jobs, [&](std::size_t i) {
-        const Case test(sweep, sweep.orders.at(cases[i] / signals), sweep.signals[cases[i] % signals]);
+        Case test(sweep, sweep.orders.at(cases[i] / signals), sweep.signals[cases[i] % signals]);
         glsum::Registry::for_each([&]<class K>() {
             if constexpr (!std::is_same_v<K, glsum::Null>) {
-                if (std::find(sweep.kernels.begin(), sweep.kernels.end(), K::name()) == sweep.kernels.end()) {
+                const std::string kernel(K::name());
+                if (std::find(sweep.kernels.begin(), sweep.kernels.end(), kernel) == sweep.kernels.end()) {
                     return;
                 }
-                for (std::size_t l = 0; l < sweep.lengths.size(); ++l) {
-                    rows[i].push_back(measure<K>(test, sweep.lengths[l], test.exact[l], 1.0));
-                    if (sweep.lengths[l].taps == amplitude_taps &&
+                const std::vector<Length> lengths = lengths_of(sweep, kernel, test.order);
+                for (std::size_t l = 0; l < lengths.size(); ++l) {
+                    const Length& length = lengths[l];
+                    const reference::Sums& exact =
+                        test.exact_of(length, l, design_of(test.order, length, test.record.size()));
+                    rows[i].push_back(measure<K>(test, length, exact, 1.0));
+                    if (length.taps == amplitude_taps && !length.modes &&
                         std::find(std::begin(amplitude_signals), std::end(amplitude_signals), test.signal) !=
                             std::end(amplitude_signals)) {
                         for (const double amplitude : {0x1p-4, 0x1p-8}) {
-                            rows[i].push_back(measure<K>(test, sweep.lengths[l], test.exact[l], amplitude));
+                            rows[i].push_back(measure<K>(test, length, exact, amplitude));
                         }
                     }
                 }

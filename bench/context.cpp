@@ -100,9 +100,10 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
     for (const Length& length : sweep.lengths) {
         taps.push_back(length.text());
     }
-    context["sweep"] = {
-        {"kernels", sweep.kernels}, {"peers", sweep.peers},     {"orders", sweep.orders}, {"taps", taps},
-        {"signals", sweep.signals}, {"targets", sweep.targets}, {"cores", sweep.cores}};
+    context["sweep"] = {{"kernels", sweep.kernels}, {"peers", sweep.peers},
+                        {"orders", sweep.orders},   {"taps", taps},
+                        {"signals", sweep.signals}, {"targets", sweep.targets},
+                        {"cores", sweep.cores},     {"design_errors", sweep.design_errors}};
     context["n_samples"] = sweep.samples;
     context["seed"] = sweep.seed;
     return context;

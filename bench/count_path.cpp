@@ -38,7 +38,7 @@ CountPath count_path(const std::string& kernel, const glsum::Design& design) {
         std::vector<typename K::Coefficient> table(K::table_count(design.taps));
         std::vector<typename K::Sample> past(K::past_count(design.taps));
         typename K::State state{};
-        CountPath path{.status = K::prepare(state, design, table, past)};
+        CountPath path{.status = K::prepare(state, design, table, past), .modes = design.modes.size()};
         if constexpr (has_scale<K>) {
             path.table_exponent = state.scale.table_exponent;
             path.output_exponent = state.scale.output_exponent;

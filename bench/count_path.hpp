@@ -16,6 +16,7 @@ struct CountPath {
     glsum::Status status = glsum::Status::ok;
     int table_exponent = 0;
     int output_exponent = 0;
+    std::size_t modes = 0;
     auto operator<=>(const CountPath&) const = default;
 };
 /// \throws std::out_of_range for a kernel that is not in the registry.

@@ -25,8 +25,8 @@ public:
     /// Buffers for `design.taps`, at the start of a cache line; `status` says how `prepare` went.
     explicit HostLine(const glsum::Design& design, const Placement& placement = {})
         : taps_(design.taps),
-          table_(K::table_count(design.taps), placement.table),
-          past_(K::past_count(design.taps), placement.past) {
+          table_(glsum::table_needed<K>(design), placement.table),
+          past_(glsum::past_needed<K>(design), placement.past) {
         status_ = K::prepare(state_, design, table_.span(), past_.span());
     }
     [[nodiscard]] glsum::Status status() const { return status_; }

@@ -6,18 +6,22 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <memory>
 #include <new>
 #include <random>
+#include <set>
 #include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "bench/cycle_counter.hpp"
+#include "bench/designs.hpp"
 #include "bench/host_line.hpp"
 #include "bench/peers/peer.hpp"
 #include "bench/progress.hpp"
+#include "bench/reference/modes.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signals.hpp"
 #include "glsum/bound.hpp"
@@ -29,6 +33,9 @@ namespace {
 
 // A power of two, so that the index needs no division; long enough that no branch predictor learns the data.
 constexpr std::size_t stream_samples = 1 << 14;
+
+// What a kernel with modes is checked on, from rest: its past has no end.
+constexpr std::size_t record_from_rest = 1024;
 
 const std::vector<double>& stream() {
     static const std::vector<double> samples = make_signal("noise", stream_samples, 1);
@@ -82,11 +89,13 @@ private:
 };
 
 // Runs `step` on the stream for as long as Google Benchmark wants, then checks the output that follows.
-// step: sample index -> output, as a real; expected_error: its bound.
+// step: sample index -> output, as a real; expected_error: its bound; rest: empties a past that never ends otherwise,
+// nothing where the weights are all of it.
 // Without a state, only an estimate of the time per sample in ns is returned: the shortest of some short tries.
 template <class Sample, class Step, class ToReal>
 double time_line(benchmark::State* state, const std::vector<Sample>& samples,
-                 const std::vector<reference::Real>& weights, double bound, Step step, ToReal to_real) {
+                 const std::vector<reference::Real>& weights, double bound, Step step, ToReal to_real,
+                 const std::function<void()>& rest = {}) {
     std::size_t k = 0;
     for (; k < weights.size() + 1; ++k) {  // into the steady state: the whole window holds samples
         benchmark::DoNotOptimize(step(samples[k % stream_samples]));
@@ -110,6 +119,12 @@ double time_line(benchmark::State* state, const std::vector<Sample>& samples,
         benchmark::DoNotOptimize(step(samples[k++ % stream_samples]));
     }
     const std::uint64_t cycles = cycle_counter().read() - begin;
+    if (rest) {
+        rest();
+        for (std::size_t j = weights.size() - 1; j > 0; --j) {
+            step(samples[(k - j) % stream_samples]);
+        }
+    }
     std::vector<double> newest_first;
     for (std::size_t j = 0; j < weights.size(); ++j) {
         newest_first.push_back(stream()[(k - j) % stream_samples]);
@@ -136,9 +151,8 @@ void set_sizes(benchmark::State* state, std::size_t macs, std::size_t coefficien
 }
 
 template <class K>
-double time_kernel(benchmark::State* state, double order, std::size_t taps,
-                   const std::vector<reference::Real>& weights) {
-    Placed<HostLine<K>> placed(glsum::Design{order, taps}, places().placement());
+double time_kernel(benchmark::State* state, const glsum::Design& design, const std::vector<reference::Real>& weights) {
+    Placed<HostLine<K>> placed(design, places().placement());
     HostLine<K>& line = *placed;
     if (line.status() != glsum::Status::ok) {
         if (state != nullptr) {
@@ -155,9 +169,13 @@ double time_kernel(benchmark::State* state, double order, std::size_t taps,
     if constexpr (std::is_same_v<K, glsum::Null>) {
         return time_line(state, samples, {reference::Real(1)}, 1e-7, step, to_real);
     } else {
-        const double ns = time_line(state, samples, weights,
-                                    glsum::error_bound<K>({order, taps}, line.state(), signal_peak), step, to_real);
-        set_sizes(state, K::multiplications(taps), line.coefficient_bytes(), line.state_bytes());
+        std::function<void()> rest;
+        if (!design.modes.empty()) {
+            rest = [&] { K::reset(line.state()); };
+        }
+        const double ns = time_line(state, samples, weights, glsum::error_bound<K>(design, line.state(), signal_peak),
+                                    step, to_real, rest);
+        set_sizes(state, K::multiplications(design.taps), line.coefficient_bytes(), line.state_bytes());
         return ns;
     }
 }
@@ -275,7 +293,7 @@ void initialise(const std::vector<std::string>& flags, bool quick_default) {
 
 }  // namespace
 
-HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs, double order, unsigned repetitions,
+HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, unsigned repetitions,
                         const std::vector<std::string>& flags) {
     std::vector<std::string> words;
     if (repetitions > 1) {
@@ -284,31 +302,33 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
     }
     words.insert(words.end(), flags.begin(), flags.end());  // the later ones count
     initialise(words, true);
-    const auto add = [&](const std::string& name, const Length& length, auto work) {
-        auto* registered = benchmark::RegisterBenchmark(row_name(name, order, length, "host").c_str(),
+    const auto add = [&](const Timed& timed, auto work) {
+        auto* registered = benchmark::RegisterBenchmark(row_name(timed.name, timed.order, timed.length, "host").c_str(),
                                                         [work](benchmark::State& state) { work(&state); });
         if (repetitions > 1) {
-            registered->Iterations(iterations_for(work(nullptr), length.taps));
+            registered->Iterations(iterations_for(work(nullptr), timed.length.taps));
         }
     };
-    std::map<std::size_t, std::shared_ptr<const std::vector<reference::Real>>> weights_of;
-    for (const auto& [name, length] : pairs) {
-        auto& weights = weights_of[length.taps];
+    std::map<std::pair<double, std::string>, std::shared_ptr<const std::vector<reference::Real>>> weights_of;
+    for (const Timed& timed : cases) {
+        const std::size_t taps = timed.length.taps;
+        const double order = timed.order;
+        const glsum::Design design = design_of(order, timed.length, samples);
+        auto& weights = weights_of[{order, timed.length.text()}];
         if (!weights) {
             weights = std::make_shared<const std::vector<reference::Real>>(
-                reference::weights(reference::Real(order), length.taps));
+                design.modes.empty() ? reference::weights(reference::Real(order), taps)
+                                     : reference::weights_of(design, record_from_rest));
         }
-        const std::size_t taps = length.taps;
-        glsum::Registry::for_each([&, &name = name, &length = length]<class K>() {
-            if (K::name() == name) {
-                add(name, length, [order, taps, weights](benchmark::State* state) {
-                    return time_kernel<K>(state, order, taps, *weights);
-                });
+        glsum::Registry::for_each([&]<class K>() {
+            if (K::name() == timed.name) {
+                add(timed,
+                    [design, weights](benchmark::State* state) { return time_kernel<K>(state, design, *weights); });
             }
         });
         for (const Peer& peer : peers()) {
-            if (peer.name == name) {
-                add(name, length, [&peer, order, taps, weights](benchmark::State* state) {
+            if (peer.name == timed.name) {
+                add(timed, [&peer, order, taps, weights](benchmark::State* state) {
                     return std::visit([&](auto make) { return time_peer(state, make, order, taps, *weights); },
                                       peer.make);
                 });
@@ -317,7 +337,7 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
     }
     Json json;
     {
-        Reporter reporter(pairs.size());
+        Reporter reporter(cases.size());
         if (benchmark::RunSpecifiedBenchmarks(&reporter) == 0) {
             throw glsum::Failure(glsum::Exit::bad_input,
                                  "--benchmark_filter: expected to match some timing, found none that it does");
@@ -328,7 +348,7 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
     HostTiming timing;
     timing.context = json["context"];
     timing.context["cycle_counter"] = cycle_counter().name();
-    timing.context["host_timing_order"] = fmt::format("{}", order);
+    timing.context["host_timing_order"] = fmt::format("{}", cases.front().order);
     for (auto& row : json["benchmarks"]) {
         drop_iterations(row, "name");
         drop_iterations(row, "run_name");
@@ -342,15 +362,34 @@ HostTiming time_on_host(const std::vector<std::pair<std::string, Length>>& pairs
 }
 
 HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flags) {
-    std::vector<std::pair<std::string, Length>> pairs;
+    std::vector<Timed> cases;
     for (const Length& length : sweep.lengths) {
-        for (const auto& names : {sweep.kernels, sweep.peers}) {
-            for (const std::string& name : names) {
-                pairs.emplace_back(name, length);
+        if (length.modes) {
+            continue;
+        }
+        for (const std::string& name : sweep.kernels) {
+            if (!has_modes(name)) {
+                cases.push_back({name, length, sweep.orders.front()});
+            }
+        }
+        for (const std::string& name : sweep.peers) {
+            cases.push_back({name, length, sweep.orders.front()});
+        }
+    }
+    for (const std::string& kernel : sweep.kernels) {
+        if (!has_modes(kernel)) {
+            continue;
+        }
+        std::set<std::string> seen;
+        for (const double order : sweep.orders) {
+            for (const Length& length : lengths_of(sweep, kernel, order)) {
+                if (seen.insert(length.text()).second) {
+                    cases.push_back({kernel, length, order});
+                }
             }
         }
     }
-    return time_on_host(pairs, sweep.orders.front(), sweep.repetitions, flags);
+    return cases.empty() ? HostTiming{} : time_on_host(cases, sweep.samples, sweep.repetitions, flags);
 }
 
 }  // namespace bench

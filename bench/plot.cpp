@@ -94,7 +94,9 @@ struct Range {
 std::string data_block(const std::vector<Group>& groups, const std::string& order, const Series& series, Range& range) {
     std::string block;
     for (const Group& group : groups) {
-        const auto taps = taps_of(group, groups);
+        // A line of windows alone: a design's modes have another truncation.
+        const bool is_of_line = !series.kernel.empty() || group.taps.find('+') == std::string::npos;
+        const auto taps = is_of_line ? taps_of(group, groups) : std::nullopt;
         for (const Entry& entry : group.entries) {
             if (taps && group.order == order && (series.kernel.empty() || entry.kernel == series.kernel)) {
                 if (const auto value = series.value(group, entry); value && *value > 0.0) {

@@ -37,6 +37,8 @@ std::string to_text(glsum::Status status) {
             return "the length is beyond the capacity";
         case glsum::Status::format_too_narrow:
             return "the coefficients do not fit the format";
+        case glsum::Status::modes_out_of_range:
+            return "the modes leave no tap, or do not decay";
     }
     return "unknown status";
 }

@@ -5,17 +5,28 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace bench {
 
-/// A memory length: a number of taps, or all of the record.
+/// A memory length: a number of taps, all of the record, or near taps and modes, each of these counting as two taps.
 struct Length {
     std::size_t taps;
     bool full = false;
-    [[nodiscard]] std::string text() const { return full ? "full" : std::to_string(taps); }
+    std::optional<std::size_t> modes = {};
+    /// "600", "full", "2+7".
+    [[nodiscard]] std::string text() const {
+        return full    ? "full"
+               : modes ? std::to_string(taps - 2 * *modes) + '+' + std::to_string(*modes)
+                       : std::to_string(taps);
+    }
 };
+
+/// The length that `text` writes; `full` is that of a record of `samples`. Empty for what is none: of 1 to 1 000 000
+/// taps, before a plus at least one.
+[[nodiscard]] std::optional<Length> parse_length(const std::string& text, std::size_t samples);
 
 /// In place of a core's name: no timing model, only what the emulator counts.
 inline constexpr const char* count_only = "count";
@@ -25,6 +36,9 @@ struct Sweep {
     std::vector<std::string> peers;
     std::vector<double> orders;
     std::vector<Length> lengths;  ///< rising
+    /// Kernels with modes, unless `lengths` has some of theirs: the largest errors of the sum for |x| <= 1 that they
+    /// are designed for, over the record.
+    std::vector<double> design_errors{1e-2, 1e-3, 1e-4, 1e-6};
     std::vector<std::string> signals;
     std::vector<std::string> targets{"host", "m7"};  ///< where the cost is measured
     /// On m7: cores of the timing model, and `count` for instructions alone; not empty.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "bench/count_path.hpp"
+#include "bench/designs.hpp"
 #include "glsum/registry.hpp"
 
 namespace bench {
@@ -15,8 +16,8 @@ namespace {
 // A replay need not be longer: the counted calls, whose outputs are compared too, go past the whole window and a wrap
 // of every history.
 constexpr std::size_t longest_replay = 1100;
-// Software doubles take a hundred instructions a tap, whatever the call: ten of their replays would take longer than all
-// others together.
+// Software doubles take a hundred instructions a tap, whatever the call: ten of their replays would take longer than
+// all others together.
 constexpr std::size_t longest_replay_in_software = 128;
 
 std::vector<std::string> target_kernels(const Sweep& sweep) {
@@ -34,27 +35,51 @@ std::vector<std::string> target_kernels(const Sweep& sweep) {
 TargetPlan make_target_plan(const Sweep& sweep) {
     const std::vector<std::string> kernels = target_kernels(sweep);
     const std::size_t signals = sweep.signals.size();
-    const std::size_t places = sweep.orders.size() * sweep.lengths.size();
     TargetPlan plan;
     std::map<std::tuple<std::size_t, std::size_t, CountPath>, std::size_t> known;
-    for (std::size_t place = 0; place < places; ++place) {
-        const double order = sweep.orders[place / sweep.lengths.size()];
-        const Length& length = sweep.lengths[place % sweep.lengths.size()];
-        const std::size_t taps = length.taps;
-        for (std::size_t k = 0; k < kernels.size(); ++k) {
-            const std::string& kernel = kernels[k];
-            const auto [count, is_new] =
-                known.try_emplace({k, taps, count_path(kernel, {order, taps})}, plan.counts.size());
-            if (is_new) {
-                plan.counts.push_back({kernel, order, taps, signals, qemu::calls_to_measure(taps)});
+    std::vector<std::size_t> places(kernels.size(), 0);  // rows of each
+    for (std::size_t k = 0; k < kernels.size(); ++k) {
+        for (const double order : sweep.orders) {
+            places[k] += lengths_of(sweep, kernels[k], order).size();
+        }
+    }
+    std::vector<std::size_t> place(kernels.size(), 0);
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> piece_of;  // by the kernel and which of its lengths
+    for (const double order : sweep.orders) {
+        std::vector<std::vector<Length>> lengths;
+        std::size_t most = 0;
+        for (const std::string& kernel : kernels) {
+            lengths.push_back(lengths_of(sweep, kernel, order));
+            most = std::max(most, lengths.back().size());
+        }
+        for (std::size_t l = 0; l < most; ++l) {
+            for (std::size_t k = 0; k < kernels.size(); ++k) {
+                if (l >= lengths[k].size()) {
+                    continue;
+                }
+                const std::string& kernel = kernels[k];
+                const Length& length = lengths[k][l];
+                const std::size_t taps = length.taps;
+                const glsum::Design design = design_of(order, length, sweep.samples);
+                const std::vector<glsum::Mode> modes(design.modes.begin(), design.modes.end());
+                const auto [count, is_new] =
+                    known.try_emplace({k, taps, count_path(kernel, design)}, plan.counts.size());
+                if (is_new) {
+                    plan.counts.push_back({kernel, order, taps, signals, qemu::calls_to_measure(taps), modes});
+                }
+                // With modes the past is never over.
+                const std::size_t longest = double_in_software(kernel) ? longest_replay_in_software : longest_replay;
+                const std::size_t calls = std::min({sweep.samples, length.modes ? longest : taps + 64, longest});
+                for (std::size_t turn = place[k]; turn == place[k] || turn < signals; turn += places[k]) {
+                    plan.replays.push_back(
+                        {plan.rows.size(), {kernel, order, taps, (turn + k) % signals, calls, modes}});
+                }
+                ++place[k];
+                // One for all orders, which share their counts; of a kernel with modes one for all of its designs.
+                const std::size_t piece =
+                    piece_of.try_emplace({k, length.modes ? 0 : l}, piece_of.size()).first->second;
+                plan.rows.push_back({kernel, order, length, double_in_software(kernel), count->second, piece});
             }
-            const std::size_t longest = double_in_software(kernel) ? longest_replay_in_software : longest_replay;
-            const std::size_t calls = std::min({sweep.samples, taps + 64, longest});
-            for (std::size_t turn = place; turn == place || turn < signals; turn += places) {
-                plan.replays.push_back({plan.rows.size(), {kernel, order, taps, (turn + k) % signals, calls}});
-            }
-            const std::size_t piece = place % sweep.lengths.size() * kernels.size() + k;
-            plan.rows.push_back({kernel, order, length, double_in_software(kernel), count->second, piece});
         }
     }
     return plan;

@@ -17,7 +17,9 @@ struct TargetPlan {
         Length length;
         bool software_double;
         std::size_t count;  ///< index into `counts`
-        std::size_t piece;  ///< the same for all orders of a kernel and length, which share counts: numbered from 0
+        /// The same for all orders of a kernel and length, or of a kernel with modes, which share counts: numbered from
+        /// 0.
+        std::size_t piece;
     };
     struct Replay {
         std::size_t row;  ///< index into `rows`

@@ -3,7 +3,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <charconv>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -28,7 +27,7 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
-constexpr std::size_t most_taps = 1'000'000;  // beyond any record; tables and windows still fit the memory
+constexpr std::size_t most_taps = 1'000'000;  // as bench::parse_length has it
 
 struct Options {
     bool quick = false;
@@ -54,18 +53,16 @@ bool matches_any(const std::vector<std::string>& globs, std::string_view name) {
 std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std::size_t samples) {
     std::vector<bench::Length> lengths;
     for (const std::string& word : words) {
-        std::size_t taps = samples;
-        const auto end = word.data() + word.size();
-        const auto [read_to, error] = std::from_chars(word.data(), end, taps);
-        const bool full = word == "full";
-        if (!full && (error != std::errc{} || read_to != end || taps == 0 || taps > most_taps)) {
+        const auto length = bench::parse_length(word, samples);
+        if (!length) {
             throw Failure(Exit::bad_input,
-                          fmt::format("--taps: expected a number of at least 1 and at most {}, or full, found {}",
+                          fmt::format("--taps: expected a number of at least 1 and at most {}, full, or near taps and "
+                                      "modes as 2+7, found {}",
                                       most_taps, word));
         }
         if (std::none_of(lengths.begin(), lengths.end(),
-                         [&](const bench::Length& other) { return other.full == full && other.taps == taps; })) {
-            lengths.push_back({taps, full});
+                         [&](const bench::Length& other) { return other.text() == length->text(); })) {
+            lengths.push_back(*length);
         }
     }
     std::stable_sort(lengths.begin(), lengths.end(),
@@ -95,6 +92,9 @@ bench::Sweep to_sweep(const Options& options) {
                                                         "400", "500", "600", "800", "1000", "full"};
     }
     sweep.lengths = to_lengths(taps, sweep.samples);
+    if (options.quick) {
+        sweep.design_errors = {1e-4};
+    }
     sweep.signals = options.signals;
     if (sweep.signals.empty()) {
         sweep.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
@@ -189,7 +189,11 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
                       "Instead of sums, whole models (10) to (12) stepped at 1 kHz: writes results/drive.json");
     command->add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
     command->add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
-    command->add_option("--taps", options->taps, "Lengths: numbers, or full (as many as the record has samples)")
+    command
+        ->add_option("--taps", options->taps,
+                     "Lengths: numbers, full (as many as the record has samples), and of kernels with modes 2+7: two "
+                     "taps and seven modes (default of these: the shortest that keep 1e-2, 1e-3, 1e-4 and 1e-6; quick: "
+                     "1e-4 alone)")
         ->delimiter(',');
     command->add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
         ->delimiter(',');

@@ -80,6 +80,10 @@ std::shared_ptr<Budget> add_budget(CLI::App& command) {
     return budget;
 }
 
+std::size_t samples_of(const Budget& budget) {
+    return budget.samples != 0 ? budget.samples : budget.quick ? 1000 : 5000;
+}
+
 choose::Question to_question(const Budget& budget) {
     if (!glsum::order_in_range(budget.order)) {
         refuse(fmt::format("--order: expected a number in (-2, 2], found {}", budget.order));
@@ -108,7 +112,7 @@ choose::Question to_question(const Budget& budget) {
     question.conditions.order = budget.order;
     question.conditions.step_s = budget.step_s;
     question.conditions.signals = to_signals(budget);
-    question.conditions.samples = budget.samples != 0 ? budget.samples : budget.quick ? 1000 : 5000;
+    question.conditions.samples = samples_of(budget);
     if (question.conditions.samples < 2 || question.conditions.samples > 8000) {
         refuse(fmt::format("--samples: expected 2 to 8000, found {}", question.conditions.samples));
     }

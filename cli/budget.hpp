@@ -32,6 +32,9 @@ struct Budget {
 /// Adds the options. \return the budget that they fill.
 std::shared_ptr<Budget> add_budget(CLI::App& command);
 
+/// Samples of the records.
+[[nodiscard]] std::size_t samples_of(const Budget& budget);
+
 /// Checks what was typed. \throws glsum::Failure (bad input) naming the option, what was expected and found.
 [[nodiscard]] choose::Question to_question(const Budget& budget);
 

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bench/choose/report.hpp"
+#include "bench/designs.hpp"
 #include "bench/files.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/generate/provenance.hpp"
@@ -25,7 +26,7 @@ using glsum::Failure;
 
 struct Options {
     std::string kernel;
-    std::size_t taps = 0;
+    std::string taps;
     std::string prefix = "glsum";
     std::string licence;
     std::string out;
@@ -58,6 +59,26 @@ choose::Answer choose_one(const Budget& budget) {
     return answer;
 }
 
+// The length as a kernel counts it: a number, or 2+7 of near taps and modes, parted as a design of so many has them.
+std::size_t to_taps(const std::string& text, const std::string& kernel, double order) {
+    const auto length = text == "full" ? std::nullopt : bench::parse_length(text, 0);
+    if (!length || length->taps > 8000) {
+        refuse(fmt::format("--taps: expected 1 to 8000 with --kernel, or 2+7 of a kernel with modes, found {}",
+                           text.empty() ? "nothing" : text));
+    }
+    if (length->modes) {
+        const std::vector<std::string> known = generate::generatable();
+        const bench::Length parted = std::find(known.begin(), known.end(), kernel) == known.end()
+                                         ? *length
+                                         : bench::length_of(kernel, order, length->taps);
+        if (parted.text() != length->text()) {
+            refuse(fmt::format("--taps: {} at order {} with as many coefficients has {}, found {}", kernel, order,
+                               parted.text(), text));
+        }
+    }
+    return length->taps;
+}
+
 generate::Spec to_spec(const Options& options, const Budget& budget, const std::string& kernel, std::size_t taps) {
     generate::Spec spec;
     spec.kernel = kernel;
@@ -65,6 +86,7 @@ generate::Spec to_spec(const Options& options, const Budget& budget, const std::
     spec.taps = taps;
     spec.step_s = budget.step_s;
     spec.prefix = options.prefix;
+    spec.horizon = samples_of(budget);
     if (!options.licence.empty()) {
         spec.licence = options.licence;
     }
@@ -81,16 +103,13 @@ void run(const Options& options, Budget budget, const std::string& command) {
     std::vector<generate::Spec> specs;
     std::optional<choose::Answer> answer;
     if (options.kernel.empty()) {
-        if (budget.step_s == 0.0 || budget.max_error == 0.0 || budget.target.empty() || options.taps != 0) {
+        if (budget.step_s == 0.0 || budget.max_error == 0.0 || budget.target.empty() || !options.taps.empty()) {
             refuse(
                 "expected a budget (--order, --step-s, --max-error, --target) or a kernel (--order, --kernel, --taps)");
         }
         answer = choose_one(budget);
         specs = {to_spec(options, budget, answer->choice.chosen->kernel, answer->choice.chosen->taps)};
     } else {
-        if (options.taps == 0 || options.taps > 8000) {
-            refuse(fmt::format("--taps: expected 1 to 8000 with --kernel, found {}", options.taps));
-        }
         budget.step_s = budget.step_s == 0.0 ? 0.001 : budget.step_s;
         budget.target = budget.target.empty() ? "m7" : budget.target;
         budget.max_error = 1.0;  // no limit: it is measured and told
@@ -100,18 +119,20 @@ void run(const Options& options, Budget budget, const std::string& command) {
                                options.kernel));
         }
         for (const std::string& kernel : kernels) {
-            specs.push_back(to_spec(options, budget, kernel, options.taps));
+            specs.push_back(to_spec(options, budget, kernel, to_taps(options.taps, kernel, budget.order)));
         }
         if (!options.out.empty()) {
             (void)generate::make_header(specs.front());  // refused before anything is measured
-            answer = choose::measure_one(to_question(budget), kernels.front(), options.taps, board_if_there());
+            answer = choose::measure_one(to_question(budget), kernels.front(), specs.front().taps, board_if_there());
         }
     }
     if (!options.out.empty()) {
         specs.front().provenance = generate::provenance(*answer, command);
         const std::string header = generate::make_header(specs.front());
         bench::write_file(options.out, header);
-        fmt::print("{} with {} taps in {}\n", specs.front().kernel, specs.front().taps, options.out);
+        const generate::Spec& spec = specs.front();
+        fmt::print("{} with {} taps in {}\n", spec.kernel, bench::length_of(spec.kernel, spec.order, spec.taps).text(),
+                   options.out);
     }
     if (options.verify) {
         const auto verified = generate::verify_on_target(specs, built_board());
@@ -132,7 +153,7 @@ void add_generate(CLI::App& app, const std::string& command_line) {
     auto budget = add_budget(*command);
     auto options = std::make_shared<Options>();
     command->add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
-    command->add_option("--taps", options->taps, "Its length, with --kernel");
+    command->add_option("--taps", options->taps, "Its length, with --kernel: a number, or 2+7 of near taps and modes");
     command->add_option("--prefix", options->prefix, "Begins every identifier of the header")->capture_default_str();
     command->add_option("--licence", options->licence, "The header's licence line");
     command->add_option("--out", options->out, "The header");

@@ -35,10 +35,15 @@ void write_plan(const std::filesystem::path& path, const std::filesystem::path& 
                       static_cast<std::streamsize>(signal.size() * sizeof(double)));
     }
     std::ofstream out(path);
-    out << fmt::format("glsum-plan-1 {} {}\n", signals_path.string(), signals.at(0).size());
+    out << fmt::format("glsum-plan-2 {} {}\n", signals_path.string(), signals.at(0).size());
     for (const PlannedRow& row : plan) {
-        out << fmt::format("{} {:016x} {} {} {}\n", row.kernel, std::bit_cast<std::uint64_t>(row.order), row.taps,
-                           row.signal, row.calls);
+        out << fmt::format("{} {:016x} {} {} {} {}", row.kernel, std::bit_cast<std::uint64_t>(row.order), row.taps,
+                           row.signal, row.calls, row.modes.size());
+        for (const glsum::Mode& mode : row.modes) {
+            out << fmt::format(" {:016x} {:016x}", std::bit_cast<std::uint64_t>(mode.decay),
+                               std::bit_cast<std::uint64_t>(mode.weight));
+        }
+        out << '\n';
     }
     if (!samples.flush() || !out.flush()) {
         throw Failure(Exit::check_failed, fmt::format("{}: cannot write", path.parent_path().string()));
@@ -252,7 +257,7 @@ ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
         std::vector<typename K::Coefficient> table(K::table_count(row.taps));
         std::vector<typename K::Sample> past(K::past_count(row.taps));
         typename K::State state{};
-        result = ReplayedRow{K::prepare(state, {row.order, row.taps}, table, past), 0};
+        result = ReplayedRow{K::prepare(state, row.design(), table, past), 0};
         if (result->status != glsum::Status::ok) {
             return;
         }

@@ -36,6 +36,9 @@ struct PlannedRow {
     std::size_t taps;
     std::size_t signal;  ///< index into the signals
     std::size_t calls;
+    std::vector<glsum::Mode> modes = {};
+
+    [[nodiscard]] glsum::Design design() const { return {order, taps, modes}; }
 };
 
 /// Records of equal length, |x| <= 1.

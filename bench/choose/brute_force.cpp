@@ -49,8 +49,10 @@ private:
 std::vector<Entry> measure_all(const Question& question, CostSource& costs, const std::vector<Record>& records) {
     std::vector<Entry> entries;
     std::vector<Case> cases;
+    const MeasuredErrors lengths(question.conditions.order, records);
     for (const std::string& kernel : question.kernels) {
-        for (std::size_t taps = 1; taps <= question.conditions.samples; ++taps) {
+        const std::size_t longest = lengths.longest_of(kernel);
+        for (std::size_t taps = 1; taps <= longest; ++taps) {
             entries.push_back({kernel, taps, {}, {}});
             cases.emplace_back(kernel, taps);
         }

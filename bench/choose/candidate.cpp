@@ -2,6 +2,8 @@
 
 #include <tuple>
 
+#include "bench/designs.hpp"
+
 namespace choose {
 
 bool fits(const Candidate& candidate, const Limits& limits) {
@@ -16,6 +18,10 @@ bool dominates(const Candidate& a, const Candidate& b) {
 
 bool better(const Candidate& a, const Candidate& b) {
     return std::tie(a.cost.value, a.cost.bytes, a.error.error) < std::tie(b.cost.value, b.cost.bytes, b.error.error);
+}
+
+std::string taps_text(const Candidate& candidate, double order) {
+    return bench::length_of(candidate.kernel, order, candidate.taps).text();
 }
 
 void measure(CostSource& costs, const std::vector<Candidate*>& candidates) {

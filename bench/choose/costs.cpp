@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
+#include "bench/choose/earlier.hpp"
 #include "bench/count_path.hpp"
+#include "bench/designs.hpp"
 #include "bench/host_timing.hpp"
 #include "bench/progress.hpp"
 #include "bench/results.hpp"
@@ -48,7 +49,14 @@ std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
             ++remembered_;
         }
         if (!known_.contains(wanted) && std::find(planned.begin(), planned.end(), wanted) == planned.end()) {
-            plan.push_back({wanted.first, order_, wanted.second, 0, qemu::calls_to_measure(wanted.second)});
+            const glsum::Design design = bench::design_of(order_, bench::length_of(wanted.first, order_, wanted.second),
+                                                          signals_.front().size());
+            plan.push_back({wanted.first,
+                            order_,
+                            wanted.second,
+                            0,
+                            qemu::calls_to_measure(wanted.second),
+                            {design.modes.begin(), design.modes.end()}});
             planned.push_back(wanted);
         }
     }
@@ -83,12 +91,9 @@ ModelCycles::ModelCycles(const std::vector<bench::Json>& rows, double order, con
             !row.contains("model_cycles_per_sample")) {
             continue;
         }
-        std::size_t taps = samples;
-        if (key->taps != "full") {
-            const auto [end, error] = std::from_chars(key->taps.data(), key->taps.data() + key->taps.size(), taps);
-            if (error != std::errc{} || end != key->taps.data() + key->taps.size() || taps > samples) {
-                continue;  // a size of its own kind, or longer than the record
-            }
+        const std::optional<std::size_t> taps = taps_of(*key, order, samples);
+        if (!taps) {
+            continue;
         }
         Cost cost{
             .value = number(row, "model_cycles_per_sample"), .limited = 0.0, .noise = 0.0, .bytes = 0.0, .fault = {}};
@@ -97,7 +102,7 @@ ModelCycles::ModelCycles(const std::vector<bench::Json>& rows, double order, con
         if (row.value("error_occurred", false)) {
             cost.fault = row.value("error_message", "marked as wrong");
         }
-        known_[{key->kernel, taps}] = cost;
+        known_[{key->kernel, *taps}] = cost;
     }
 }
 
@@ -124,15 +129,15 @@ std::vector<Cost> HostTimes::costs(const std::vector<Case>& cases) {
     if (cases.empty()) {
         return {};
     }
-    std::vector<std::pair<std::string, bench::Length>> pairs;
+    std::vector<bench::Timed> timed;
     for (const auto& [kernel, taps] : cases) {
-        pairs.emplace_back(kernel, bench::Length{taps});
+        timed.push_back({kernel, bench::length_of(kernel, order_, taps), order_});
     }
-    const bench::HostTiming timing = bench::time_on_host(pairs, order_, 9, {});
+    const bench::HostTiming timing = bench::time_on_host(timed, samples_, 9, {});
     cycle_counter_ = timing.context.value("cycle_counter", "unknown");
     std::vector<Cost> costs(cases.size());
     for (std::size_t i = 0; i < cases.size(); ++i) {
-        const std::string name = bench::row_name(cases[i].first, order_, pairs[i].second, "host");
+        const std::string name = bench::row_name(cases[i].first, order_, timed[i].length, "host");
         std::vector<double> ns;
         std::vector<double> cycles;
         Cost& cost = costs[i];

@@ -88,7 +88,8 @@ private:
 /// runs do not compare. Never taken from a file, and never remembered.
 class HostTimes : public CostSource {
 public:
-    explicit HostTimes(double order) : order_(order) {}
+    /// \param samples  of the record that designs with modes are for
+    HostTimes(double order, std::size_t samples) : order_(order), samples_(samples) {}
 
     [[nodiscard]] std::string unit() const override { return "ns"; }
     [[nodiscard]] std::string limited_unit() const override { return "cycles"; }
@@ -98,6 +99,7 @@ public:
 
 private:
     double order_;
+    std::size_t samples_;
     std::string cycle_counter_;
 };
 

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
-
-#include "bench/results.hpp"
+#include "bench/designs.hpp"
 #include "bench/signals.hpp"
 
 namespace choose {
@@ -25,16 +23,6 @@ std::string difference(const bench::Json& there, const bench::Json& here, std::i
     return "";
 }
 
-std::optional<std::size_t> taps_of(const bench::RowKey& key, std::size_t samples) {
-    if (key.taps == "full") {
-        return samples;
-    }
-    std::size_t taps = 0;
-    const char* end = key.taps.data() + key.taps.size();
-    const auto [read_to, error] = std::from_chars(key.taps.data(), end, taps);
-    return error == std::errc{} && read_to == end && taps >= 1 && taps <= samples ? std::optional(taps) : std::nullopt;
-}
-
 // visit(key, taps, row) for the rows of the question's order without a fault.
 template <class Visit>
 void for_each_row(const Earlier& earlier, const Question& question, Visit visit) {
@@ -45,13 +33,22 @@ void for_each_row(const Earlier& earlier, const Question& question, Visit visit)
             row.value("run_type", "iteration") != "iteration") {
             continue;
         }
-        if (const auto taps = taps_of(*key, question.conditions.samples)) {
+        if (const auto taps = taps_of(*key, question.conditions.order, question.conditions.samples)) {
             visit(*key, *taps, row);
         }
     }
 }
 
 }  // namespace
+
+std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::size_t samples) {
+    const auto length = bench::parse_length(key.taps, samples);
+    if (!length || length->taps > samples) {
+        return std::nullopt;
+    }
+    const bool asked_for = !length->modes || length->modes == bench::length_with_modes(order, length->taps).modes;
+    return asked_for ? std::optional(length->taps) : std::nullopt;
+}
 
 Earlier read_earlier(const Question& question, const bench::Json& context) {
     Earlier earlier;

@@ -1,11 +1,13 @@
 // Measurements of an earlier run, where they hold for this build.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/choose/question.hpp"
 #include "bench/result_file.hpp"
+#include "bench/results.hpp"
 
 namespace choose {
 
@@ -16,6 +18,10 @@ struct Earlier {
     bool instructions = false;  ///< m7:count rows: the same firmware, by its hash
     std::string note;           ///< one sentence
 };
+
+/// How a question counts the length of a row; nothing for one that it does not ask for: longer than its record, or of
+/// other numbers of taps and modes than `bench::length_of` gives.
+[[nodiscard]] std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::size_t samples);
 
 /// \param context  of this run, as `bench::make_context` gives it
 [[nodiscard]] Earlier read_earlier(const Question& question, const bench::Json& context);

@@ -6,11 +6,13 @@
 #include <stdexcept>
 #include <type_traits>
 
+#include "bench/designs.hpp"
 #include "bench/host_line.hpp"
 #include "bench/row.hpp"
 #include "bench/signals.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
+#include "modes/design.hpp"
 
 namespace choose {
 namespace {
@@ -70,6 +72,19 @@ MeasuredErrors::MeasuredErrors(double order, std::vector<Record> records)
     }
 }
 
+std::optional<std::vector<std::size_t>> MeasuredErrors::lengths(const std::string& kernel) const {
+    if (!bench::has_modes(kernel)) {
+        return std::nullopt;
+    }
+    std::vector<std::size_t> all(std::min(longest(), glsum::modes::most_taps(order_)));
+    std::iota(all.begin(), all.end(), std::size_t{1});
+    return all;
+}
+
+glsum::Design MeasuredErrors::design_of(const std::string& kernel, std::size_t taps) const {
+    return bench::design_of(order_, bench::length_of(kernel, order_, taps), longest());
+}
+
 void MeasuredErrors::remember(const std::string& kernel, std::size_t taps, const std::string& signal, double error) {
     for (std::size_t i = 0; i < records_.size(); ++i) {
         if (records_[i].signal == signal) {
@@ -88,7 +103,7 @@ double MeasuredErrors::rounding_bound(const std::string& kernel, std::size_t tap
     double bound = std::numeric_limits<double>::infinity();
     with_kernel(kernel, [&]<class K>() {
         if constexpr (!std::is_same_v<K, glsum::Null>) {  // which promises nothing
-            const glsum::Design design{order_, taps};
+            const glsum::Design design = design_of(kernel, taps);
             bench::HostLine<K> line(design);
             if (line.status() == glsum::Status::ok) {
                 bound = glsum::error_bound<K>(design, line.state(), bench::signal_peak) / least_peak;
@@ -119,7 +134,8 @@ MeasuredErrors::Known MeasuredErrors::of_signal(const std::string& kernel, std::
         ++measured_;
     }
     Run found{};
-    with_kernel(kernel, [&]<class K>() { found = run<K>({order_, taps}, records_[signal], limit); });
+    const glsum::Design design = design_of(kernel, taps);
+    with_kernel(kernel, [&]<class K>() { found = run<K>(design, records_[signal], limit); });
     if (found.status != glsum::Status::ok) {
         fault = bench::to_text(found.status);
         return {std::numeric_limits<double>::infinity(), true};

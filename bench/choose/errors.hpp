@@ -5,11 +5,13 @@
 #include <limits>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "bench/choose/records.hpp"
+#include "glsum/kernel.hpp"
 
 namespace choose {
 
@@ -26,6 +28,12 @@ public:
     virtual ~ErrorSource() = default;
     /// Taps of full memory: no length is longer.
     [[nodiscard]] virtual std::size_t longest() const = 0;
+    /// Rising, the lengths of a kernel that has few; nothing: every length up to the longest.
+    [[nodiscard]] virtual std::optional<std::vector<std::size_t>> lengths(const std::string&) const { return {}; }
+    [[nodiscard]] std::size_t longest_of(const std::string& kernel) const {
+        const auto few = lengths(kernel);
+        return few ? few->back() : longest();
+    }
     /// What truncation alone costs at this length, worst of the signals: a guide, not a measurement.
     [[nodiscard]] virtual double truncation(std::size_t taps) const = 0;
     /// No error at this length or a shorter one is farther from `truncation` than this. Thread-safe.
@@ -45,6 +53,8 @@ public:
     void remember(const std::string& kernel, std::size_t taps, const std::string& signal, double error);
 
     [[nodiscard]] std::size_t longest() const override { return truncation_.size(); }
+    /// Of a kernel with modes: the designs of `bench::length_of`, for the records.
+    [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
     [[nodiscard]] double truncation(std::size_t taps) const override { return truncation_[taps - 1]; }
     [[nodiscard]] double rounding_bound(const std::string& kernel, std::size_t taps) const override;
     [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override;
@@ -60,6 +70,8 @@ private:
         bool whole;
     };
     Known of_signal(const std::string& kernel, std::size_t taps, std::size_t signal, double limit, std::string& fault);
+
+    [[nodiscard]] glsum::Design design_of(const std::string& kernel, std::size_t taps) const;
 
     double order_;
     std::vector<Record> records_;

@@ -36,7 +36,7 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
             throw Failure(Exit::bad_input, "--max-instructions: only with --target m7; on the host use --max-cycles");
         }
         note = "host times: taken in this run alone, 9 interleaved repetitions of each candidate, never of a file";
-        return std::make_unique<HostTimes>(question.conditions.order);
+        return std::make_unique<HostTimes>(question.conditions.order, question.conditions.samples);
     }
     if (!question.core.empty()) {
         auto cycles =
@@ -117,7 +117,9 @@ Answer measure_one(const Question& question, const std::string& kernel, std::siz
     MeasuredErrors errors(question.conditions.order, make_records(question.conditions, question.jobs));
     Candidate candidate{kernel, taps, errors.error(kernel, taps), {}};
     if (!candidate.error.fault.empty()) {
-        throw Failure(Exit::bad_input, fmt::format("{} with {} taps: {}", kernel, taps, candidate.error.fault));
+        throw Failure(Exit::bad_input,
+                      fmt::format("{} with {} taps: {}", kernel, taps_text(candidate, question.conditions.order),
+                                  candidate.error.fault));
     }
     std::string note;
     if (question.target == Target::m7 && !board) {

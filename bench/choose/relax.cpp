@@ -107,7 +107,7 @@ private:
         };
         std::vector<Bracket> brackets;
         for (const Candidate& candidate : candidates) {
-            brackets.push_back({0, errors_.longest() + 1, {candidate.kernel, 0, {}, {}}});
+            brackets.push_back({0, errors_.longest_of(candidate.kernel) + 1, {candidate.kernel, 0, {}, {}}});
         }
         for (int round = 0; round < 24; ++round) {
             std::vector<Candidate*> now;

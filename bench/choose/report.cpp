@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/designs.hpp"
+
 namespace choose {
 namespace {
 
@@ -35,7 +37,13 @@ std::string relaxed_value(const Relaxed& relaxed) {
     return fmt::format("{:.3g}", std::ceil(relaxed.to / unit * (1.0 - 1e-12)) * unit);
 }
 
-std::string at(const Candidate& candidate) { return fmt::format("{} with {} taps", candidate.kernel, candidate.taps); }
+std::string taps_of(const Answer& answer, const Candidate& candidate) {
+    return taps_text(candidate, answer.question.conditions.order);
+}
+
+std::string at(const Answer& answer, const Candidate& candidate) {
+    return fmt::format("{} with {} taps", candidate.kernel, taps_of(answer, candidate));
+}
 
 std::string why(const Answer& answer, const Fared& fared) {
     const auto& chosen = answer.choice.chosen;
@@ -51,12 +59,13 @@ std::string why(const Answer& answer, const Fared& fared) {
         case Fate::dominated:
             return fared.why + ", no worse in error, cost and bytes";
         case Fate::dearer:
-            return fared.already
-                       ? fmt::format("at {} taps already {}", fared.already->taps, cost_text(answer, *fared.already))
-                       : times(*fared.best);
+            return fared.already ? fmt::format("at {} taps already {}", taps_of(answer, *fared.already),
+                                               cost_text(answer, *fared.already))
+                                 : times(*fared.best);
         case Fate::too_dear:
             return fared.already
-                       ? fmt::format("at {} taps already {}", fared.already->taps, cost_text(answer, *fared.already))
+                       ? fmt::format("at {} taps already {}", taps_of(answer, *fared.already),
+                                     cost_text(answer, *fared.already))
                        : fmt::format("{:.3g} times the limit",
                                      fared.best->cost.limited / answer.question.max_cycles.value_or(
                                                                     answer.question.max_instructions.value_or(1.0)));
@@ -64,7 +73,8 @@ std::string why(const Answer& answer, const Fared& fared) {
             return fmt::format("{:.3g} times the limit",
                                fared.best->cost.bytes / answer.question.max_bytes.value_or(1.0));
         case Fate::inaccurate:
-            return fmt::format("gets to {:.2e} at best, at {} taps", fared.short_of->error.error, fared.short_of->taps);
+            return fmt::format("gets to {:.2e} at best, at {} taps", fared.short_of->error.error,
+                               taps_of(answer, *fared.short_of));
         case Fate::wrong:
             return fared.why;
     }
@@ -78,7 +88,7 @@ std::string line_of(const Answer& answer, const Fared& fared) {
     std::string cost = "-";
     std::string bytes = "-";
     if (const auto& shown = fared.best ? fared.best : fared.short_of) {
-        taps = fmt::format("{}", shown->taps);
+        taps = taps_of(answer, *shown);
         error = fmt::format("{:.2e}", shown->error.error);
         signal = shown->error.signal;
         if (fared.best && !fared.already && shown->cost.fault.empty()) {
@@ -98,6 +108,10 @@ bench::Json to_json(const Answer& answer, const Candidate& candidate) {
     bench::Json json;
     json["kernel"] = candidate.kernel;
     json["taps"] = candidate.taps;
+    if (const auto modes = bench::length_of(candidate.kernel, answer.question.conditions.order, candidate.taps).modes) {
+        json["near_taps"] = candidate.taps - 2 * *modes;
+        json["modes"] = *modes;
+    }
     json["error_max"] = candidate.error.error;
     json["worst_signal"] = candidate.error.signal;
     const bool known = candidate.cost.fault.empty() && candidate.cost.bytes > 0.0;
@@ -159,9 +173,9 @@ std::string nearest_miss(const Answer& answer) {
         return "nothing fits, and relaxing any one limit alone does not help";
     }
     const Relaxed& nearest = answer.choice.relaxed.front();
-    return fmt::format("nothing fits; nearest miss: {} misses {} by {:.3g} %, with {} {} it fits", at(nearest.fits),
-                       option(answer, nearest.limit), 100.0 * (nearest.factor() - 1.0), option(answer, nearest.limit),
-                       relaxed_value(nearest));
+    return fmt::format("nothing fits; nearest miss: {} misses {} by {:.3g} %, with {} {} it fits",
+                       at(answer, nearest.fits), option(answer, nearest.limit), 100.0 * (nearest.factor() - 1.0),
+                       option(answer, nearest.limit), relaxed_value(nearest));
 }
 
 std::string to_table(const Answer& answer, bool colour) {
@@ -180,7 +194,7 @@ std::string to_table(const Answer& answer, bool colour) {
     limit("bytes of state and coefficients", question.max_bytes);
     const auto strong = [&](const std::string& words) { return colour ? "\033[1m" + words + "\033[0m" : words; };
     const auto headline = [&](const char* what, const Candidate& candidate) {
-        text += fmt::format("\n{:<10} {}: error {:.3g} ({}), {}, {} bytes", what, strong(at(candidate)),
+        text += fmt::format("\n{:<10} {}: error {:.3g} ({}), {}, {} bytes", what, strong(at(answer, candidate)),
                             candidate.error.error, candidate.error.signal, cost_text(answer, candidate),
                             count(candidate.cost.bytes));
     };
@@ -199,7 +213,7 @@ std::string to_table(const Answer& answer, bool colour) {
         for (const Relaxed& relaxed : answer.choice.relaxed) {
             text += fmt::format("  {} {} instead of {:g} (times {:.3g}): {}, error {:.3g}, {}, {} bytes\n",
                                 option(answer, relaxed.limit), relaxed_value(relaxed), relaxed.from, relaxed.factor(),
-                                at(relaxed.fits), relaxed.fits.error.error, cost_text(answer, relaxed.fits),
+                                at(answer, relaxed.fits), relaxed.fits.error.error, cost_text(answer, relaxed.fits),
                                 count(relaxed.fits.cost.bytes));
         }
     }

@@ -55,12 +55,16 @@ private:
     }
 
     void find_length(Fared& fared) {
-        if (const auto lengths = costs_.lengths(fared.kernel)) {
+        const auto known = costs_.lengths(fared.kernel);
+        if (const auto lengths = known ? known : errors_.lengths(fared.kernel)) {
             Reach reach;
             for (const std::size_t taps : *lengths) {
                 const ErrorAt at = errors_.error(fared.kernel, taps);
                 if (at.fault.empty() && at.error <= limits_.max_error && !reach.shortest) {
                     reach.shortest = taps;
+                    if (!known) {
+                        break;
+                    }
                 }
                 if (reach.best_taps == 0 || at.error < reach.best.error) {
                     reach.best_taps = taps;
@@ -144,7 +148,8 @@ private:
             if (const auto known = costs_.lengths(fared.kernel)) {
                 lengths = *known;
             } else {
-                for (std::size_t i = 1; i <= group_taps && fared.best->taps + i <= errors_.longest(); ++i) {
+                for (std::size_t i = 1; i <= group_taps && fared.best->taps + i <= errors_.longest_of(fared.kernel);
+                     ++i) {
                     lengths.push_back(fared.best->taps + i);
                 }
             }

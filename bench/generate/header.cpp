@@ -192,7 +192,7 @@ static inline void @prefix@_init_@f@(@prefix@_@f@_instance *S)
 )";
 
 const char* const step = R"(
-/** One sample in, one sum out: S_k of x_k = newest and the @past@ samples before it. */
+/** One sample in, one sum out: S_k of x_k = newest and @reads@ before it. */
 @NAME@_STEP_ATTRIBUTES
 static inline @output@ @prefix@_step_@f@(@prefix@_@f@_instance *S, @sample@ newest)
 {
@@ -277,6 +277,10 @@ std::string constants(const Spec& spec, const KernelData& data) {
         text += fmt::format("#define @NAME@_STEP_FACTOR {} /* h^-v: times S_k it is the derivative */\n",
                             real_literal(data.inputs.type, glsum::step_factor(spec.order, *spec.step_s)));
     }
+    if (data.modes > 0) {
+        text += fmt::format("#define @NAME@_MODES {}U              /* decaying averages of what lies behind these */\n",
+                            data.modes);
+    }
     if (data.pairs) {
         const std::size_t all = data.table.integers.size() / 2;
         text += fmt::format(
@@ -317,11 +321,14 @@ std::string helpers_of(const KernelData& data, const std::string& body) {
 std::string opening_comment(const Spec& spec, const KernelData& data, const Places& places) {
     const std::string name = places.at("name");
     std::string text = fmt::format(
-        "{}, {} taps: the Grünwald-Letnikov sum of order v = {}\n\n"
+        "{}, {}: the Grünwald-Letnikov sum of order v = {}\n\n"
         "  S_k = sum_{{j=0..min(k, L-1)}} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 - (1+v)/j)\n\n"
         "one sum a sample; h^-v S_k approximates the derivative of order v (v < 0: the integral).\n"
         "Made by glsum; make it again rather than edit it.\n\n",
-        spec.kernel, spec.taps, spec.order);
+        spec.kernel,
+        data.modes == 0 ? fmt::format("{} taps", spec.taps)
+                        : fmt::format("{} taps and {} modes", data.past + 1, data.modes),
+        spec.order);
     text += fmt::format(
         "  static {0}_instance line;\n  {1}_init_{2}(&line);\n  {3} sum = {1}_step_{2}(&line, x);  once a sample\n\n",
         name, spec.prefix, data.format, data.output);
@@ -330,9 +337,11 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
                         fill(data.format_text.scaling, places));
     text += fmt::format(
         "Error bounds, absolute, of S_k for |x| <= 1, before h^-v\n"
-        "against the exact sum of {} taps, rounding of coefficients and inputs included: {:.3g}\n"
-        "of that sum against full memory (truncation): {}\n\n",
-        spec.taps, data.error_bound, truncation_bound(spec.order, spec.taps));
+        "against the exact sum of {}, rounding of coefficients and inputs included: {:.3g}\n"
+        "of that sum against full memory ({}): {}\n\n",
+        data.modes == 0 ? fmt::format("{} taps", spec.taps) : "these taps and modes, as designed in double",
+        data.error_bound, data.modes == 0 ? "truncation" : fmt::format("{} samples from rest", spec.horizon),
+        data.modes == 0 ? truncation_bound(spec.order, spec.taps) : fmt::format("{:.3g}", data.design_error));
     for (const std::string& line : spec.provenance) {
         text += line + "\n";
     }
@@ -359,7 +368,7 @@ std::string make_header(const Spec& spec) {
     const std::size_t past = spec.taps - 1;
     // Past twice the window, so that every history wraps, and two blocks more.
     const std::size_t steps = ((2 * past + 3 + check_samples - 1) / check_samples + 2) * check_samples;
-    const KernelData data = describe(spec.kernel, spec.order, spec.taps, check_signal(), steps);
+    const KernelData data = describe(spec.kernel, spec.order, spec.taps, spec.horizon, check_signal(), steps);
     const std::string name = spec.prefix + "_" + data.format;
     const bool wide_sum = data.accumulator == "double";
     const bool wide_bits = data.output == "double";
@@ -369,7 +378,8 @@ std::string make_header(const Spec& spec) {
                   {"NAME", upper(name)},
                   {"f", data.format},
                   {"taps", std::to_string(spec.taps)},
-                  {"past", std::to_string(past)},
+                  {"past", std::to_string(data.past)},
+                  {"reads", data.modes == 0 ? fmt::format("the {} samples", past) : "all samples"},
                   {"samples", std::to_string(std::max<std::size_t>(1, data.samples_held))},
                   {"sample", data.inputs.type},
                   {"coefficient", data.pairs ? "uint32_t" : data.table.type},
@@ -402,7 +412,7 @@ std::string make_header(const Spec& spec) {
     std::string text = opening_comment(spec, data, places) + fill(head, places);
     text += fill(fixed ? guard_fixed : guard_floating, places);
     const bool uses = past > 0;
-    text += uses && fixed && data.technique_text.pushes ? fill(keep_fixed, places) : "";
+    text += uses && fixed && body.find("_KEEP(") != std::string::npos ? fill(keep_fixed, places) : "";
     text += uses && body.find("_KEEP_WORD(") != std::string::npos ? fill(keep_word, places) : "";
     if (uses) {
         text += fill("\n/* The coefficients. */\n@NAME@_TABLE_ATTRIBUTES\n", places) +

@@ -12,10 +12,11 @@ namespace generate {
 struct Spec {
     std::string kernel;
     double order;                  ///< v, in (-2, 2]
-    std::size_t taps;              ///< L >= 1
+    std::size_t taps;              ///< L >= 1; of a kernel with modes its near taps and two for each mode
     std::optional<double> step_s;  ///< gives the factor h^-v, where it is known
     std::string prefix = "glsum";  ///< of every identifier
     std::string licence = "the terms of glsum itself";
+    std::size_t horizon = 5000;           ///< samples that a design with modes is for
     std::vector<std::string> provenance;  ///< lines of the comment: where it comes from, what was measured
 };
 

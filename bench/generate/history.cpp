@@ -50,4 +50,12 @@ HistoryText history_text(glsum::Mirror) {
                     "    S->past[head] = newest;\n    S->past[head + @NAME@_PAST] = newest;\n    S->head = head;\n"};
 }
 
+HistoryText history_text(glsum::Modes) {
+    return {.summary = "the newest samples as they are, all older ones as decaying averages",
+            .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ...; then of each mode its state */\n",
+            .reset = clear,
+            .pieces = {},
+            .push = {}};
+}
+
 }  // namespace generate

@@ -6,11 +6,13 @@
 #include <span>
 #include <type_traits>
 
+#include "bench/designs.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/host_line.hpp"
 #include "bench/row.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
+#include "modes/design.hpp"
 #include "qemu/failure.hpp"
 #include "targets/firmware/output_hash.hpp"
 
@@ -30,7 +32,7 @@ template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror> &&
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes> &&
     (is_paired<T> ||
      one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
             glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
@@ -93,19 +95,23 @@ std::uint64_t bits_of(Output output) {
 }
 
 template <class K>
-KernelData describe(double order, std::size_t taps, const std::vector<double>& reals, std::size_t calls) {
+KernelData describe(double order, std::size_t taps, std::size_t horizon, const std::vector<double>& reals,
+                    std::size_t calls) {
     using Technique = typename K::TechniquePart;
     using Format = typename K::FormatPart;
     using Sample = typename K::Sample;
     using Output = typename K::Output;
-    bench::HostLine<K> line({order, taps});
+    constexpr bool has_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+    const bench::Length length = bench::length_of(std::string(K::name()), order, taps);
+    const glsum::Design design = bench::design_of(order, length, horizon);
+    bench::HostLine<K> line(design);
     if (line.status() != glsum::Status::ok) {
-        throw Failure(Exit::bad_input, fmt::format("{} with {} taps at order {}: {}", K::name(), taps, order,
+        throw Failure(Exit::bad_input, fmt::format("{} with {} taps at order {}: {}", K::name(), length.text(), order,
                                                    bench::to_text(line.status())));
     }
     const auto& state = line.state();
     const std::size_t past = taps - 1;
-    std::span<const typename K::Coefficient> table(state.table, K::table_count(taps));
+    std::span<const typename K::Coefficient> table(state.table, glsum::table_needed<K>(design));
     std::vector<int> shifts;
     if constexpr (std::is_same_v<Technique, glsum::Scaled>) {
         shifts.assign(table.begin() + static_cast<std::ptrdiff_t>(past), table.end());
@@ -118,7 +124,9 @@ KernelData describe(double order, std::size_t taps, const std::vector<double>& r
     data.format = Format::word;
     data.accumulator = c_type<typename Format::Accumulator>();
     data.output = c_type<Output>();
-    data.samples_held = K::past_count(taps);
+    data.past = past - 2 * design.modes.size();
+    data.modes = design.modes.size();
+    data.samples_held = glsum::past_needed<K>(design);
     data.table = numbers(table);
     data.aligned_words = (past + 1) / 2;
     data.history_text = history_text(typename K::HistoryPart{});
@@ -127,7 +135,13 @@ KernelData describe(double order, std::size_t taps, const std::vector<double>& r
         // With its test last, GCC 12 keeps the 64-bit sum of SMLALBB in memory: two more instructions a tap.
         data.history_text.pieces.front().may_be_empty = true;
     }
-    data.technique_text = text_of<Technique>(data.history_text, past, shifts);
+    if constexpr (has_modes) {
+        data.technique_text = modes_text(data.past, data.modes, K::compensated, Format::fixed_point);
+        data.design_error =
+            data.modes == 0 ? 0.0 : glsum::modes::approximate({order, horizon}, data.past + 1, data.modes).error;
+    } else {
+        data.technique_text = text_of<Technique>(data.history_text, past, shifts);
+    }
     if constexpr (Format::fixed_point) {
         data.scale = {Format::sample_bits, Format::coefficient_bits, state.scale.table_exponent,
                       state.scale.output_exponent, state.scale.output_shift};
@@ -136,7 +150,7 @@ KernelData describe(double order, std::size_t taps, const std::vector<double>& r
         data.format_text =
             floating_text(std::is_same_v<Sample, double>, std::is_same_v<typename Format::Accumulator, double>);
     }
-    data.error_bound = glsum::error_bound<K>({order, taps}, state, 1.0);
+    data.error_bound = glsum::error_bound<K>(design, state, 1.0);
     std::vector<Sample> inputs;
     for (const double real : reals) {
         inputs.push_back(K::from_real(real));
@@ -164,14 +178,14 @@ std::vector<std::string> generatable() {
     return kernels;
 }
 
-KernelData describe(const std::string& kernel, double order, std::size_t taps, const std::vector<double>& inputs,
-                    std::size_t calls) {
+KernelData describe(const std::string& kernel, double order, std::size_t taps, std::size_t horizon,
+                    const std::vector<double>& inputs, std::size_t calls) {
     KernelData data;
     std::string why = "no kernel is called " + kernel;
     glsum::Registry::for_each([&]<class K>() {
         if (K::name() == kernel) {
             if constexpr (can_generate<K>) {
-                data = describe<K>(order, taps, inputs, calls);
+                data = describe<K>(order, taps, horizon, inputs, calls);
                 why.clear();
             } else {
                 why = kernel + " cannot be generated: " +

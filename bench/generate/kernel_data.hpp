@@ -24,7 +24,10 @@ struct KernelData {
     std::string format;   ///< its word
     std::string accumulator;
     std::string output;
+    std::size_t past = 0;  ///< samples that a sum reads
     std::size_t samples_held = 0;
+    std::size_t modes = 0;
+    double design_error = 0.0;  ///< with modes: against full memory over the horizon, for |x| <= 1
     Numbers table;
     std::size_t aligned_words = 0;  ///< of a table of pairs: those of the first of the two tables
     FixedScale scale{};
@@ -37,10 +40,12 @@ struct KernelData {
     std::uint64_t hash = 0;              ///< of the outputs, as targets/firmware/output_hash.hpp has it
 };
 
-/// \param calls  outputs wanted
+/// \param taps     of a kernel with modes: near taps and two for each mode, as `bench::length_of` parts them
+/// \param horizon  samples that a design with modes is for
+/// \param calls    outputs wanted
 /// \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, and for a design that the
 ///         kernel refuses.
-[[nodiscard]] KernelData describe(const std::string& kernel, double order, std::size_t taps,
+[[nodiscard]] KernelData describe(const std::string& kernel, double order, std::size_t taps, std::size_t horizon,
                                   const std::vector<double>& inputs, std::size_t calls);
 
 }  // namespace generate

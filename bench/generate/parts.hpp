@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "glsum/history/mirror.hpp"
+#include "glsum/history/modes.hpp"
 #include "glsum/history/ring.hpp"
 #include "glsum/history/shift.hpp"
 
@@ -52,6 +53,7 @@ struct FormatText {
 [[nodiscard]] HistoryText history_text(glsum::Shift);
 [[nodiscard]] HistoryText history_text(glsum::Ring);
 [[nodiscard]] HistoryText history_text(glsum::Mirror);
+[[nodiscard]] HistoryText history_text(glsum::Modes);
 
 [[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
@@ -63,6 +65,10 @@ struct FormatText {
 [[nodiscard]] TechniqueText paired_text(bool wide);
 /// \param table  as `prepare` filled it: `past` coefficients, then the octaves' shifts
 [[nodiscard]] TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts);
+
+/// Near taps and modes, which keep the past themselves.
+/// \param near_samples  K - 1; without modes at least 1
+[[nodiscard]] TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed);
 
 [[nodiscard]] FormatText floating_text(bool wide_data, bool wide_sum);
 /// The constants of a fixed-point kernel's scale.

@@ -202,4 +202,49 @@ TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts) {
     return {.summary = "newest first, the table in octaves, each scaled up by its own power of two", .sum = text};
 }
 
+// kernels/glsum/history/modes.hpp.
+TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed) {
+    const char* const floating_step = "            average[0] = before + @name@_multiply(mode[0], leaving - before);\n";
+    const char* const compensated_step =
+        "            const @sample@ step = @name@_multiply(mode[0], leaving - before) + average[1];\n"
+        "            const @sample@ after = before + step;\n"
+        "            average[0] = after;\n"
+        "            average[1] = step - (after - before);\n";
+    const char* const fixed_step =
+        "            const int64_t step = (int64_t)mode[0] * leaving - (int64_t)mode[0] * before;\n"
+        "            const int32_t shift = mode[1];\n"
+        "            average[0] = (int32_t)(before + ((step + ((int64_t)1 << (shift - 1))) >> shift));\n";
+    std::string text = "    @accumulator@ sum = @name@_start(newest);\n";
+    if (near_samples > 0) {
+        text +=
+            "    for (i = 0U; i < @NAME@_PAST; ++i) {\n"
+            "        sum = @name@_multiply_add(sum, @name@_table[i], S->past[i]);\n    }\n";
+    }
+    const std::string step = fixed ? fixed_step : compensated ? compensated_step : floating_step;
+    text += modes == 0 ? ""
+                       : fmt::format(
+                             "    {{\n        const @sample@ leaving = {};\n"
+                             "        const @coefficient@ *mode = @name@_table + @NAME@_PAST;\n"
+                             "        @sample@ *average = S->past + @NAME@_PAST;\n"
+                             "        for (i = @NAME@_MODES; i > 0U; --i) {{\n"
+                             "            const @sample@ before = average[0];\n{}"
+                             "            sum = @name@_multiply_add(sum, mode[{}], before);\n"
+                             "            mode += {};\n            average += {};\n        }}\n    }}\n",
+                             near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest", step, fixed ? 2 : 1,
+                             fixed ? 3 : 2, compensated ? 2 : 1);
+    if (near_samples > 1) {
+        text += R"(    for (i = @NAME@_PAST - 1U; i > 0U; --i) {
+        @moved@ moved = S->past[i - 1U];
+        @NAME@_KEEP_WORD(moved);
+        S->past[i] = (@sample@)moved;
+    }
+)";
+    }
+    text += near_samples > 0 ? "    S->past[0] = newest;\n" : "";
+    return {.summary = std::string("newest first, one accumulator; the taps, then the modes, the fastest first") +
+                       (compensated ? ", each with what its last step lost" : ""),
+            .sum = text,
+            .pushes = true};
+}
+
 }  // namespace generate

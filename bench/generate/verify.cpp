@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "bench/build_info.hpp"
+#include "bench/designs.hpp"
 #include "bench/progress.hpp"
 #include "bench/row.hpp"
 #include "bench/signals.hpp"
@@ -121,12 +122,13 @@ std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& bo
         fmt::format("arm-none-eabi-gcc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -ffunction-sections{} -c "
                     "'{}' -o '{}'",
                     flags, c_file.string(), scratch.file("counted.o").string()));
-    run(fmt::format(
-        "arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti{} -I'{}' -nostartfiles -Wl,--gc-sections "
-        "-T '{}' -T '{}' '{}' '{}' '{}' -lm -o '{}'",
-        flags, (source).string() + "' -I'" + targets.string(), (targets / "mps2-an500" / "memory.ld").string(),
-        (targets / "cortex-m7" / "sections.ld").string(), (targets / "firmware" / "verify.cpp").string(),
-        scratch.file("counted.o").string(), (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
+    run(
+        fmt::format("arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti{} -I'{}' -nostartfiles -Wl,--gc-sections "
+                    "-T '{}' -T '{}' '{}' '{}' '{}' -lm -o '{}'",
+                    flags, source.string() + "' -I'" + targets.string() + "' -I'" + (source / "kernels").string(),
+                    (targets / "mps2-an500" / "memory.ld").string(), (targets / "cortex-m7" / "sections.ld").string(),
+                    (targets / "firmware" / "verify.cpp").string(), scratch.file("counted.o").string(),
+                    (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
     return elf;
 }
 
@@ -163,7 +165,14 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
     for (std::size_t i = 0; i < specs.size(); ++i) {
         specs[i].prefix = fmt::format("k{}", i);
         write(scratch.file((specs[i].prefix + ".h").c_str()), make_header(specs[i]));
-        plan.push_back({specs[i].kernel, specs[i].order, specs[i].taps, 0, qemu::calls_to_measure(specs[i].taps)});
+        const glsum::Design design = bench::design_of(
+            specs[i].order, bench::length_of(specs[i].kernel, specs[i].order, specs[i].taps), specs[i].horizon);
+        plan.push_back({specs[i].kernel,
+                        specs[i].order,
+                        specs[i].taps,
+                        0,
+                        qemu::calls_to_measure(specs[i].taps),
+                        {design.modes.begin(), design.modes.end()}});
     }
     const std::filesystem::path path = link(specs, board, scratch);
     bench::Progress progress("emulated Cortex-M7", 2 * specs.size());

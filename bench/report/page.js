@@ -170,7 +170,7 @@ const bounded = () => ["error_max", "error_rms", "truncation_error_max"].include
 function referenceLines(points, order) {
   if (!bounded()) return [];
   const file = files[0];
-  const lengths = [...file.lengths].filter(([taps]) => shownTaps(taps));
+  const lengths = [...file.lengths].filter(([taps]) => shownTaps(taps) && !taps.includes("+"));  // windows
   const line = (value, kind, text) =>
     ({kind, text, points: lengths.map(([taps, at]) => ({x: at, y: value(taps)})).filter(point => point.y !== undefined && point.y > 0)});
   const worst = (taps, counter) => d3.max(points.filter(point => point.taps === taps && point.file === file), point => {

@@ -4,20 +4,26 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include "glsum/kernel.hpp"
+#include "glsum/modes_bound.hpp"
 #include "glsum/weights.hpp"
 
 namespace glsum {
 
 /// Bound of |S - exact|, where exact is the sum of the same length with exact coefficients over the real-valued
 /// input, |x| <= peak (in fixed point also peak < 1), so that the rounding of the input counts too.
-/// Derivation: the headers of the technique (floating point) and of format/fixed.hpp. Absolute, before h^-v.
+/// With modes the exact sum is that of the design's own taps and exponentials.
+/// Derivation: modes_bound.hpp, and the headers of the technique (floating point) and of format/fixed.hpp. Absolute,
+/// before h^-v.
 template <class K>
 [[nodiscard]] double error_bound(const Design& design, const typename K::State& state, double peak) {
     using Format = typename K::FormatPart;
     using Technique = typename K::TechniquePart;
-    if constexpr (Format::fixed_point) {
+    if constexpr (std::is_same_v<typename K::HistoryPart, Modes>) {
+        return modes_error_bound<K>(design, state, peak);
+    } else if constexpr (Format::fixed_point) {
         return Technique::template fixed_error<Format>(design, state.scale, peak) +
                std::ldexp(absolute_sum(design.order, design.taps), -Format::sample_bits - 1) +
                std::ldexp(1.0, state.scale.output_exponent - 32);

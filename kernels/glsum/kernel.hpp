@@ -12,10 +12,20 @@
 
 namespace glsum {
 
+/// A decaying exponential that stands for far taps: behind the first K its part of the weight of index j is
+/// weight (1 - decay)^(j-K).
+struct Mode {
+    double decay;   ///< d = 1 - r in (0, 1]; r itself would lose the slow modes in single precision
+    double weight;  ///< w
+};
+
 /// What a kernel is prepared for.
 struct Design {
     double order;      ///< v, in (-2, 2]
-    std::size_t taps;  ///< L >= 1: coefficients, a_0 included
+    std::size_t taps;  ///< L >= 1: coefficients, a_0 included; a mode counts as two
+    /// For a kernel whose history is `modes`: M exponentials behind the first K = L - 2M taps, K >= 1. Without any it
+    /// ends where a window of L taps does. A kernel that keeps a window does not look at them. They are copied.
+    std::span<const Mode> modes = {};
 };
 
 /// Why `prepare` refused. Nothing else in a kernel can fail.
@@ -26,6 +36,7 @@ enum class Status {
     table_too_small,     ///< fewer coefficients than `table_count(taps)`
     past_too_small,      ///< fewer samples than `past_count(taps)`
     format_too_narrow,   ///< the coefficients of this order and length do not fit the format with any scale
+    modes_out_of_range,  ///< no tap is left beside the modes, or one that does not decay or is not a number
 };
 
 /// A kernel is a type without objects; what changes lives in its State, which the caller owns together with two
@@ -48,6 +59,24 @@ concept Kernel = requires(typename K::State& state, const typename K::State& pre
     { K::from_real(real) } -> std::same_as<typename K::Sample>;
     { K::to_real(prepared, output) } -> std::same_as<double>;
 };
+
+/// Coefficients and samples of the past that a kernel needs for this very design: no more than for any of its taps.
+template <Kernel K>
+[[nodiscard]] constexpr std::size_t table_needed(const Design& design) {
+    if constexpr (requires { K::table_count(design.taps, design.modes.size()); }) {
+        return K::table_count(design.taps, design.modes.size());
+    } else {
+        return K::table_count(design.taps);
+    }
+}
+template <Kernel K>
+[[nodiscard]] constexpr std::size_t past_needed(const Design& design) {
+    if constexpr (requires { K::past_count(design.taps, design.modes.size()); }) {
+        return K::past_count(design.taps, design.modes.size());
+    } else {
+        return K::past_count(design.taps);
+    }
+}
 
 /// The type list behind the registry.
 template <Kernel... Ks>

@@ -7,6 +7,7 @@
 #include "glsum/history/ring.hpp"
 #include "glsum/history/shift.hpp"
 #include "glsum/kernel.hpp"
+#include "glsum/modes_sum.hpp"
 #include "glsum/null.hpp"
 #include "glsum/sum.hpp"
 #include "glsum/technique/compensated.hpp"

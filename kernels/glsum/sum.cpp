@@ -66,6 +66,152 @@ auto Sum<History, Technique, Format>::step(State& state, Sample newest) -> Outpu
     }
 }
 
+namespace {
+
+// d = mantissa 2^-shift, the mantissa of 30 bits: so its products with two samples stay, with their difference and half
+// a unit, within 64 bits.
+struct FixedDecay {
+    std::int32_t mantissa;
+    std::int32_t shift;
+};
+constexpr std::int32_t largest_shift = 62;
+
+constexpr FixedDecay to_fixed(double decay) {
+    std::int32_t shift = 30;
+    while (shift < largest_shift && decay * power_of_two(shift) < 0x1p29) {
+        ++shift;
+    }
+    return {round_to_integer<std::int32_t>(decay * power_of_two(shift)), shift};
+}
+
+bool is_magnitude_at_most(double real, double limit) { return real <= limit && real >= -limit; }
+
+}  // namespace
+
+template <class Technique, class Format>
+Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
+                                              std::span<Sample> past) {
+    if (!order_in_range(design.order)) {
+        return Status::order_out_of_range;
+    }
+    if (design.taps == 0) {
+        return Status::no_taps;
+    }
+    const std::size_t modes = design.modes.size();
+    if (modes > (design.taps - 1) / 2) {
+        return Status::modes_out_of_range;
+    }
+    for (const Mode& mode : design.modes) {
+        if (!(mode.decay > 0.0 && mode.decay <= 1.0) ||
+            !is_magnitude_at_most(mode.weight, std::numeric_limits<double>::max())) {
+            return Status::modes_out_of_range;
+        }
+        const double gain = mode.weight / mode.decay;
+        if constexpr (Format::fixed_point) {
+            if (to_fixed(mode.decay).mantissa < 1 << 29) {
+                return Status::format_too_narrow;
+            }
+        } else if (!(static_cast<Coefficient>(mode.decay) > 0) ||
+                   !is_magnitude_at_most(gain, std::numeric_limits<Coefficient>::max())) {
+            return Status::format_too_narrow;
+        }
+    }
+    if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design.taps, modes)) {
+        return Status::table_too_small;
+    }
+    if (past.size() < past_count(design.taps, modes)) {
+        return Status::past_too_small;
+    }
+    const std::size_t near_samples = design.taps - 1 - 2 * modes;
+    typename Format::Scale scale = {};
+    if constexpr (Format::fixed_point) {
+        const auto for_each_coefficient = [&](auto visit) {
+            Weights weights(design.order);
+            for (std::size_t j = 1; j <= near_samples; ++j) {
+                weights.next();
+                visit(weights.weight());
+            }
+            for (const Mode& mode : design.modes) {
+                visit(mode.weight / mode.decay);
+            }
+        };
+        if (const Status status = Format::template choose_scale_of<64>(for_each_coefficient, scale);
+            status != Status::ok) {
+            return status;
+        }
+    }
+    Plain::fill<Format>(table.data(), near_samples, design.order, scale);
+    Coefficient* of_mode = table.data() + near_samples;
+    for (std::size_t m = modes; m > 0; --m) {
+        const Mode& mode = design.modes[m - 1];
+        if constexpr (Format::fixed_point) {
+            const FixedDecay decay = to_fixed(mode.decay);
+            of_mode[0] = decay.mantissa;
+            of_mode[1] = decay.shift;
+        } else {
+            of_mode[0] = static_cast<Coefficient>(mode.decay);
+        }
+        of_mode[coefficients_of_mode - 1] = Format::coefficient(mode.weight / mode.decay, scale);
+        of_mode += coefficients_of_mode;
+    }
+    state = {table.data(), past.data(), static_cast<std::uint32_t>(near_samples), static_cast<std::uint32_t>(modes),
+             scale};
+    reset(state);
+    return Status::ok;
+}
+
+template <class Technique, class Format>
+void Sum<Modes, Technique, Format>::reset(State& state) {
+    const std::size_t count = state.near_samples + words_of_mode * state.modes;
+    for (std::size_t i = 0; i < count; ++i) {
+        state.past[i] = 0;
+    }
+    if constexpr (Format::fixed_point) {
+        state.scale.saturations = 0;
+    }
+}
+
+template <class Technique, class Format>
+auto Sum<Modes, Technique, Format>::step(State& state, Sample newest) -> Output {
+    const std::size_t near_samples = state.near_samples;
+    const Coefficient* table = state.table;
+    Sample* const past = state.past;
+    auto sum = Format::start(newest, state.scale);
+    for (std::size_t i = 0; i < near_samples; ++i) {
+        sum = Format::multiply_add(sum, table[i], past[i]);
+    }
+    table += near_samples;
+    // What the near taps hold no longer when the next sample comes.
+    const Sample leaving = near_samples == 0 ? newest : past[near_samples - 1];
+    Sample* average = past + near_samples;
+    for (std::uint32_t m = state.modes; m > 0; --m) {
+        const Sample before = average[0];
+        sum = Format::multiply_add(sum, table[coefficients_of_mode - 1], before);
+        if constexpr (Format::fixed_point) {
+            const std::int64_t step = std::int64_t{table[0]} * leaving - std::int64_t{table[0]} * before;
+            const std::int32_t shift = table[1];
+            // In 64 bits: the step alone may leave 32 where the average does not.
+            average[0] = static_cast<Sample>(before + ((step + (std::int64_t{1} << (shift - 1))) >> shift));
+        } else if constexpr (compensated) {
+            const Sample step = table[0] * (leaving - before) + average[1];
+            const Sample after = before + step;
+            average[0] = after;
+            average[1] = step - (after - before);
+        } else {
+            average[0] = before + table[0] * (leaving - before);
+        }
+        table += coefficients_of_mode;
+        average += words_of_mode;
+    }
+    for (std::size_t i = near_samples; i > 1; --i) {
+        past[i - 1] = past[i - 2];
+    }
+    if (near_samples != 0) {
+        past[0] = newest;
+    }
+    return Format::finish(sum, state.scale);
+}
+
 #define GLSUM_KERNEL(history, technique, format) template struct Sum<history, technique, format>;
 #if defined(GLSUM_SIMD)
 #define GLSUM_HOST_KERNEL(history, technique, format) template struct Sum<history, technique, format>;

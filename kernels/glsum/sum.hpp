@@ -11,6 +11,23 @@
 
 namespace glsum {
 
+/// "<history>_<technique>_<format>".
+template <class History, class Technique, class Format>
+inline constexpr auto kernel_name = [] {
+    constexpr std::size_t size = History::word.size() + Technique::word.size() + Format::word.size() + 2;
+    std::array<char, size> joined{};
+    std::size_t at = 0;
+    for (std::string_view word : {History::word, Technique::word, Format::word}) {
+        if (at != 0) {
+            joined[at++] = '_';
+        }
+        for (char letter : word) {
+            joined[at++] = letter;
+        }
+    }
+    return joined;
+}();
+
 template <class History, class Technique, class Format>
 struct Sum {
     using Sample = typename Format::Sample;
@@ -55,20 +72,7 @@ struct Sum {
 
 private:
     static_assert(History::contiguous || !Technique::contiguous_only, "this technique needs one contiguous piece");
-    static constexpr auto name_ = [] {
-        constexpr std::size_t size = History::word.size() + Technique::word.size() + Format::word.size() + 2;
-        std::array<char, size> joined{};
-        std::size_t at = 0;
-        for (std::string_view word : {History::word, Technique::word, Format::word}) {
-            if (at != 0) {
-                joined[at++] = '_';
-            }
-            for (char letter : word) {
-                joined[at++] = letter;
-            }
-        }
-        return joined;
-    }();
+    static constexpr const auto& name_ = kernel_name<History, Technique, Format>;
 };
 
 }  // namespace glsum

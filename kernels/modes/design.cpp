@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "glsum/weights.hpp"
@@ -9,6 +10,10 @@
 
 namespace glsum::modes {
 namespace {
+
+// How fine the trapezoid is, below every error that is designed for. It then has more than `most_modes` nodes, whatever
+// the horizon.
+constexpr double mixture_error = 1e-10;
 
 // a_0 ... a_N.
 std::vector<double> weights_to(double order, std::size_t horizon) {
@@ -21,13 +26,13 @@ std::vector<double> weights_to(double order, std::size_t horizon) {
     return weights;
 }
 
-Projection projection_of(const Target& target, std::size_t near_taps) {
-    return {tail_nodes(target.order, near_taps, target.horizon, target.error), target.horizon};
+Projection projection_of(const Tail& tail, std::size_t near_taps) {
+    return {tail_nodes(tail.order, near_taps, tail.horizon, mixture_error), tail.horizon};
 }
 
-std::vector<Mode> signed_modes(const Target& target, const Projection& projection, std::size_t count) {
+std::vector<Mode> signed_modes(double order, const Projection& projection, std::size_t count) {
     std::vector<Mode> modes = projection.modes(count);
-    const double sign = std::sin(std::numbers::pi * target.order) > 0.0 ? -1.0 : 1.0;
+    const double sign = std::sin(std::numbers::pi * order) > 0.0 ? -1.0 : 1.0;
     for (Mode& mode : modes) {
         mode.weight *= sign;
     }
@@ -36,39 +41,52 @@ std::vector<Mode> signed_modes(const Target& target, const Projection& projectio
 
 }  // namespace
 
-Approximation approximate(const Target& target, std::size_t near_taps, std::size_t modes) {
-    const Projection projection = projection_of(target, near_taps);
-    std::vector<Mode> found = signed_modes(target, projection, std::min(modes, projection.size()));
-    const double error = error_of(weights_to(target.order, target.horizon), near_taps, found, INFINITY);
+bool has_tail(double order) { return order > -1.0 && order != std::floor(order); }
+
+std::size_t modes_within(double order, std::size_t taps) {
+    if (!has_tail(order) || taps < least_near_taps(order)) {
+        return 0;
+    }
+    return std::min((taps - least_near_taps(order)) / 2, most_modes);
+}
+
+std::size_t most_taps(double order) { return least_near_taps(order) + 1 + 2 * most_modes; }
+
+Approximation approximate(const Tail& tail, std::size_t near_taps, std::size_t modes) {
+    std::vector<Mode> found;
+    if (modes > 0) {
+        const Projection projection = projection_of(tail, near_taps);
+        found = signed_modes(tail.order, projection, std::min(modes, projection.size()));
+    }
+    const double error = error_of(weights_to(tail.order, tail.horizon), near_taps, found, INFINITY);
     return {near_taps, std::move(found), error};
 }
 
-std::optional<Approximation> design(const Target& target) {
-    constexpr std::size_t most_modes = 40;
-    constexpr std::size_t most_taps = 64;
-    const std::vector<double> weights = weights_to(target.order, target.horizon);
-    std::optional<Approximation> best;
-    for (std::size_t near = least_near_taps(target.order); near <= most_taps; near += near < 8 ? 1 : 8) {
-        if (best && near >= best->cost()) {
-            break;
-        }
-        const Projection projection = projection_of(target, near);
-        for (std::size_t count = 0; count <= std::min(most_modes, projection.size()); ++count) {
-            if (best && near + 2 * count >= best->cost()) {
-                break;
+std::optional<Approximation> design(const Tail& tail, double error) {
+    const std::vector<double> weights = weights_to(tail.order, tail.horizon);
+    std::map<std::size_t, Projection> projections;  // by near taps: two at most
+    for (std::size_t taps = 1; taps <= most_taps(tail.order); ++taps) {
+        const std::size_t count = modes_within(tail.order, taps);
+        const std::size_t near_taps = taps - 2 * count;
+        std::vector<Mode> modes;
+        if (count > 0) {
+            auto found = projections.find(near_taps);
+            if (found == projections.end()) {
+                found = projections.emplace(near_taps, projection_of(tail, near_taps)).first;
             }
-            // The exact error was never seen below a third of this estimate; without a mode it is cheap.
-            if (count > 0 && projection.dropped(count) > 3.0 * target.error) {
+            const Projection& projection = found->second;
+            // The exact error was never seen below a third of this estimate.
+            if (count > projection.size() || projection.dropped(count) > 3.0 * error) {
                 continue;
             }
-            std::vector<Mode> modes = signed_modes(target, projection, count);
-            const double error = error_of(weights, near, modes, target.error);
-            if (error <= target.error) {
-                best = Approximation{near, std::move(modes), error};
-            }
+            modes = signed_modes(tail.order, projection, count);
+        }
+        const double found = error_of(weights, near_taps, modes, error);
+        if (found <= error) {
+            return Approximation{near_taps, std::move(modes), found};
         }
     }
-    return best;
+    return std::nullopt;
 }
 
 }  // namespace glsum::modes

@@ -4,13 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include "glsum/kernel.hpp"
+
 namespace glsum::modes {
 
-/// One exponential: its part of the weight of index j is weight (1 - decay)^(j-K).
-struct Mode {
-    double decay;   ///< d = 1 - r in (0, 1); r itself would lose the slow modes in single precision
-    double weight;  ///< w
-};
+using glsum::Mode;
 
 /// The first K weights are exact, from j = K on they are sum_m w_m (1 - d_m)^(j-K), nearly.
 struct Approximation {

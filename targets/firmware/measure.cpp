@@ -89,7 +89,7 @@ int firmware_main() {
             hash.add(output);
             answer.number(hash.value(), 16);
             answer.number(stack);
-            answer.number(sizeof state + K::past_count(row.taps) * sizeof(typename K::Sample));
-            answer.number(K::table_count(row.taps) * sizeof(typename K::Coefficient));
+            answer.number(sizeof state + glsum::past_needed<K>(row.design()) * sizeof(typename K::Sample));
+            answer.number(glsum::table_needed<K>(row.design()) * sizeof(typename K::Coefficient));
         });
 }

@@ -1,10 +1,11 @@
 // The plan that the host writes and the firmware carries out, and the text that it answers with.
 //
-//   glsum-plan-1 <path of the signals> <samples of each signal>
-//   <kernel> <order, its 64 bits in hex> <taps> <signal> <calls>
+//   glsum-plan-2 <path of the signals> <samples of each signal>
+//   <kernel> <order, its 64 bits in hex> <taps> <signal> <calls> <modes> { <decay> <weight> } ...
 //   ...
 //
-// Signals: one binary file, float64 little-endian, one record after the other. Words are separated by one space.
+// Signals: one binary file, float64 little-endian, one record after the other. Words are separated by one space; real
+// numbers are their 64 bits in hex.
 #pragma once
 
 #include <bit>
@@ -14,6 +15,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "glsum/kernel.hpp"
 #include "port.hpp"
 
 namespace firmware {
@@ -33,22 +35,42 @@ bool to_number(std::string_view word, Number& value, int base = 10) {
     return error == std::errc{} && end == word.data() + word.size();
 }
 
+/// Of one design.
+inline constexpr std::size_t most_modes = 64;
+
 struct PlanRow {
     std::string_view kernel;
     double order;
     std::size_t taps;
     std::size_t signal;
     std::size_t calls;
+    std::size_t mode_count;
+    glsum::Mode modes[most_modes];
+    [[nodiscard]] glsum::Design design() const { return {order, taps, {modes, mode_count}}; }
 };
+
+/// Reads a whole word as the bits of a real number. \return whether it is one.
+inline bool to_real(std::string_view word, double& value) {
+    std::uint64_t bits = 0;
+    const bool whole = to_number(word, bits, 16);
+    value = std::bit_cast<double>(bits);
+    return whole;
+}
 
 /// Takes the next row off the plan. \return whether all its words are there and are numbers.
 inline bool take_row(std::string_view& plan, PlanRow& row) {
     row.kernel = take_word(plan);
-    std::uint64_t order = 0;
-    const bool whole = to_number(take_word(plan), order, 16) && to_number(take_word(plan), row.taps) &&
-                       to_number(take_word(plan), row.signal) && to_number(take_word(plan), row.calls);
-    row.order = std::bit_cast<double>(order);
-    return whole;
+    if (!to_real(take_word(plan), row.order) || !to_number(take_word(plan), row.taps) ||
+        !to_number(take_word(plan), row.signal) || !to_number(take_word(plan), row.calls) ||
+        !to_number(take_word(plan), row.mode_count) || row.mode_count > most_modes) {
+        return false;
+    }
+    for (std::size_t m = 0; m < row.mode_count; ++m) {
+        if (!to_real(take_word(plan), row.modes[m].decay) || !to_real(take_word(plan), row.modes[m].weight)) {
+            return false;
+        }
+    }
+    return true;
 }
 
 /// One line of the answer: words with a separator before each number, then the line's end.

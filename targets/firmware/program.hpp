@@ -25,7 +25,7 @@ template <class K, class Before>
 bool run_row(const PlanRow& row, Signal signal, Answer& answer, typename K::State& state, OutputHash& hash,
              Before before) {
     const auto memory = buffers<K, 8192>();
-    const glsum::Status status = K::prepare(state, {row.order, row.taps}, memory.table, memory.past);
+    const glsum::Status status = K::prepare(state, row.design(), memory.table, memory.past);
     answer.number(static_cast<unsigned>(status));
     if (status != glsum::Status::ok) {
         return false;
@@ -47,8 +47,8 @@ int run_plan(RunRow run_row) {
     take_word(command);
     const auto plan_file = port::read_file(take_word(command), plan_bytes);
     std::string_view plan{reinterpret_cast<const char*>(plan_file.data()), plan_file.size()};
-    if (take_word(plan) != "glsum-plan-1") {
-        port::write("error: no plan of the form glsum-plan-1\n");
+    if (take_word(plan) != "glsum-plan-2") {
+        port::write("error: no plan of the form glsum-plan-2\n");
         return 2;
     }
     const auto signals = port::read_file(take_word(plan), signal_bytes);
@@ -62,7 +62,7 @@ int run_plan(RunRow run_row) {
     const auto* doubles = reinterpret_cast<const double*>(signals.data());
     std::size_t number = 0;
     for (; !plan.empty(); ++number) {
-        PlanRow row{};
+        static PlanRow row;  // too large for the stack
         if (!take_row(plan, row)) {
             port::write("error: the plan has a damaged row\n");
             return 2;

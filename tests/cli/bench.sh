@@ -19,7 +19,8 @@ for field in glsum_version commit compiler flags contraction cpu cycle_counter c
 done
 for row in 'gl/mirror_simd_f32/order:0.5/taps:50/accuracy/signal:step' 'gl/ring_horner_f32/order:-0.5/taps:full/m7:count' \
     'gl/null/order:0.5/taps:50/host' 'gl/peer_std_f32/order:0.5/taps:full/host' 'gl/shift_plain_f64/order:0.5/taps:50/m7:count' \
-    'gl/ring_plain_q31/order:0.5/taps:full/m7:stm32f746-itcm'; do
+    'gl/ring_plain_q31/order:0.5/taps:full/m7:stm32f746-itcm' 'gl/modes_plain_f32/order:0.5/taps:2+9/host' \
+    'gl/modes_compensated_f32/order:-0.5/taps:1+12/accuracy/signal:noise' 'gl/modes_plain_q31/order:-0.5/taps:1+12/m7:stm32f746-itcm'; do
     grep -q "\"name\": \"$row\"" "$folder/first.json" || fail "expected the row $row"
 done
 grep -q 'gl/mirror_simd_f32/.*/m7' "$folder/first.json" && fail "a host kernel has a target row"

@@ -44,7 +44,7 @@ grep -q 'compile without it' "$folder/said" || fail "expected -ffast-math to be 
 core="-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"
 on_target() {
     arm-none-eabi-gcc -std=c99 $warnings $core "$@" -c "$folder/all.c" -o "$folder/all.o" >"$folder/said" 2>&1 &&
-        arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti $core -O2 -I"$source" -I"$source/targets" -nostartfiles \
+        arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti $core -O2 -I"$source" -I"$source/targets" -I"$source/kernels" -nostartfiles \
             -T "$source/targets/mps2-an500/memory.ld" -T "$source/targets/cortex-m7/sections.ld" \
             "$source/targets/firmware/verify.cpp" "$folder/all.o" "$board/targets/libboard.a" -lm -o "$folder/all.elf" \
             >>"$folder/said" 2>&1 ||

@@ -165,8 +165,8 @@ TYPED_TEST(KernelTest, StaysInsideItsBuffersAndWorksAtAnyAlignmentOfItsType) {
 }
 
 TYPED_TEST(KernelTest, RefusesBuffersThatAreTooSmall) {
-    std::vector<typename TypeParam::Coefficient> table(TypeParam::table_count(20));
-    std::vector<typename TypeParam::Sample> past(TypeParam::past_count(20));
+    std::vector<typename TypeParam::Coefficient> table(glsum::table_needed<TypeParam>({0.5, 20}));
+    std::vector<typename TypeParam::Sample> past(glsum::past_needed<TypeParam>({0.5, 20}));
     typename TypeParam::State state{};
     const auto prepare = [&](std::size_t less_table, std::size_t less_past) {
         return TypeParam::prepare(state, {0.5, 20}, std::span(table).first(table.size() - less_table),

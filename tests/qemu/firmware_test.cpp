@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "bench/count_path.hpp"
+#include "bench/designs.hpp"
 #include "bench/signals.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/failure.hpp"
@@ -49,6 +50,15 @@ TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) {
             for (const std::size_t taps : {1U, 2U, 3U, 50U, 101U}) {
                 for (std::size_t signal = 0; signal < signals_.size(); ++signal) {
                     plan.push_back({kernel, order, taps, signal, 2 * taps + 60});
+                }
+            }
+        }
+        if (bench::has_modes(kernel)) {
+            for (const double order : {0.5, 1.9909, -0.5}) {
+                for (const std::size_t taps : {3U, 16U, 31U}) {
+                    const auto modes = bench::design_of(order, bench::length_with_modes(order, taps), 1000).modes;
+                    plan.push_back({kernel, order, taps, taps % signals_.size(), 1100, {modes.begin(), modes.end()}});
+                    ASSERT_EQ(plan.back().modes.empty(), taps == 3 && order > 1.0);
                 }
             }
         }

@@ -85,17 +85,28 @@ struct Fixed {
     /// The scale for a table of weights and sums of `accumulator_bits`.
     template <int accumulator_bits>
     static Status choose_scale(const Design& design, Scale& scale) {
+        const auto for_each_weight = [&](auto visit) {
+            Weights weights(design.order);
+            for (std::size_t j = 1; j < design.taps; ++j) {
+                weights.next();
+                visit(weights.weight());
+            }
+        };
+        return choose_scale_of<accumulator_bits>(for_each_weight, scale);
+    }
+
+    /// The same for any table: `for_each(visit)` calls visit(real) for each coefficient beside a_0.
+    template <int accumulator_bits, class ForEach>
+    static Status choose_scale_of(const ForEach& for_each, Scale& scale) {
         scale = {};
         // The sum of products has sample_bits + coefficient_bits of fraction: it may reach 2^(s + guard_bits).
         constexpr int guard_bits = accumulator_bits - 1 - sample_bits - coefficient_bits;
         double largest = 0.0;
         double absolute = 1.0;
-        Weights weights(design.order);
-        for (std::size_t j = 1; j < design.taps; ++j) {
-            weights.next();
-            largest = std::max(largest, magnitude(weights.weight()));
-            absolute += magnitude(weights.weight());
-        }
+        for_each([&](double real) {
+            largest = std::max(largest, magnitude(real));
+            absolute += magnitude(real);
+        });
         // In reals first, which may be one too small by the rounding of the coefficients; then exactly.
         int exponent = 0;
         while (exponent <= coefficient_bits &&
@@ -105,7 +116,7 @@ struct Fixed {
         std::int64_t table_sum = 0;
         for (; exponent <= coefficient_bits; ++exponent) {
             scale.table_exponent = static_cast<std::int8_t>(exponent);
-            if (table_fits(design, scale, coefficient_bits + guard_bits, table_sum)) {
+            if (table_fits(for_each, scale, coefficient_bits + guard_bits, table_sum)) {
                 break;
             }
         }
@@ -180,20 +191,18 @@ private:
 
     // Whether the rounded table at this scale overflows neither a coefficient nor, for any samples, the sum.
     // table_sum: the sum of the magnitudes, a_0 included, in units of the table; it may reach 2^limit_bits.
-    static bool table_fits(const Design& design, const Scale& scale, int limit_bits, std::int64_t& table_sum) {
+    template <class ForEach>
+    static bool table_fits(const ForEach& for_each, const Scale& scale, int limit_bits, std::int64_t& table_sum) {
         const double unit = power_of_two(coefficient_bits - scale.table_exponent);
         table_sum = std::int64_t{1} << (coefficient_bits - scale.table_exponent);
-        Weights weights(design.order);
-        for (std::size_t j = 1; j < design.taps; ++j) {
-            weights.next();
-            const Coefficient rounded = coefficient(weights.weight(), scale);
-            if (magnitude(weights.weight() * unit - static_cast<double>(rounded)) > 0.5) {
-                return false;  // it saturated: +1 does not fit, -1 does
-            }
+        bool saturated = false;  // +1 does not fit, -1 does
+        for_each([&](double real) {
+            const Coefficient rounded = coefficient(real, scale);
+            saturated = saturated || magnitude(real * unit - static_cast<double>(rounded)) > 0.5;
             table_sum += rounded < 0 ? -static_cast<std::int64_t>(rounded) : static_cast<std::int64_t>(rounded);
-        }
+        });
         // <=: the sum reaches its bound only if every product is positive, and +1 is no sample, so x_k = 1 is not.
-        return table_sum <= std::int64_t{1} << limit_bits;
+        return !saturated && table_sum <= std::int64_t{1} << limit_bits;
     }
 };
 

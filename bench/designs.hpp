@@ -1,0 +1,32 @@
+// What a kernel is prepared for at a length: with a window its taps alone; with modes also which.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "bench/sweep.hpp"
+#include "glsum/kernel.hpp"
+
+namespace bench {
+
+/// Whether a kernel keeps near taps and modes in place of a window. \throws std::out_of_range for a name that is not in
+/// the registry.
+[[nodiscard]] bool has_modes(const std::string& kernel);
+
+/// The length of a design of `taps` coefficients: `modes_within` of them are modes.
+[[nodiscard]] Length length_with_modes(double order, std::size_t taps);
+
+/// A length as a kernel counts it: with modes those of `length_with_modes`.
+[[nodiscard]] Length length_of(const std::string& kernel, double order, std::size_t taps);
+
+/// The design of a length: its modes, if any, for a record of `samples`. They stay where they are to the end of the
+/// program, and each is made once. Thread-safe.
+[[nodiscard]] glsum::Design design_of(double order, const Length& length, std::size_t samples);
+
+/// The lengths at which a sweep measures a kernel. With a window: those without modes. With modes: those with modes, or
+/// where the sweep names none, for each of its `design_errors` the shortest design that keeps it over the record.
+/// Orders without a tail of exponentials (whole ones, and v <= -1) have none. Rising.
+[[nodiscard]] std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order);
+
+}  // namespace bench

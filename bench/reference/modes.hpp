@@ -1,0 +1,21 @@
+// The oracle for kernels with modes: what their design stands for, in 50 digits.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "bench/reference/sums.hpp"
+#include "glsum/kernel.hpp"
+
+namespace reference {
+
+/// The weights of a design, by definition: a_0 ... a_(K-1) of its order, and sum_m w_m (1 - d_m)^(j-K) from j = K on,
+/// its decays and weights taken as exact.
+[[nodiscard]] std::vector<Real> weights_of(const glsum::Design& design, std::size_t count);
+
+/// S_k of these weights for all k of a record, each exponential by its recursion: a few products a sample. A design
+/// without modes ends behind its taps.
+[[nodiscard]] Sums sums_of(const glsum::Design& design, std::span<const double> record);
+
+}  // namespace reference

@@ -1,0 +1,153 @@
+// Lengths and designs of kernels with modes, and what their rows say.
+#include "bench/designs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+
+#include "bench/accuracy.hpp"
+#include "bench/results.hpp"
+#include "bench/signals.hpp"
+#include "bench/target_plan.hpp"
+#include "bench/truncation_bound.hpp"
+#include "modes/design.hpp"
+
+namespace {
+
+bench::Sweep sweep_of(std::vector<std::string> kernels) {
+    bench::Sweep sweep;
+    sweep.kernels = std::move(kernels);
+    sweep.orders = {0.5, 1.9909, -0.5};
+    sweep.lengths = {{50}, {600}};
+    sweep.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
+    sweep.samples = 1000;
+    return sweep;
+}
+
+TEST(Lengths, AreReadAsTheyAreWritten) {
+    for (const char* text : {"1", "600", "2+7", "1+0", "3+40", "full"}) {
+        const auto length = bench::parse_length(text, 1000);
+        ASSERT_TRUE(length) << text;
+        EXPECT_EQ(length->text(), text);
+        EXPECT_TRUE(bench::parse_key(bench::row_name("modes_plain_f32", 0.5, *length, "host"))) << text;
+    }
+    EXPECT_EQ(bench::parse_length("2+7", 1000)->taps, 16U);
+    EXPECT_EQ(bench::parse_length("2+7", 1000)->modes, 7U);
+    EXPECT_EQ(bench::parse_length("full", 1000)->taps, 1000U);
+    EXPECT_FALSE(bench::parse_length("600", 1000)->modes);
+    for (const char* text : {"", "0", "0+7", "+7", "2+", "2+7+1", "2-7", "2+-7", "-2", "1000001", "2+1000001", "Full",
+                             "2 + 7", "99999999999999999999", "2+99999999999999999999"}) {
+        EXPECT_FALSE(bench::parse_length(text, 1000)) << text;
+    }
+}
+
+TEST(Designs, OfAKernelWithModesAreTheShortestForTheErrors) {
+    const bench::Sweep sweep = sweep_of({"ring_plain_f32", "modes_plain_f32"});
+    EXPECT_EQ(bench::lengths_of(sweep, "ring_plain_f32", 0.5).size(), 2U);
+    for (const double order : sweep.orders) {
+        const auto lengths = bench::lengths_of(sweep, "modes_plain_f32", order);
+        ASSERT_LE(lengths.size(), sweep.design_errors.size());
+        ASSERT_FALSE(lengths.empty());
+        for (const double error : sweep.design_errors) {
+            const auto found = glsum::modes::design({order, sweep.samples}, error);
+            ASSERT_TRUE(found);
+            EXPECT_TRUE(std::any_of(lengths.begin(), lengths.end(),
+                                    [&](const bench::Length& length) {
+                                        return length.taps == found->cost() && length.modes == found->modes.size();
+                                    }))
+                << order << " " << error;
+        }
+    }
+    EXPECT_TRUE(bench::lengths_of(sweep, "modes_plain_f32", 1.0).empty());
+    EXPECT_TRUE(bench::lengths_of(sweep, "modes_plain_f32", -1.5).empty());
+    bench::Sweep named = sweep;
+    named.lengths = {{50}, *bench::parse_length("2+7", 1000)};
+    ASSERT_EQ(bench::lengths_of(named, "modes_plain_f32", 0.5).size(), 1U);
+    EXPECT_EQ(bench::lengths_of(named, "modes_plain_f32", 0.5).front().text(), "2+7");
+    ASSERT_EQ(bench::lengths_of(named, "ring_plain_f32", 0.5).size(), 1U);
+    EXPECT_EQ(bench::lengths_of(named, "ring_plain_f32", 0.5).front().text(), "50");
+}
+
+// The error of a row is within the design's, which is of |x| <= 1, and rounding: for every signal.
+TEST(Accuracy, OfModesIsThatOfTheirDesign) {
+    const bench::Sweep sweep = sweep_of({"modes_plain_f64", "modes_compensated_f32"});
+    std::vector<std::size_t> cases(sweep.orders.size() * sweep.signals.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        cases[i] = i;
+    }
+    const auto rows = bench::measure_accuracy(sweep, cases);
+    std::size_t measured = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double order = sweep.orders[i / sweep.signals.size()];
+        const auto record = bench::make_signal(sweep.signals[i % sweep.signals.size()], sweep.samples, sweep.seed);
+        const double peak = bench::largest_sum(order, record);
+        for (const bench::Json& row : rows[i]) {
+            const auto key = bench::parse_key(row["name"].get<std::string>());
+            ASSERT_TRUE(key) << row["name"];
+            const auto length = bench::parse_length(key->taps, sweep.samples);
+            ASSERT_TRUE(length && length->modes) << row["name"];
+            ASSERT_FALSE(row.contains("error_occurred")) << row;
+            const double designed =
+                glsum::modes::approximate({order, sweep.samples}, length->taps - 2 * *length->modes, *length->modes)
+                    .error;
+            const double truncation = row["truncation_error_max"].get<double>();
+            const double rounding = row["rounding_error_max"].get<double>();
+            EXPECT_LE(truncation, bench::signal_peak * designed / peak * (1 + 1e-6)) << row["name"];
+            EXPECT_LE(row["error_max"].get<double>(), (truncation + rounding) * (1 + 1e-9)) << row["name"];
+            EXPECT_LE(rounding, key->kernel == "modes_plain_f64" ? 1e-11 : 1e-3) << row["name"];
+            EXPECT_EQ(row["macs_per_sample"], length->taps - 1);
+            EXPECT_EQ(row["horizon_samples"], sweep.samples);
+            ++measured;
+        }
+    }
+    EXPECT_GE(measured, 2 * cases.size() * 3);
+}
+
+TEST(TargetPlan, KernelsWithModesAreReplayedWithThemAndCountedOnce) {
+    const bench::Sweep sweep = sweep_of({"ring_plain_f32", "modes_plain_f32", "modes_plain_q31"});
+    const bench::TargetPlan plan = bench::make_target_plan(sweep);
+    std::set<std::string> counted;
+    std::set<std::size_t> pieces;
+    std::set<std::size_t> replayed;
+    std::set<std::size_t> signals;
+    for (std::size_t i = 0; i < plan.rows.size(); ++i) {
+        const auto& row = plan.rows[i];
+        const auto& count = plan.counts.at(row.count);
+        EXPECT_EQ(count.kernel, row.kernel);
+        EXPECT_EQ(count.taps, row.length.taps);
+        EXPECT_EQ(count.modes.size(), row.length.modes.value_or(0));
+        if (row.kernel == "modes_plain_f32") {
+            counted.insert(row.length.text());
+            pieces.insert(row.piece);
+        } else {
+            EXPECT_EQ(pieces.count(row.piece), 0U);
+        }
+    }
+    EXPECT_EQ(pieces.size(), 1U);
+    EXPECT_EQ(std::count_if(plan.counts.begin(), plan.counts.end(),
+                            [](const auto& count) { return count.kernel == "modes_plain_f32"; }),
+              static_cast<std::ptrdiff_t>(counted.size()));
+    for (const auto& replay : plan.replays) {
+        const auto& row = plan.rows.at(replay.row);
+        replayed.insert(replay.row);
+        if (row.length.modes) {
+            const auto design = bench::design_of(row.order, row.length, sweep.samples);
+            ASSERT_EQ(replay.planned.modes.size(), design.modes.size());
+            for (std::size_t m = 0; m < design.modes.size(); ++m) {
+                EXPECT_EQ(replay.planned.modes[m].decay, design.modes[m].decay);
+                EXPECT_EQ(replay.planned.modes[m].weight, design.modes[m].weight);
+            }
+            EXPECT_EQ(replay.planned.calls, sweep.samples);
+            signals.insert(replay.planned.signal);
+        }
+    }
+    EXPECT_EQ(replayed.size(), plan.rows.size());
+    EXPECT_EQ(signals.size(), sweep.signals.size());
+    for (const double of_piece : bench::piece_costs(plan)) {
+        EXPECT_GT(of_piece, 0.0);
+    }
+}
+
+}  // namespace
