@@ -68,6 +68,54 @@ const char* const words[] = {
     "movw r2,#1",
 };
 
+// Keys stand for events: what differs in any one thing has another key.
+TEST(PackedEvent, TellsEventsApart) {
+    timing::Event load;
+    load.accesses = 1;
+    load.access_bytes = 4;
+    load.load_delay = 7;
+    load.words = 1;
+    load.fetch_delays[0] = 5;
+    load.fetch_effect = timing::Effect::flash_wait_states;
+    timing::Event store;
+    store.accesses = 2;
+    store.access_bytes = 4;
+    store.store_delayed = true;
+    store.store_delays[1] = 9;
+    const auto changed = [](timing::Event event, auto change) {
+        change(event);
+        return event;
+    };
+    const std::vector<timing::Event> events{
+        load,
+        changed(load, [](auto& e) { e.load_delay = 8; }),
+        changed(load, [](auto& e) { e.load_effect = timing::Effect::flash_wait_states; }),
+        changed(load, [](auto& e) { e.meets = 2; }),
+        changed(load, [](auto& e) { e.odd_word = 1; }),
+        changed(load, [](auto& e) { e.in_dtcm = 1; }),
+        changed(load, [](auto& e) { e.words = 2; }),
+        changed(load, [](auto& e) { e.fetch_delays[0] = 6; }),
+        changed(load, [](auto& e) { e.fetch_effect = timing::Effect::icache_misses; }),
+        changed(load, [](auto& e) { e.taken = true; }),
+        changed(load, [](auto& e) { e.prediction = timing::Prediction::wrong; }),
+        store,
+        changed(store, [](auto& e) { e.store_delays[1] = 8; }),
+        changed(store, [](auto& e) { e.store_delays[0] = 9; }),
+        changed(store, [](auto& e) { e.store_effect = timing::Effect::flash_wait_states; }),
+    };
+    for (const timing::Event& a : events) {
+        EXPECT_TRUE(timing::packs(a));
+        for (const timing::Event& b : events) {
+            const timing::PackedEvent of_a = timing::packed(a);
+            const timing::PackedEvent of_b = timing::packed(b);
+            EXPECT_EQ(of_a.event == of_b.event && of_a.fetch_delays == of_b.fetch_delays, &a == &b)
+                << &a - events.data() << " " << &b - events.data();
+        }
+    }
+    EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[0] = 8; }))) << "two delays";
+    EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[8] = 9; }))) << "beyond the eighth";
+}
+
 TEST(Replay, EqualsTheComputationStepByStep) {
     std::string text;
     for (const char* word : words) {
