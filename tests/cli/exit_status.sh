@@ -13,7 +13,7 @@ expect 2 "--no-such-option" bench --no-such-option
 expect 2 "--orders: expected a number in (-2, 2], found 3" bench --orders 3
 expect 2 "found -2" bench --orders -2,0.5
 expect 2 "--orders" bench --orders half
-expect 2 "--taps: expected a number of at least 1 and at most 1000000, or full, found 0" bench --taps 0
+expect 2 "--taps: expected a number of at least 1 and at most 1000000, full, or near taps and modes as 2+7, found 0" bench --taps 0
 expect 2 "found 1000001" bench --taps 1000001
 expect 2 "--jobs" bench --jobs 1000000
 expect 2 "found 50x" bench --taps 50x
