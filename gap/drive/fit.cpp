@@ -116,7 +116,7 @@ double cost_of(const Study& study, const Candidate& candidate, const Whitener* w
 void descend(const Study& study, Candidate& candidate, bool own_only, const Whitener* whitener, int iterations) {
     const std::vector<FreeParameter*> free = free_numbers(candidate, own_only);
     candidate.cost = cost_of(study, candidate, whitener);
-    if (free.empty() || !std::isfinite(candidate.cost)) {
+    if (free.empty() || !std::isfinite(candidate.cost) || iterations == 0) {
         return;
     }
     std::vector<double> values;
@@ -132,7 +132,8 @@ void descend(const Study& study, Candidate& candidate, bool own_only, const Whit
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = iterations;
-    options.function_tolerance = iterations < 10 ? 1e-4 : 1e-6;
+    // Half the sum of squares of some thousand samples is some thousand: a twentieth of a unit of likelihood.
+    options.function_tolerance = iterations < 10 ? 5e-4 : 2e-5;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
@@ -215,6 +216,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             count = std::max(count, starts_of(*effect, study.scales));
         }
     }
+    const bool in_stages = count > 1 || std::isfinite(effort.hopeless);
     std::vector<Candidate> attempts;
     for (std::size_t s = 0; s < count; ++s) {
         Candidate attempt;
@@ -231,14 +233,17 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             attempt.own.push_back(own_of(study, r, effects, start));
         }
         guess_events(study, attempt);
-        descend(study, attempt, false, whitener, count > 1 ? effort.first_iterations : effort.iterations);
+        descend(study, attempt, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
         attempts.push_back(std::move(attempt));
     }
-    if (count > 1) {
+    if (in_stages) {
         std::stable_sort(attempts.begin(), attempts.end(), by_cost);
         attempts.resize(std::min(effort.keep, attempts.size()));
+        const double worst = std::min(effort.hopeless, 2.0 * attempts.front().cost);
         for (Candidate& attempt : attempts) {
-            descend(study, attempt, false, whitener, effort.iterations);
+            if (attempt.cost < worst) {
+                descend(study, attempt, false, whitener, effort.iterations);
+            }
         }
     }
     return *std::min_element(attempts.begin(), attempts.end(), by_cost);

@@ -199,12 +199,30 @@ double rms(std::span<const double> values) {
 
 }  // namespace
 
-Course::Course(const Record& record, unsigned per_interval)
+Course::Course(const Record& record, double per_interval)
     : record_(&record),
       grid_(record.grid(per_interval)),
       held_(held_on(grid_, record.time_s, record.input)),
       exponentials_(grid_.count),
-      correction_(record.size(), 0.0) {}
+      correction_(record.size(), 0.0) {
+    std::vector<double> places(grid_.count);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        places[k] = static_cast<double>(k);
+    }
+    for (const double place : read_at(grid_, places, record.time_s)) {
+        below_.push_back(std::min(static_cast<std::size_t>(place), grid_.count - 2));
+        share_.push_back(place - static_cast<double>(below_.back()));
+    }
+}
+
+std::vector<double> Course::read(std::span<const double> nodes) const {
+    std::vector<double> reading(below_.size());
+    for (std::size_t i = 0; i < reading.size(); ++i) {
+        const double from = nodes[below_[i]];
+        reading[i] = from + share_[i] * (nodes[below_[i] + 1] - from);
+    }
+    return reading;
+}
 
 std::vector<double> Course::nodes_of(const Scenario& scenario) const {
     std::vector<double> input;
@@ -268,7 +286,7 @@ std::vector<double> simulate(const Scenario& scenario, const Course& course) {
             stage(z, {course.grid(), input, y});
         }
     }
-    std::vector<double> reading = read_at(course.grid(), z, course.record().time_s);
+    std::vector<double> reading = course.read(z);
     for (std::size_t i = 0; i < reading.size(); ++i) {
         reading[i] += course.correction()[i];
     }
@@ -282,9 +300,9 @@ std::vector<double> simulate(const Scenario& scenario, const Course& course) {
 }
 
 Course make_course(const Record& record, const Scenario& scenario, double allowed) {
-    constexpr unsigned finest = 8;
+    constexpr double finest = 8;
     std::vector<double> coarse = simulate(scenario, Course(record, 1));
-    for (unsigned per_interval = 1;; per_interval *= 2) {
+    for (double per_interval = 1;; per_interval *= 2) {
         const std::vector<double> fine = simulate(scenario, Course(record, 2 * per_interval));
         // Second order in the step: the limit lies a third of the last difference beyond.
         std::vector<double> off(record.size());
@@ -299,6 +317,23 @@ Course make_course(const Record& record, const Scenario& scenario, double allowe
             return course;
         }
         coarse = fine;
+    }
+}
+
+Course make_sketch(const Course& fine, const Scenario& scenario, double allowed) {
+    const std::vector<double> wanted = simulate(scenario, fine);
+    for (double per_interval = 0.25;; per_interval *= 2) {
+        Course course(fine.record(), per_interval);
+        std::vector<double> off = simulate(scenario, course);
+        for (std::size_t i = 0; i < off.size(); ++i) {
+            off[i] = wanted[i] - off[i];
+        }
+        if (per_interval == 1.0 || rms(off) <= allowed) {
+            if (std::isfinite(rms(off))) {
+                course.correct(std::move(off));
+            }
+            return course;
+        }
     }
 }
 
