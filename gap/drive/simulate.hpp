@@ -1,6 +1,9 @@
 // Simulates a scenario over a record.
 #pragma once
 
+#include <map>
+#include <memory>
+#include <mutex>
 #include <vector>
 
 #include "gap/drive/derivative.hpp"
@@ -24,8 +27,17 @@ public:
     /// Added to every simulated reading: what the steps are off by, for the scenario that the course was made for.
     [[nodiscard]] const std::vector<double>& correction() const { return correction_; }
     void correct(std::vector<double> correction);
+    /// What the deployed simulation of a model reads at the stamps. It costs the square of its steps, and candidates ask
+    /// for the same ones again and again: lately computed ones are kept. Thread-safe. \param taps  0: all
+    [[nodiscard]] std::vector<double> deployed(const drive::Model& model, const Deployed& deployed,
+                                               std::size_t taps) const;
 
 private:
+    struct Known {
+        std::mutex mutex;
+        std::map<std::vector<double>, std::vector<double>> readings;
+    };
+    std::unique_ptr<Known> known_ = std::make_unique<Known>();
     const Record* record_;
     Grid grid_;
     std::vector<double> held_;
