@@ -96,7 +96,7 @@ private:
                 Effects key = wider;
                 std::sort(key.begin(), key.end());
                 // Jitter spreads what any other effect leaves where it moves: beside another it is not to be trusted.
-                if (effect->name != "sampling_jitter" && !lead.trained.has("sampling_jitter") &&
+                if (effect->name != "sampling_jitter" && !is_of_another_model(wider) && !lead.trained.has("sampling_jitter") &&
                     !lead.trained.has(effect->name) && !nested(lead.trained.effects, *effect) &&
                     seen.insert(key).second) {
                     all.push_back(wider);
@@ -143,6 +143,26 @@ private:
             };
             return has(*effect, other) || has(other, *effect);
         });
+    }
+
+    // What was deployed is a simulation of the model that is given: beside an effect that makes it another one its error
+    // is not that one's, and would have to be simulated anew, at the square of its steps, wherever a fit looks.
+    [[nodiscard]] bool is_of_another_model(const Effects& wanted) const {
+        Scenario probe;
+        probe.model = model_of(of_.ground.study.base.form);
+        const drive::Model given = probe.model;
+        for (const Effect* effect : wanted) {
+            std::vector<double> values;
+            for (const EffectParameter& parameter : effect->parameters(of_.ground.study.scales)) {
+                values.push_back(parameter.starts.front());
+            }
+            effect->add_to(probe, values);
+        }
+        const auto same = [](const drive::Term& a, const drive::Term& b) {
+            return a.coefficient == b.coefficient && a.order == b.order;
+        };
+        return probe.deployed && (probe.model.delay_s != given.delay_s || probe.model.gain != given.gain ||
+                                  !std::ranges::equal(probe.model.denominator, given.denominator, same));
     }
 
     void take(const std::vector<Candidate>& candidates) {
