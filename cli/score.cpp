@@ -105,13 +105,13 @@ std::vector<std::optional<gap::Foresight>> foresee_all(const Options& options,
 
 std::optional<blind::Oracle> oracle_of(const std::optional<gap::Foresight>& foresight) {
     constexpr double identifiable = 10.0;
-    return foresight ? std::optional(blind::Oracle{foresight->lead >= identifiable, foresight->gap_base,
-                                                   foresight->gap_after})
+    return foresight ? std::optional(
+                           blind::Oracle{foresight->lead >= identifiable, foresight->gap_base, foresight->gap_after})
                      : std::nullopt;
 }
 
 std::vector<blind::Answer> answers_by(const std::vector<std::optional<gap::Foresight>>& all,
-                                      std::string gap::Foresight::* criterion) {
+                                      std::string gap::Foresight::*criterion) {
     std::vector<blind::Answer> answers;
     for (const auto& foresight : all) {
         const std::string name = foresight ? (*foresight).*criterion : "none";

@@ -146,7 +146,8 @@ private:
     [[nodiscard]] bool is_better(std::size_t wider, std::size_t chosen, double least) const {
         const double before = ranking_[chosen].gap_after;
         const double after = ranking_[wider].gap_after;
-        // Beside a gap as large as the output itself, a further effect may be small and still take most of what is left.
+        // Beside a gap as large as the output itself, a further effect may be small and still take most of what is
+        // left.
         const double material = ranking_[chosen].trained.effects.empty()
                                     ? 0.03 * before
                                     : std::min(material_share * (decision_.base_gap - least), 0.25 * before);

@@ -78,8 +78,9 @@ Foresight foresee(const Question& question, const std::vector<std::string>& trut
     const Study& study = ground.study;
     const Candidate none = fit(study, {}, fit(ground.sketch, {}, {}, nullptr, {6, 2, 60}), nullptr);
     std::vector<Candidate> all(ground.list.size() + 1, none);
-    bench::parallel_for(ground.list.size(), question.jobs,
-                        [&](std::size_t i) { all[i + 1] = fit(study, {ground.list[i]}, fit(ground.sketch, {ground.list[i]}, none, nullptr), nullptr); });
+    bench::parallel_for(ground.list.size(), question.jobs, [&](std::size_t i) {
+        all[i + 1] = fit(study, {ground.list[i]}, fit(ground.sketch, {ground.list[i]}, none, nullptr), nullptr);
+    });
     Foresight foresight;
     foresight.by_plain_bic = least(all, study, plain_bic);
     foresight.by_whitened_bic = least(all, study, whitened_bic);

@@ -15,8 +15,8 @@ struct Foresight {
     /// Validation log-likelihood over that of the next best of `none` and all other single effects, each whitened by
     /// what the true effects leave in training.
     double lead = 0.0;
-    std::string nearest;         ///< that one
-    std::string by_plain_bic;    ///< `none`, or the single effect with the least criterion of the residuals as they are
+    std::string nearest;       ///< that one
+    std::string by_plain_bic;  ///< `none`, or the single effect with the least criterion of the residuals as they are
     std::string by_whitened_bic;  ///< the same of residuals that each candidate's own autoregressive model whitens
 };
 

@@ -64,11 +64,10 @@ void correct_for(Study& study, const Candidate& fitted) {
 
 // Good to about the noise before it is corrected: enough to see which candidates are worth a finer grid.
 Study sketch_of(const Study& study, const Candidate& base) {
-    Study sketch{study.base,  study.scales,          {},           study.counts,
-                 study.noise, study.least_deviation, study.horizon};
+    Study sketch{study.base, study.scales, {}, study.counts, study.noise, study.least_deviation, study.horizon};
     for (std::size_t r = 0; r < study.courses.size(); ++r) {
-        sketch.courses.push_back(make_sketch(study.courses[r], scenario_of(study, base, r),
-                                             std::max(study.noise, study.least_deviation)));
+        sketch.courses.push_back(
+            make_sketch(study.courses[r], scenario_of(study, base, r), std::max(study.noise, study.least_deviation)));
     }
     return sketch;
 }

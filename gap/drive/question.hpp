@@ -25,10 +25,10 @@ struct Question {
 /// The studies of a question.
 struct Ground {
     Audit found;
-    Study study;        ///< what is fitted
-    Study sketch;       ///< the same records on coarser grids, for first looks
-    Study validation;   ///< what is judged
-    bool same_records;  ///< judged are parts of the fitted records that were kept aside
+    Study study;                      ///< what is fitted
+    Study sketch;                     ///< the same records on coarser grids, for first looks
+    Study validation;                 ///< what is judged
+    bool same_records;                ///< judged are parts of the fitted records that were kept aside
     std::vector<const Effect*> list;  ///< effects that can occur in these records and are asked for
 };
 

@@ -39,7 +39,8 @@ public:
         }
         std::vector<Candidate> singles = fitted(alone, {&sketched}, nullptr, {6, 2, 25, hopeless * sketched.cost});
         std::stable_sort(singles.begin(), singles.end(), by_cost);
-        found_.whitener = whitener_of(of_.ground.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
+        found_.whitener =
+            whitener_of(of_.ground.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
         none_ = fit(of_.ground.study, {}, none_, fits_by());
         bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
             // Spread is not in the sum of squares: jitter stays in the race whatever its place.
@@ -96,9 +97,9 @@ private:
                 Effects key = wider;
                 std::sort(key.begin(), key.end());
                 // Jitter spreads what any other effect leaves where it moves: beside another it is not to be trusted.
-                if (effect->name != "sampling_jitter" && !is_of_another_model(wider) && !lead.trained.has("sampling_jitter") &&
-                    !lead.trained.has(effect->name) && !nested(lead.trained.effects, *effect) &&
-                    seen.insert(key).second) {
+                if (effect->name != "sampling_jitter" && !is_of_another_model(wider) &&
+                    !lead.trained.has("sampling_jitter") && !lead.trained.has(effect->name) &&
+                    !nested(lead.trained.effects, *effect) && seen.insert(key).second) {
                     all.push_back(wider);
                     starts.push_back(&lead.trained);
                 }
@@ -108,8 +109,9 @@ private:
         std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
         wide.resize(std::min(wide.size(), finalists));
-        bench::parallel_for(wide.size(), of_.jobs,
-                            [&](std::size_t i) { wide[i] = fit(of_.ground.study, wide[i].effects, wide[i], fits_by()); });
+        bench::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
+            wide[i] = fit(of_.ground.study, wide[i].effects, wide[i], fits_by());
+        });
         return wide;
     }
 
@@ -145,8 +147,8 @@ private:
         });
     }
 
-    // What was deployed is a simulation of the model that is given: beside an effect that makes it another one its error
-    // is not that one's, and would have to be simulated anew, at the square of its steps, wherever a fit looks.
+    // What was deployed is a simulation of the model that is given: beside an effect that makes it another one its
+    // error is not that one's, and would have to be simulated anew, at the square of its steps, wherever a fit looks.
     [[nodiscard]] bool is_of_another_model(const Effects& wanted) const {
         Scenario probe;
         probe.model = model_of(of_.ground.study.base.form);
@@ -168,7 +170,8 @@ private:
     void take(const std::vector<Candidate>& candidates) {
         std::vector<Ranked> more(candidates.size());
         bench::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
-            more[i] = validated(of_.ground.validation, candidates[i], found_.whitener, fits_by(), of_.ground.same_records);
+            more[i] =
+                validated(of_.ground.validation, candidates[i], found_.whitener, fits_by(), of_.ground.same_records);
         });
         std::move(more.begin(), more.end(), std::back_inserter(found_.ranking));
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);

@@ -27,8 +27,8 @@ public:
     /// Added to every simulated reading: what the steps are off by, for the scenario that the course was made for.
     [[nodiscard]] const std::vector<double>& correction() const { return correction_; }
     void correct(std::vector<double> correction);
-    /// What the deployed simulation of a model reads at the stamps. It costs the square of its steps, and candidates ask
-    /// for the same ones again and again: lately computed ones are kept. Thread-safe. \param taps  0: all
+    /// What the deployed simulation of a model reads at the stamps. It costs the square of its steps, and candidates
+    /// ask for the same ones again and again: lately computed ones are kept. Thread-safe. \param taps  0: all
     [[nodiscard]] std::vector<double> deployed(const drive::Model& model, const Deployed& deployed,
                                                std::size_t taps) const;
 

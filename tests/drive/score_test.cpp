@@ -132,8 +132,9 @@ TEST(Score, HoldsShrinkAgainstTheOracle) {
     EXPECT_NEAR(found.of_the_oracle[0], 0.0, 1e-12);
     EXPECT_NEAR(found.of_the_oracle[1], 0.5, 1e-12);
     EXPECT_NEAR(found.of_the_oracle[2], 0.8, 1e-12);
-    EXPECT_THAT(stand::blind::missed_goals(found),
-                testing::ElementsAre(HasSubstr("pairs named"), HasSubstr("shrink: expected at least 0.9 of the oracle's")));
+    EXPECT_THAT(
+        stand::blind::missed_goals(found),
+        testing::ElementsAre(HasSubstr("pairs named"), HasSubstr("shrink: expected at least 0.9 of the oracle's")));
 }
 
 TEST(Score, SaysHowMuchIsLocatedRightly) {

@@ -44,10 +44,10 @@ TEST(Oracle, ShowsWhatAPlainCriterionAccuses) {
     int plain = 0;
     int whitened = 0;
     for (const std::uint64_t seed : {75U, 85U, 95U}) {
-        const Foresight found = foresee(
-            question_of({}, {.seed = seed, .colour = 0.9},
-                        {.experiment = "prbs", .low_duty = 0.02, .seed = seed + 1, .colour = 0.9}),
-            {});
+        const Foresight found =
+            foresee(question_of({}, {.seed = seed, .colour = 0.9},
+                                {.experiment = "prbs", .low_duty = 0.02, .seed = seed + 1, .colour = 0.9}),
+                    {});
         plain += found.by_plain_bic != "none" ? 1 : 0;
         whitened += found.by_whitened_bic != "none" ? 1 : 0;
         EXPECT_EQ(found.lead, 0.0);

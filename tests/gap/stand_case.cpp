@@ -57,8 +57,9 @@ gap::Record log_of(const Sizes& sizes, const Run& run) {
 
 gap::Question question_of(const Sizes& sizes, const Run& train, const Run& validate,
                           const std::vector<std::string>& without) {
-    return {linear_form(), false, {log_of(sizes, train)}, {log_of(sizes, validate)}, std::nullopt,
-            gap::Metric::simulation, without, 2};
+    return {
+        linear_form(), false, {log_of(sizes, train)}, {log_of(sizes, validate)}, std::nullopt, gap::Metric::simulation,
+        without,       2};
 }
 
 gap::Answer ask(const Sizes& sizes, const Run& train, const Run& validate, const std::vector<std::string>& without) {

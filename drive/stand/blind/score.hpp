@@ -88,7 +88,7 @@ struct Score {
     std::map<std::string, Share> by_training;                             ///< single ones, by the training's excitation
     std::vector<Confidence> calibration;                                  ///< of the attributed
     std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth, answer
-    std::vector<double> shrinks;         ///< of rightly named effects, by the true noise floor; sorted
+    std::vector<double> shrinks;  ///< of rightly named effects, by the true noise floor; sorted
     /// Of all cases with one or two listed effects: how far the gap shrinks over how far the oracle shrinks it; 0 where
     /// nothing is named. Sorted.
     std::vector<double> of_the_oracle;
