@@ -9,7 +9,7 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 stand() {
-    "$glsum" stand --ideal --set noise.deviation=0.003 --set interval_s=0.01 --duty 0.1 "$@" >/dev/null
+    "$glsum" stand --ideal --set noise.deviation=0.003 --set interval_s=0.01 --duty 0.1 "$@" >/dev/null 2>&1
 }
 
 # NAME OPTION...: a line with the seconds of user and system time, the verdict, and what is named.
@@ -18,9 +18,9 @@ try() {
     shift
     (
         "$glsum" diagnose drive --jobs 1 "$@" >"$folder/said" 2>/dev/null
-        times | tail -n 1
+        times  # its last line is of what ran here; in a pipe it would be of nothing
     ) >"$folder/times" || { printf '%-34s failed\n' "$name"; return 0; }
-    seconds=$(sed 's/[ms]/ /g' "$folder/times" | awk '{ print 60 * $1 + $2 + 60 * $3 + $4 }')
+    seconds=$(tail -n 1 "$folder/times" | sed 's/[ms]/ /g' | awk '{ print 60 * $1 + $2 + 60 * $3 + $4 }')
     printf '%-34s %6.1f s  %s\n' "$name" "$seconds" "$(sed -n 's/^verdict: //p' "$folder/said")"
 }
 

@@ -37,7 +37,7 @@ sampling_jitter sampling_jitter.half_width_s=0.015
 '
 
 stand() {
-    "$glsum" stand --ideal --set noise.deviation=0.003 --set interval_s=0.02 --duty 0.1 --until-s 20 "$@" >/dev/null
+    "$glsum" stand --ideal --set noise.deviation=0.003 --set interval_s=0.02 --duty 0.1 --until-s 20 "$@" >/dev/null 2>&1
 }
 stand --experiment staircase --seed 1 --out "$folder/plain.csv" --model "$folder/m.json"
 
