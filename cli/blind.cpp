@@ -2,12 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "bench/files.hpp"
 #include "bench/progress.hpp"
 #include "bench/sha256.hpp"
+#include "cli/drive_files.hpp"
 #include "drive/stand/blind/cases.hpp"
+#include "gap/drive/start.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -45,6 +48,27 @@ void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, con
         bench::write_file(place / "validate.csv", cases[i].validate);
     }
     fmt::print("{} cases, seed {}, in {}\n", cases.size(), seed, folder.string());
+}
+
+gap::Question blind_question(const std::filesystem::path& folder) {
+    const auto logs = [&](const std::string& name) {
+        std::vector<std::filesystem::path> found;
+        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+            if (entry.path().extension() == ".csv" && entry.path().filename().string().starts_with(name)) {
+                found.push_back(entry.path());
+            }
+        }
+        std::sort(found.begin(), found.end());
+        return read_records(found, {});
+    };
+    return {gap::form_of(read_model((folder / "model.json").string())),
+            false,
+            logs("train"),
+            logs("validate"),
+            std::nullopt,
+            gap::Metric::simulation,
+            {},
+            1};
 }
 
 }  // namespace cli

@@ -9,6 +9,7 @@
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
 #include "bench/sha256.hpp"
+#include "cli/blind.hpp"
 #include "cli/commands.hpp"
 #include "cli/diagnose_cycles.hpp"
 #include "cli/drive_files.hpp"
@@ -35,14 +36,6 @@ struct Options {
     std::filesystem::path improved;
     unsigned jobs = 1;
 };
-
-std::vector<gap::Record> read_records(const std::vector<std::filesystem::path>& paths, const drive::Columns& columns) {
-    std::vector<gap::Record> records;
-    for (const auto& path : paths) {
-        records.push_back(gap::to_record(read_ordered_log(path, columns)));
-    }
-    return records;
-}
 
 // Validation that was trained on; said at once, since the rest takes a while.
 bool repeats_training(const gap::Question& question) {
@@ -76,28 +69,6 @@ void check_split(const gap::Question& question) {
     }
 }
 
-// A folder of a blind set: its model, and its records by the beginning of their names.
-gap::Question question_of(const std::filesystem::path& folder) {
-    const auto logs = [&](const std::string& name) {
-        std::vector<std::filesystem::path> found;
-        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-            if (entry.path().extension() == ".csv" && entry.path().filename().string().starts_with(name)) {
-                found.push_back(entry.path());
-            }
-        }
-        std::sort(found.begin(), found.end());
-        return read_records(found, {});
-    };
-    return {gap::form_of(read_model((folder / "model.json").string())),
-            false,
-            logs("train"),
-            logs("validate"),
-            std::nullopt,
-            gap::Metric::simulation,
-            {},
-            1};
-}
-
 // Every case of a set is judged and hashed; one that cannot be read is said and left out, the others are kept.
 void run_batch(const std::filesystem::path& set, unsigned jobs) {
     std::vector<std::filesystem::path> cases;
@@ -120,7 +91,7 @@ void run_batch(const std::filesystem::path& set, unsigned jobs) {
         bench::Progress progress("cases", cases.size());
         bench::parallel_for(cases.size(), jobs, [&](std::size_t i) {
             try {
-                const gap::Answer answer = gap::diagnose(question_of(cases[i]), [](const std::string&) {});
+                const gap::Answer answer = gap::diagnose(blind_question(cases[i]), [](const std::string&) {});
                 put(gap::to_json(answer), cases[i] / "verdict.json");
                 verdicts[i] = gap::name_of(answer.decision.outcome);
             } catch (const glsum::Failure& failure) {

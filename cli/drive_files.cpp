@@ -31,6 +31,14 @@ drive::Log read_ordered_log(const std::filesystem::path& path, const drive::Colu
     return log;
 }
 
+std::vector<gap::Record> read_records(const std::vector<std::filesystem::path>& paths, const drive::Columns& columns) {
+    std::vector<gap::Record> records;
+    for (const auto& path : paths) {
+        records.push_back(gap::to_record(read_ordered_log(path, columns)));
+    }
+    return records;
+}
+
 void warn_if_unstable(const drive::Model& model, const std::string& name) {
     const int growing = drive::zeros_right_of_axis(model.denominator);
     if (growing > 0) {

@@ -4,9 +4,11 @@
 #include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "drive/log.hpp"
 #include "drive/model.hpp"
+#include "gap/drive/record.hpp"
 
 namespace cli {
 
@@ -17,6 +19,10 @@ namespace cli {
 
 /// The same with stamps that rise; what was odd about them is said on standard error.
 [[nodiscard]] drive::Log read_ordered_log(const std::filesystem::path& path, const drive::Columns& columns);
+
+/// The same as records of a diagnosis, in the order of their paths.
+[[nodiscard]] std::vector<gap::Record> read_records(const std::vector<std::filesystem::path>& paths,
+                                                    const drive::Columns& columns);
 
 /// Says on standard error that the model grows without bound, if it does. \param name  begins the message
 void warn_if_unstable(const drive::Model& model, const std::string& name);

@@ -5,10 +5,16 @@
 
 #include <map>
 #include <memory>
+#include <optional>
+#include <thread>
 
 #include "bench/files.hpp"
+#include "bench/parallel.hpp"
+#include "bench/progress.hpp"
 #include "bench/sha256.hpp"
+#include "cli/blind.hpp"
 #include "drive/stand/blind/score.hpp"
+#include "gap/drive/oracle.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -24,6 +30,8 @@ struct Options {
     std::filesystem::path folder;
     std::string truth_hash;
     bool goals = false;
+    bool no_oracle = false;
+    unsigned jobs = 1;
     std::filesystem::path json;
 };
 
@@ -80,13 +88,64 @@ std::vector<blind::Answer> open_verdicts(const Options& options, const std::vect
     return answers;
 }
 
+// Of each case, what could have been known; of one that cannot be diagnosed at all, nothing.
+std::vector<std::optional<gap::Foresight>> foresee_all(const Options& options,
+                                                       const std::vector<blind::SealedCase>& truths) {
+    std::vector<std::optional<gap::Foresight>> all(truths.size());
+    bench::Progress progress("true effects refitted", truths.size());
+    bench::parallel_for(truths.size(), options.jobs, [&](std::size_t i) {
+        try {
+            all[i] = gap::foresee(blind_question(options.folder / truths[i].name), truths[i].effects);
+        } catch (const Failure&) {
+        }
+        progress.advance();
+    });
+    return all;
+}
+
+std::optional<blind::Oracle> oracle_of(const std::optional<gap::Foresight>& foresight) {
+    constexpr double identifiable = 10.0;
+    return foresight ? std::optional(
+                           blind::Oracle{foresight->lead >= identifiable, foresight->gap_base, foresight->gap_after})
+                     : std::nullopt;
+}
+
+std::vector<blind::Answer> answers_by(const std::vector<std::optional<gap::Foresight>>& all,
+                                      std::string gap::Foresight::*criterion) {
+    std::vector<blind::Answer> answers;
+    for (const auto& foresight : all) {
+        const std::string name = foresight ? (*foresight).*criterion : "none";
+        blind::Answer& answer = answers.emplace_back();
+        answer.verdict = name == "none" ? "no_gap" : "attributed";
+        if (name != "none") {
+            answer.effects = answer.ranking = {name};
+        }
+    }
+    return answers;
+}
+
 void run(const Options& options) {
     // The verdicts are fixed before the truth is opened: both by their hashes.
     const std::vector<blind::SealedCase> truths = open_truth(options);
     const std::vector<blind::Answer> answers = open_verdicts(options, truths);
-    const std::vector<blind::Scored> scored{
-        {"verdicts", blind::score(truths, answers)},
-        {"constant guess: no_gap", blind::score(truths, blind::constant_guess(truths.size()))}};
+    std::vector<std::optional<gap::Foresight>> foresights;
+    std::vector<std::optional<blind::Oracle>> oracle;
+    if (!options.no_oracle) {
+        foresights = foresee_all(options, truths);
+        for (const auto& foresight : foresights) {
+            oracle.push_back(oracle_of(foresight));
+        }
+    }
+    std::vector<blind::Scored> scored;
+    const auto add = [&](const char* name, const std::vector<blind::Answer>& given) {
+        scored.push_back({name, blind::score(truths, given, oracle)});
+    };
+    add("verdicts", answers);
+    add("constant guess: no_gap", blind::constant_guess(truths.size()));
+    if (!options.no_oracle) {
+        add("plain BIC", answers_by(foresights, &gap::Foresight::by_plain_bic));
+        add("prewhitened BIC", answers_by(foresights, &gap::Foresight::by_whitened_bic));
+    }
     fmt::print("{} cases of {}\n\n{}", truths.size(), options.folder.string(), blind::to_text(scored));
     if (!options.json.empty()) {
         bench::write_file(options.json, blind::to_json(scored));
@@ -111,6 +170,10 @@ void add_score(CLI::App& app) {
         "score build/blind");
     command->add_option("folder", options->folder, "Of stand --blind, answered by diagnose --batch")->required();
     command->add_option("--truth-sha256", options->truth_hash, "What stand --blind printed first");
+    command->add_flag("--no-oracle", options->no_oracle,
+                      "Without the true effects refitted: says nothing of what is identifiable, and takes no time");
+    options->jobs = std::max(1U, std::thread::hardware_concurrency());
+    command->add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
     command->add_flag("--goals", options->goals, "Exit 1 unless what is to be reached is");
     command->add_option("--json", options->json, "Write all numbers as JSON");
     command->callback([options] { run(*options); });

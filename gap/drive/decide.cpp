@@ -18,7 +18,7 @@ constexpr double parting_advantage = 6.0;
 // An effect takes at least so much of the gap: a twentieth of the base's rms; a further one of what can be closed.
 constexpr double material_share = 0.04;
 // More than so much of the closable squared gap left, and foreseeable: something else is missing.
-constexpr double unexplained_share = 0.15;
+constexpr double unexplained_share = 0.08;
 
 std::vector<Remainder> remainders(const Study& study, const std::vector<std::vector<double>>& residuals) {
     std::vector<Remainder> all;
@@ -101,7 +101,9 @@ public:
                 "without physics",
                 100.0 * flexible.explained));
         }
-        if (foreseeable && unexplained > unexplained_share && after - left > 0.02 * decision_.base_gap) {
+        // Three effects that still leave what can be foreseen are an expansion of something else, not its causes.
+        const bool expansion = ranking_[chosen].trained.effects.size() >= 3;
+        if (foreseeable && (unexplained > unexplained_share || expansion) && after - left > 0.02 * decision_.base_gap) {
             decision_.outcome = Outcome::unknown;
             decision_.confidence = std::clamp(0.5 + 0.5 * unexplained, 0.5, 0.95);
         } else if (chosen == none) {
@@ -144,8 +146,11 @@ private:
     [[nodiscard]] bool is_better(std::size_t wider, std::size_t chosen, double least) const {
         const double before = ranking_[chosen].gap_after;
         const double after = ranking_[wider].gap_after;
-        const double material =
-            ranking_[chosen].trained.effects.empty() ? 0.03 * before : material_share * (decision_.base_gap - least);
+        // Beside a gap as large as the output itself, a further effect may be small and still take most of what is
+        // left.
+        const double material = ranking_[chosen].trained.effects.empty()
+                                    ? 0.03 * before
+                                    : std::min(material_share * (decision_.base_gap - least), 0.25 * before);
         return is_clear(advantage(ranking_[wider], ranking_[chosen])) && before - after > material;
     }
 

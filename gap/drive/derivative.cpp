@@ -101,13 +101,17 @@ Past::Past(const Exponentials& exponentials, Table table)
     : exponentials_(&exponentials),
       table_(std::move(table)),
       remembers_((table_.far.array() != 0.0).any()),
+      behind_(Exponentials::near_count - 1),
       near_(Eigen::VectorXd::Zero(2 * Exponentials::near_count)),
-      states_(Eigen::ArrayXd::Zero(exponentials.ratios().size())) {}
+      states_(Eigen::ArrayXd::Zero(exponentials.ratios().size())) {
+    while (!remembers_ && behind_ > 0 && table_.near(behind_) == 0.0) {
+        --behind_;
+    }
+}
 
 double Past::known() const {
     // near_[head] is e_(k-1).
-    constexpr Eigen::Index behind = Exponentials::near_count - 1;
-    const double near = table_.near.tail(behind).dot(near_.segment(head_, behind));
+    const double near = table_.near.segment(1, behind_).dot(near_.segment(head_, behind_));
     return remembers_ ? near + (table_.far.array() * states_).sum() : near;
 }
 

@@ -62,6 +62,7 @@ private:
     const Exponentials* exponentials_;
     Table table_;
     bool remembers_;        // whole orders need no exponentials
+    Eigen::Index behind_;   // near weights beside the newest: a few where nothing is remembered
     Eigen::VectorXd near_;  // newest first, twice as long as needed
     Eigen::Index head_ = 0;
     Eigen::ArrayXd states_;

@@ -7,22 +7,10 @@
 #include <vector>
 
 #include "gap/drive/decide.hpp"
+#include "gap/drive/question.hpp"
 #include "gap/locate.hpp"
 
 namespace gap {
-
-enum class Metric { simulation, prediction };
-
-struct Question {
-    drive::Form form;  ///< of the model that is judged, or of the kind that is fitted
-    bool refit = false;
-    std::vector<Record> train;
-    std::vector<Record> validate;   ///< empty: parts of the training records are kept aside
-    std::optional<double> split_s;  ///< the training records up to here, the rest of each for validation
-    Metric metric = Metric::simulation;
-    std::vector<std::string> without;  ///< effects that are taken off the list
-    unsigned jobs = 1;
-};
 
 struct Answer {
     Decision decision;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace gap {
 namespace {
@@ -28,19 +29,29 @@ std::vector<double> counted(const Study& study, const Candidate& candidate, std:
 // Residuals of all records in units that make them comparable, and their differences by each free number.
 class Cost : public ceres::CostFunction {
 public:
-    Cost(const Study& study, Candidate candidate, bool own_only, const Whitener* whitener)
-        : study_(study), candidate_(std::move(candidate)), own_only_(own_only), whitener_(whitener) {
+    /// \param which  of the candidate's free numbers are the parameters
+    Cost(const Study& study, Candidate candidate, bool own_only, std::vector<std::size_t> which,
+         const Whitener* whitener)
+        : study_(study),
+          candidate_(std::move(candidate)),
+          own_only_(own_only),
+          which_(std::move(which)),
+          whitener_(whitener) {
         int rows = 0;
         for (const Course& course : study.courses) {
             rows += static_cast<int>(course.record().size());
         }
         set_num_residuals(rows);
-        mutable_parameter_block_sizes()->push_back(static_cast<int>(free_numbers(candidate_, own_only).size()));
+        mutable_parameter_block_sizes()->push_back(static_cast<int>(which_.size()));
     }
 
     bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override {
         Candidate here = candidate_;
-        const std::vector<FreeParameter*> free = free_numbers(here, own_only_);
+        const std::vector<FreeParameter*> all = free_numbers(here, own_only_);
+        std::vector<FreeParameter*> free;
+        for (const std::size_t i : which_) {
+            free.push_back(all[i]);
+        }
         for (std::size_t i = 0; i < free.size(); ++i) {
             free[i]->value = parameters[0][i] * free[i]->scale;
         }
@@ -100,8 +111,15 @@ private:
     const Study& study_;
     Candidate candidate_;
     bool own_only_;
+    std::vector<std::size_t> which_;
     const Whitener* whitener_;
 };
+
+std::vector<std::size_t> all_of(const std::vector<FreeParameter*>& free) {
+    std::vector<std::size_t> which(free.size());
+    std::iota(which.begin(), which.end(), std::size_t{0});
+    return which;
+}
 
 double cost_of(const Study& study, const Candidate& candidate, const Whitener* whitener) {
     double cost = 0.0;
@@ -113,34 +131,82 @@ double cost_of(const Study& study, const Candidate& candidate, const Whitener* w
     return std::isfinite(cost) ? cost : infinity;
 }
 
-void descend(const Study& study, Candidate& candidate, bool own_only, const Whitener* whitener, int iterations) {
+// Some of a candidate's free numbers; whether they took a thousandth off the cost.
+bool descend_along(const std::vector<std::size_t>& which, const Study& study, Candidate& candidate, bool own_only,
+                   const Whitener* whitener, int iterations) {
     const std::vector<FreeParameter*> free = free_numbers(candidate, own_only);
-    candidate.cost = cost_of(study, candidate, whitener);
-    if (free.empty() || !std::isfinite(candidate.cost)) {
-        return;
-    }
     std::vector<double> values;
-    for (const FreeParameter* parameter : free) {
-        values.push_back(parameter->value / parameter->scale);
+    for (const std::size_t i : which) {
+        values.push_back(free[i]->value / free[i]->scale);
     }
     ceres::Problem problem;
-    problem.AddResidualBlock(new Cost(study, candidate, own_only, whitener), nullptr, values.data());
-    for (std::size_t i = 0; i < free.size(); ++i) {
-        problem.SetParameterLowerBound(values.data(), static_cast<int>(i), free[i]->lower / free[i]->scale);
-        problem.SetParameterUpperBound(values.data(), static_cast<int>(i), free[i]->upper / free[i]->scale);
+    problem.AddResidualBlock(new Cost(study, candidate, own_only, which, whitener), nullptr, values.data());
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        const FreeParameter& parameter = *free[which[k]];
+        problem.SetParameterLowerBound(values.data(), static_cast<int>(k), parameter.lower / parameter.scale);
+        problem.SetParameterUpperBound(values.data(), static_cast<int>(k), parameter.upper / parameter.scale);
     }
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::DENSE_NORMAL_CHOLESKY;
     options.max_num_iterations = iterations;
-    options.function_tolerance = iterations < 10 ? 1e-4 : 1e-6;
+    // Half the sum of squares of some thousand samples is some thousand: a twentieth of a unit of likelihood.
+    options.function_tolerance = iterations < 10 ? 5e-4 : 2e-5;
     options.logging_type = ceres::SILENT;
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem, &summary);
-    if (summary.IsSolutionUsable() && summary.final_cost <= candidate.cost) {
+    if (!summary.IsSolutionUsable() || !(summary.final_cost <= candidate.cost)) {
+        return false;
+    }
+    for (std::size_t k = 0; k < which.size(); ++k) {
+        free[which[k]]->value = values[k] * free[which[k]]->scale;
+    }
+    const bool further = summary.final_cost < 0.999 * candidate.cost;
+    candidate.cost = summary.final_cost;
+    return further;
+}
+
+void descend(const Study& study, Candidate& candidate, bool own_only, const Whitener* whitener, int iterations) {
+    candidate.cost = cost_of(study, candidate, whitener);
+    const std::vector<FreeParameter*> free = free_numbers(candidate, own_only);
+    if (free.empty() || !std::isfinite(candidate.cost) || iterations == 0) {
+        return;
+    }
+    descend_along(all_of(free), study, candidate, own_only, whitener, iterations);
+    // Ceres cuts a step off at the bounds, and a step that mostly leads beyond one leads nowhere. Those that lie at
+    // theirs stay there while the others go on, and are then tried again.
+    for (int round = 0; round < 3 && iterations >= 10; ++round) {
+        std::vector<std::size_t> inside;
         for (std::size_t i = 0; i < free.size(); ++i) {
-            free[i]->value = values[i] * free[i]->scale;
+            const double margin = 1e-6 * free[i]->scale;
+            if (free[i]->value > free[i]->lower + margin && free[i]->value < free[i]->upper - margin) {
+                inside.push_back(i);
+            }
         }
-        candidate.cost = summary.final_cost;
+        if (inside.empty() || inside.size() == free.size() ||
+            !descend_along(inside, study, candidate, own_only, whitener, iterations)) {
+            return;
+        }
+        descend_along(all_of(free), study, candidate, own_only, whitener, iterations);
+    }
+}
+
+// A fitted base first meets what is new as it is: moved all at once from an effect's start, which may be far from any
+// good one, the base would leave its place and not find back.
+void approach(const Study& study, Candidate& candidate, const Whitener* whitener) {
+    if (!study.base.refit) {
+        return;
+    }
+    const std::vector<FreeParameter*> free = free_numbers(candidate, false);
+    std::vector<std::size_t> of_effects;
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        if (free[i]->name.find('.') != std::string::npos) {
+            of_effects.push_back(i);
+        }
+    }
+    candidate.cost = cost_of(study, candidate, whitener);
+    if (!of_effects.empty() && std::isfinite(candidate.cost)) {
+        constexpr int steps = 5;
+        descend_along(of_effects, study, candidate, false, whitener, steps);
     }
 }
 
@@ -215,6 +281,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             count = std::max(count, starts_of(*effect, study.scales));
         }
     }
+    const bool in_stages = count > 1 || std::isfinite(effort.hopeless);
     std::vector<Candidate> attempts;
     for (std::size_t s = 0; s < count; ++s) {
         Candidate attempt;
@@ -231,14 +298,18 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             attempt.own.push_back(own_of(study, r, effects, start));
         }
         guess_events(study, attempt);
-        descend(study, attempt, false, whitener, count > 1 ? effort.first_iterations : effort.iterations);
+        approach(study, attempt, whitener);
+        descend(study, attempt, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
         attempts.push_back(std::move(attempt));
     }
-    if (count > 1) {
+    if (in_stages) {
         std::stable_sort(attempts.begin(), attempts.end(), by_cost);
         attempts.resize(std::min(effort.keep, attempts.size()));
+        const double worst = std::min(effort.hopeless, 2.0 * attempts.front().cost);
         for (Candidate& attempt : attempts) {
-            descend(study, attempt, false, whitener, effort.iterations);
+            if (attempt.cost < worst) {
+                descend(study, attempt, false, whitener, effort.iterations);
+            }
         }
     }
     return *std::min_element(attempts.begin(), attempts.end(), by_cost);
@@ -271,7 +342,7 @@ void add_deviations(const Study& study, Candidate& candidate, const Whitener& wh
     if (free.empty()) {
         return;
     }
-    Cost cost(study, candidate, false, &whitener);
+    Cost cost(study, candidate, false, all_of(free), &whitener);
     std::vector<double> values;
     for (const FreeParameter* parameter : free) {
         values.push_back(parameter->value / parameter->scale);

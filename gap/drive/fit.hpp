@@ -1,6 +1,8 @@
 // Fits candidates: the base, the effects and each record's own numbers together, by bounded least squares.
 #pragma once
 
+#include <limits>
+
 #include "gap/drive/candidate.hpp"
 #include "gap/whiten.hpp"
 
@@ -8,8 +10,10 @@ namespace gap {
 
 struct Effort {
     int first_iterations = 6;  ///< from each of the starts
-    std::size_t keep = 2;      ///< the best of them go on
+    std::size_t keep = 2;      ///< the best of them go on, the second only if it is half as good
     int iterations = 25;
+    /// Those that are not below this cost by then go no further.
+    double hopeless = std::numeric_limits<double>::infinity();
 };
 
 /// From `start` for all that it has and, for other effects, from each of their starts; where residuals are whitened,

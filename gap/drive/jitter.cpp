@@ -124,6 +124,12 @@ void fit_jitter(const Study& study, Candidate& candidate, const Whitener& whiten
         try_width(centre * factor);
         try_width(centre / factor);
     }
+    constexpr double clear = 4.0;
+    if (best < likelihood(0.0, 1.0) + clear) {  // the training records hardly know of any
+        (*jitter)[0].value = 0.0;
+        (*jitter)[1].value = 1.0;
+        return;
+    }
     // 95 %: where the logarithm of the likelihood has fallen by 1.92.
     const double width = (*jitter)[0].value;
     double low = width;

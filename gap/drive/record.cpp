@@ -19,7 +19,7 @@ bool moves(const std::vector<double>& values) {
 
 }  // namespace
 
-Grid Record::grid(unsigned per_interval) const {
+Grid Record::grid(double per_interval) const {
     Grid grid;
     grid.first_s = time_s.front();
     const double length_s = time_s.back() - time_s.front();

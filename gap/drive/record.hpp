@@ -26,8 +26,8 @@ struct Record {
     double usual_interval_s = 0.0;
 
     [[nodiscard]] std::size_t size() const { return time_s.size(); }
-    /// From the first stamp to the last, `per_interval` nodes to the usual interval.
-    [[nodiscard]] Grid grid(unsigned per_interval) const;
+    /// From the first stamp to the last, `per_interval` nodes to the usual interval; below 1 a node spans several.
+    [[nodiscard]] Grid grid(double per_interval) const;
 };
 
 /// \throws glsum::Failure (bad input): fewer than 32 samples, an input that never moves, an output that never moves.

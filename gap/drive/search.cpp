@@ -18,6 +18,7 @@ constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
 constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
 constexpr std::size_t finalists = 8;     // pairs, and triples, that are fitted to the end
 constexpr Effort quick{3, 1, 6};
+constexpr double hopeless = 0.9995;  // of the cost without an effect: a unit of likelihood of 4000 samples
 
 bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
 bool by_score(const Ranked& a, const Ranked& b) { return a.score() > b.score(); }
@@ -27,24 +28,26 @@ public:
     explicit Run(const Search& of) : of_(of) {}
 
     Found search() {
-        of_.say(fmt::format("fitting the base: {} record{}", of_.study.courses.size(),
-                            of_.study.courses.size() == 1 ? "" : "s"));
-        none_ = fit(of_.study, {}, {}, nullptr, {6, 2, 60});
-        of_.say(fmt::format("fitting {} effects, each alone", of_.list.size()));
+        of_.say(fmt::format("fitting the base: {} record{}", of_.ground.study.courses.size(),
+                            of_.ground.study.courses.size() == 1 ? "" : "s"));
+        const Candidate sketched = fit(of_.ground.sketch, {}, {}, nullptr, {6, 2, 60});
+        none_ = fit(of_.ground.study, {}, sketched, nullptr);
+        of_.say(fmt::format("fitting {} effects, each alone", of_.ground.list.size()));
         std::vector<Effects> alone;
-        for (const Effect* effect : of_.list) {
+        for (const Effect* effect : of_.ground.list) {
             alone.push_back({effect});
         }
-        std::vector<Candidate> singles = fitted(alone, {&none_}, nullptr, {});
+        std::vector<Candidate> singles = fitted(alone, {&sketched}, nullptr, {6, 2, 25, hopeless * sketched.cost});
         std::stable_sort(singles.begin(), singles.end(), by_cost);
-        found_.whitener = whitener_of(of_.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
-        none_ = fit(of_.study, {}, none_, fits_by());
+        found_.whitener =
+            whitener_of(of_.ground.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
+        none_ = fit(of_.ground.study, {}, none_, fits_by());
         bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
             // Spread is not in the sum of squares: jitter stays in the race whatever its place.
-            if (i < shortlisted || singles[i].has("sampling_jitter")) {
-                singles[i] = fit(of_.study, singles[i].effects, singles[i], fits_by());
-                fit_jitter(of_.study, singles[i], found_.whitener);
-            }
+            const bool near = i < shortlisted || singles[i].has("sampling_jitter");
+            singles[i] = fit(of_.ground.study, singles[i].effects, singles[i], fits_by(),
+                             {0, 1, near ? Effort{}.iterations : 0});
+            fit_jitter(of_.ground.study, singles[i], found_.whitener);
         });
         of_.say("judging them by what was not fitted");
         take({none_});
@@ -52,7 +55,7 @@ public:
         renew_whitener();
         const Ranked& none = ranked_of({});
         const Ranked& best = found_.ranking.front();
-        const bool slow = is_slow(of_.validation, none.gap_after * output_deviation(of_.validation));
+        const bool slow = is_slow(of_.ground.validation, none.gap_after * output_deviation(of_.ground.validation));
         if ((&best != &none && advantage(best, none).mean > 4.0) || slow) {
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
@@ -69,14 +72,14 @@ public:
 private:
     // A refitted base is to simulate well: it takes its numbers from the residuals as they are. Where they are coloured
     // because something is missing, whitened ones would tell little of what is slow.
-    [[nodiscard]] const Whitener* fits_by() const { return of_.study.base.refit ? nullptr : &found_.whitener; }
+    [[nodiscard]] const Whitener* fits_by() const { return of_.ground.study.base.refit ? nullptr : &found_.whitener; }
 
-    // Each from the candidate of `starts` at its place, or from the only one.
+    // On the coarse grid, each from the candidate of `starts` at its place, or from the only one.
     std::vector<Candidate> fitted(const std::vector<Effects>& all, const std::vector<const Candidate*>& starts,
                                   const Whitener* whitener, const Effort& effort) const {
         std::vector<Candidate> result(all.size());
         bench::parallel_for(all.size(), of_.jobs, [&](std::size_t i) {
-            result[i] = fit(of_.study, all[i], *starts[starts.size() == 1 ? 0 : i], whitener, effort);
+            result[i] = fit(of_.ground.sketch, all[i], *starts[starts.size() == 1 ? 0 : i], whitener, effort);
         });
         return result;
     }
@@ -88,15 +91,15 @@ private:
         std::set<Effects> seen;
         for (const Ranked* of_lead : leads_of(size)) {
             const Ranked& lead = *of_lead;
-            for (const Effect* effect : of_.list) {
+            for (const Effect* effect : of_.ground.list) {
                 Effects wider = lead.trained.effects;
                 wider.push_back(effect);
                 Effects key = wider;
                 std::sort(key.begin(), key.end());
                 // Jitter spreads what any other effect leaves where it moves: beside another it is not to be trusted.
-                if (effect->name != "sampling_jitter" && !lead.trained.has("sampling_jitter") &&
-                    !lead.trained.has(effect->name) && !nested(lead.trained.effects, *effect) &&
-                    seen.insert(key).second) {
+                if (effect->name != "sampling_jitter" && !is_of_another_model(wider) &&
+                    !lead.trained.has("sampling_jitter") && !lead.trained.has(effect->name) &&
+                    !nested(lead.trained.effects, *effect) && seen.insert(key).second) {
                     all.push_back(wider);
                     starts.push_back(&lead.trained);
                 }
@@ -106,8 +109,9 @@ private:
         std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
         wide.resize(std::min(wide.size(), finalists));
-        bench::parallel_for(wide.size(), of_.jobs,
-                            [&](std::size_t i) { wide[i] = fit(of_.study, wide[i].effects, wide[i], fits_by()); });
+        bench::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
+            wide[i] = fit(of_.ground.study, wide[i].effects, wide[i], fits_by());
+        });
         return wide;
     }
 
@@ -143,10 +147,31 @@ private:
         });
     }
 
+    // What was deployed is a simulation of the model that is given: beside an effect that makes it another one its
+    // error is not that one's, and would have to be simulated anew, at the square of its steps, wherever a fit looks.
+    [[nodiscard]] bool is_of_another_model(const Effects& wanted) const {
+        Scenario probe;
+        probe.model = model_of(of_.ground.study.base.form);
+        const drive::Model given = probe.model;
+        for (const Effect* effect : wanted) {
+            std::vector<double> values;
+            for (const EffectParameter& parameter : effect->parameters(of_.ground.study.scales)) {
+                values.push_back(parameter.starts.front());
+            }
+            effect->add_to(probe, values);
+        }
+        const auto same = [](const drive::Term& a, const drive::Term& b) {
+            return a.coefficient == b.coefficient && a.order == b.order;
+        };
+        return probe.deployed && (probe.model.delay_s != given.delay_s || probe.model.gain != given.gain ||
+                                  !std::ranges::equal(probe.model.denominator, given.denominator, same));
+    }
+
     void take(const std::vector<Candidate>& candidates) {
         std::vector<Ranked> more(candidates.size());
         bench::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
-            more[i] = validated(of_.validation, candidates[i], found_.whitener, fits_by(), of_.same_records);
+            more[i] =
+                validated(of_.ground.validation, candidates[i], found_.whitener, fits_by(), of_.ground.same_records);
         });
         std::move(more.begin(), more.end(), std::back_inserter(found_.ranking));
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
@@ -154,9 +179,9 @@ private:
 
     // The whitener of the best one's training residuals; likelihoods follow.
     void renew_whitener() {
-        found_.whitener = whitener_of(of_.study, found_.ranking.front().trained);
+        found_.whitener = whitener_of(of_.ground.study, found_.ranking.front().trained);
         for (Ranked& ranked : found_.ranking) {
-            judge(ranked, of_.validation, found_.whitener);
+            judge(ranked, of_.ground.validation, found_.whitener);
         }
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
     }

@@ -3,15 +3,13 @@
 
 #include <functional>
 
+#include "gap/drive/question.hpp"
 #include "gap/drive/ranking.hpp"
 
 namespace gap {
 
 struct Search {
-    const Study& study;  ///< training
-    const Study& validation;
-    bool same_records;  ///< validation is a part of the training records
-    std::vector<const Effect*> list;
+    const Ground& ground;
     unsigned jobs;
     const std::function<void(const std::string&)>& say;
 };

@@ -150,8 +150,26 @@ private:
 
 // What the simulation that ran shows beyond the model: both read at the stamps.
 void add_deployed_error(std::span<double> reading, const Scenario& scenario, const Course& course) {
-    const Record& record = course.record();
     const Deployed& deployed = *scenario.deployed;
+    const double below = deployed.taps > 0.0 ? std::max(2.0, std::floor(deployed.taps)) : 0.0;
+    std::vector<double> ran = course.deployed(scenario.model, deployed, static_cast<std::size_t>(below));
+    if (deployed.taps > below) {
+        const std::vector<double> longer =
+            course.deployed(scenario.model, deployed, static_cast<std::size_t>(below) + 1);
+        for (std::size_t i = 0; i < ran.size(); ++i) {
+            ran[i] += (deployed.taps - below) * (longer[i] - ran[i]);
+        }
+    }
+    Scenario plain;
+    plain.model = scenario.model;
+    const std::vector<double> ideal = simulate(plain, course);
+    for (std::size_t i = 0; i < reading.size(); ++i) {
+        reading[i] += ran[i] - ideal[i];
+    }
+}
+
+std::vector<double> run_deployed(const Record& record, const drive::Model& model, const Deployed& deployed,
+                                 std::size_t taps) {
     const double length_s = record.time_s.back() - record.time_s.front();
     Grid steps{record.time_s.front(), deployed.step_s,
                static_cast<std::size_t>(std::floor(length_s / deployed.step_s + 1e-6)) + 2};
@@ -167,26 +185,10 @@ void add_deployed_error(std::span<double> reading, const Scenario& scenario, con
     scheme.step_s = deployed.step_s;
     scheme.kernel = deployed.kernel;
     scheme.increments = deployed.increments;
-    std::vector<double> output;
-    if (deployed.taps > 0.0) {
-        const double below = std::max(2.0, std::floor(deployed.taps));
-        scheme.taps = static_cast<std::size_t>(below);
-        output = drive::simulate(scenario.model, scheme, input).output;
-        scheme.taps = static_cast<std::size_t>(below) + 1;
-        const std::vector<double> longer = drive::simulate(scenario.model, scheme, input).output;
-        for (std::size_t k = 0; k < output.size(); ++k) {
-            output[k] += (deployed.taps - below) * (longer[k] - output[k]);
-        }
-    } else {
-        output = drive::simulate(scenario.model, scheme, input).output;
+    if (taps > 0) {
+        scheme.taps = taps;
     }
-    Scenario plain;
-    plain.model = scenario.model;
-    const std::vector<double> ideal = simulate(plain, course);
-    const std::vector<double> ran = read_at(steps, output, record.time_s);
-    for (std::size_t i = 0; i < reading.size(); ++i) {
-        reading[i] += ran[i] - ideal[i];
-    }
+    return read_at(steps, drive::simulate(model, scheme, input).output, record.time_s);
 }
 
 double rms(std::span<const double> values) {
@@ -199,12 +201,30 @@ double rms(std::span<const double> values) {
 
 }  // namespace
 
-Course::Course(const Record& record, unsigned per_interval)
+Course::Course(const Record& record, double per_interval)
     : record_(&record),
       grid_(record.grid(per_interval)),
       held_(held_on(grid_, record.time_s, record.input)),
       exponentials_(grid_.count),
-      correction_(record.size(), 0.0) {}
+      correction_(record.size(), 0.0) {
+    std::vector<double> places(grid_.count);
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        places[k] = static_cast<double>(k);
+    }
+    for (const double place : read_at(grid_, places, record.time_s)) {
+        below_.push_back(std::min(static_cast<std::size_t>(place), grid_.count - 2));
+        share_.push_back(place - static_cast<double>(below_.back()));
+    }
+}
+
+std::vector<double> Course::read(std::span<const double> nodes) const {
+    std::vector<double> reading(below_.size());
+    for (std::size_t i = 0; i < reading.size(); ++i) {
+        const double from = nodes[below_[i]];
+        reading[i] = from + share_[i] * (nodes[below_[i] + 1] - from);
+    }
+    return reading;
+}
 
 std::vector<double> Course::nodes_of(const Scenario& scenario) const {
     std::vector<double> input;
@@ -212,6 +232,34 @@ std::vector<double> Course::nodes_of(const Scenario& scenario) const {
 }
 
 void Course::correct(std::vector<double> correction) { correction_ = std::move(correction); }
+
+std::vector<double> Course::deployed(const drive::Model& model, const Deployed& deployed, std::size_t taps) const {
+    constexpr std::size_t most_kept = 64;
+    std::vector<double> key{deployed.step_s, deployed.increments ? 1.0 : 0.0, static_cast<double>(taps), model.gain,
+                            model.delay_s};
+    for (const char letter : deployed.kernel) {
+        key.push_back(static_cast<double>(letter));
+    }
+    for (const auto* terms : {&model.numerator, &model.denominator}) {
+        for (const drive::Term& term : *terms) {
+            key.push_back(term.coefficient);
+            key.push_back(term.order);
+        }
+        key.push_back(-1.0);
+    }
+    {
+        const std::lock_guard lock(known_->mutex);
+        if (const auto found = known_->readings.find(key); found != known_->readings.end()) {
+            return found->second;
+        }
+    }
+    std::vector<double> reading = run_deployed(*record_, model, deployed, taps);
+    const std::lock_guard lock(known_->mutex);
+    if (known_->readings.size() >= most_kept) {
+        known_->readings.clear();
+    }
+    return known_->readings.emplace(std::move(key), std::move(reading)).first->second;
+}
 
 std::vector<double> move(const Scenario& scenario, const Course& course, std::vector<double>& effective_input) {
     const Grid& grid = course.grid();
@@ -268,7 +316,7 @@ std::vector<double> simulate(const Scenario& scenario, const Course& course) {
             stage(z, {course.grid(), input, y});
         }
     }
-    std::vector<double> reading = read_at(course.grid(), z, course.record().time_s);
+    std::vector<double> reading = course.read(z);
     for (std::size_t i = 0; i < reading.size(); ++i) {
         reading[i] += course.correction()[i];
     }
@@ -282,9 +330,9 @@ std::vector<double> simulate(const Scenario& scenario, const Course& course) {
 }
 
 Course make_course(const Record& record, const Scenario& scenario, double allowed) {
-    constexpr unsigned finest = 8;
+    constexpr double finest = 8;
     std::vector<double> coarse = simulate(scenario, Course(record, 1));
-    for (unsigned per_interval = 1;; per_interval *= 2) {
+    for (double per_interval = 1;; per_interval *= 2) {
         const std::vector<double> fine = simulate(scenario, Course(record, 2 * per_interval));
         // Second order in the step: the limit lies a third of the last difference beyond.
         std::vector<double> off(record.size());
@@ -299,6 +347,23 @@ Course make_course(const Record& record, const Scenario& scenario, double allowe
             return course;
         }
         coarse = fine;
+    }
+}
+
+Course make_sketch(const Course& fine, const Scenario& scenario, double allowed) {
+    const std::vector<double> wanted = simulate(scenario, fine);
+    for (double per_interval = 0.25;; per_interval *= 2) {
+        Course course(fine.record(), per_interval);
+        std::vector<double> off = simulate(scenario, course);
+        for (std::size_t i = 0; i < off.size(); ++i) {
+            off[i] = wanted[i] - off[i];
+        }
+        if (per_interval == 1.0 || rms(off) <= allowed) {
+            if (std::isfinite(rms(off))) {
+                course.correct(std::move(off));
+            }
+            return course;
+        }
     }
 }
 

@@ -23,16 +23,16 @@ expect 2 "cannot read" score "$set_of"
 answer() { printf '{"schema":"glsum-gap-1","verdict":"%s","effects":[],"ranking":[],"gap":{"base":0.1,"after":0.1,"noise_floor":0.1}}\n' "$1"; }
 for case in 001 002 003 004 005 006 007 008; do answer no_gap >"$set_of/$case/verdict.json"; done
 (cd "$set_of" && sha256sum 0*/verdict.json >verdicts.sha256)
-expect 0 "false alarms                       0/2" score "$set_of"
-expect 0 "top-1, all cases                   2/8" score "$set_of" --truth-sha256 "$hash" --json "$folder/score.json"
+expect 0 "false alarms                       0/2" score "$set_of" --no-oracle
+expect 0 "top-1, all cases                   2/8" score "$set_of" --no-oracle --truth-sha256 "$hash" --json "$folder/score.json"
 grep -q '"glsum-blind-score-1"' "$folder/score.json" || failures=$((failures + 1))
-expect 1 "goals are not reached" score "$set_of" --goals
+expect 1 "goals are not reached" score "$set_of" --no-oracle --goals
 expect 2 "as --truth-sha256 says" score "$set_of" --truth-sha256 "$(printf %064d 0)"
 # A verdict that was changed after it was hashed, one that is not hashed, one of no case, one that is no verdict.
 answer unknown >"$set_of/003/verdict.json"
 expect 2 "003/verdict.json: expected the sha256" score "$set_of"
 answer no_gap >"$set_of/003/verdict.json"
-expect 0 "top-1" score "$set_of"
+expect 0 "top-1" score "$set_of" --no-oracle
 cp "$set_of/verdicts.sha256" "$folder/all"
 grep -v 004 "$folder/all" >"$set_of/verdicts.sha256"
 expect 2 "expected a line for 004/verdict.json" score "$set_of"

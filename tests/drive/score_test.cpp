@@ -116,17 +116,25 @@ TEST(Score, Counts) {
 }
 
 TEST(Score, HoldsShrinkAgainstTheOracle) {
-    const std::vector<SealedCase> truths{sealed("single", {"backlash"}), sealed("single", {"end_stop"})};
-    std::vector<Answer> answers{answer("attributed", {"backlash"}), answer("no_gap")};
+    const std::vector<SealedCase> truths{sealed("single", {"backlash"}), sealed("single", {"end_stop"}),
+                                         sealed("pair", {"end_stop", "backlash"}), sealed("none")};
+    std::vector<Answer> answers{answer("attributed", {"backlash"}), answer("no_gap"),
+                                answer("attributed", {"backlash"}), answer("no_gap")};
     answers[0].gap_after = 0.18;
-    const std::vector<std::optional<Oracle>> oracle{Oracle{true, 0.1}, Oracle{false, 0.4}};
+    answers[1].gap_after = 0.2;  // nothing named: nothing gained
+    answers[2].gap_after = 0.3;  // one of two
+    const std::vector<std::optional<Oracle>> oracle{Oracle{true, 0.5, 0.1}, Oracle{false, 0.5, 0.4},
+                                                    Oracle{true, 0.5, 0.1}, Oracle{false, 0.1, 0.1}};
     const Score found = stand::blind::score(truths, answers, oracle);
     EXPECT_EQ(found.identifiable.hits, 1U);
     EXPECT_EQ(found.identifiable.all, 1U);
-    ASSERT_EQ(found.of_the_oracle.size(), 1U);
-    EXPECT_NEAR(found.of_the_oracle[0], 0.8, 1e-12);
-    EXPECT_THAT(stand::blind::missed_goals(found),
-                testing::ElementsAre(HasSubstr("shrink: expected at least 0.9 of the oracle's")));
+    ASSERT_EQ(found.of_the_oracle.size(), 3U);
+    EXPECT_NEAR(found.of_the_oracle[0], 0.0, 1e-12);
+    EXPECT_NEAR(found.of_the_oracle[1], 0.5, 1e-12);
+    EXPECT_NEAR(found.of_the_oracle[2], 0.8, 1e-12);
+    EXPECT_THAT(
+        stand::blind::missed_goals(found),
+        testing::ElementsAre(HasSubstr("pairs named"), HasSubstr("shrink: expected at least 0.9 of the oracle's")));
 }
 
 TEST(Score, SaysHowMuchIsLocatedRightly) {

@@ -55,6 +55,34 @@ TEST(GapSimulation, IsTheExactResponse) {
     EXPECT_LT(rms(gap::simulate(plain, corrected), exact), 5e-6);
 }
 
+TEST(GapSimulation, OnACoarseGridReadsTheSame) {
+    const gap::Record record = pulses(0.01, 20.0);
+    gap::Scenario plain;
+    plain.model = plant_12();
+    const gap::Course fine = gap::make_course(record, plain, 1e-4);
+    const gap::Course sketch = gap::make_sketch(fine, plain, 1e-2);
+    EXPECT_LT(2 * sketch.grid().count, fine.grid().count);
+    const std::vector<double> wanted = gap::simulate(plain, fine);
+    EXPECT_LT(rms(gap::simulate(plain, sketch), wanted), 1e-12);
+    gap::Scenario other = plain;  // and nearly so for a model that is another one
+    other.model.denominator[1].coefficient *= 1.1;
+    EXPECT_LT(rms(gap::simulate(other, sketch), gap::simulate(other, fine)), 2e-3);
+    // Nothing coarser is near enough.
+    EXPECT_EQ(gap::make_sketch(fine, plain, 0.0).grid().count, gap::Course(record, 1).grid().count);
+}
+
+TEST(GapSimulation, KeepsDeployedReadingsOfEachModelApart) {
+    const gap::Record record = pulses(0.02, 6.0);
+    const gap::Course course(record, 1);
+    drive::Model model = plant_12();
+    const gap::Deployed deployed{0.02, 50.0, ""};
+    const std::vector<double> first = course.deployed(model, deployed, 50);
+    EXPECT_EQ(course.deployed(model, deployed, 50), first);
+    EXPECT_GT(rms(course.deployed(model, deployed, 0), first), 1e-4);
+    model.denominator[1].coefficient *= 1.2;
+    EXPECT_GT(rms(course.deployed(model, deployed, 50), first), 1e-4);
+}
+
 TEST(GapSimulation, SticksUntilTheForceIsOvercome) {
     gap::Record record = pulses(0.01, 4.0);
     gap::Scenario scenario;

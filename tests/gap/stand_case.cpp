@@ -55,11 +55,15 @@ gap::Record log_of(const Sizes& sizes, const Run& run) {
     return gap::to_record(std::move(log));
 }
 
-gap::Answer ask(const Sizes& sizes, const Run& train, const Run& validate, const std::vector<std::string>& without) {
-    gap::Question question{
+gap::Question question_of(const Sizes& sizes, const Run& train, const Run& validate,
+                          const std::vector<std::string>& without) {
+    return {
         linear_form(), false, {log_of(sizes, train)}, {log_of(sizes, validate)}, std::nullopt, gap::Metric::simulation,
         without,       2};
-    return gap::diagnose(question, [](const std::string&) {});
+}
+
+gap::Answer ask(const Sizes& sizes, const Run& train, const Run& validate, const std::vector<std::string>& without) {
+    return gap::diagnose(question_of(sizes, train, validate, without), [](const std::string&) {});
 }
 
 gap::Answer ask(const Sizes& sizes, std::uint64_t seed, const std::vector<std::string>& without) {

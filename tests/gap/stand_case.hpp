@@ -32,6 +32,10 @@ struct Run {
 /// A log of the linear stand with these sizes set.
 [[nodiscard]] gap::Record log_of(const Sizes& sizes, const Run& run);
 
+/// The linear model, with logs of a stand that has these sizes.
+[[nodiscard]] gap::Question question_of(const Sizes& sizes, const Run& train, const Run& validate,
+                                        const std::vector<std::string>& without = {});
+
 /// The linear model judged by a staircase and by bits that it has not been fitted to.
 [[nodiscard]] gap::Answer ask(const Sizes& sizes, const Run& train, const Run& validate,
                               const std::vector<std::string>& without = {});

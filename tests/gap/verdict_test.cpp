@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "gap/drive/start.hpp"
 #include "qemu/failure.hpp"
 #include "stand_case.hpp"
 
@@ -75,6 +76,20 @@ INSTANTIATE_TEST_SUITE_P(
               0.02},
         Known{"sampling_jitter", {{"sampling_jitter.half_width_s", 0.015}}, "half_width_s", 0.015, 3e-3}),
     [](const auto& known) { return std::string(known.param.effect); });
+
+// Each effect may be absent: with it a fit goes as far as without, but for what a narrow valley keeps it from.
+TEST(Candidates, NeverFitAFittedBaseMuchWorseThanNoEffectDoes) {
+    gap::Question question = gap_test::question_of({{"backlash.gap", 0.1}}, {.seed = 41},
+                                                   {.experiment = "prbs", .low_duty = 0.02, .seed = 42});
+    question.form = gap::search_form("sopdt", question.train);
+    question.refit = true;
+    const gap::Answer answer = gap::diagnose(question, [](const std::string&) {});
+    for (const gap::Ranked& ranked : answer.ranking) {
+        if (ranked.trained.effects.size() == 1 && ranked.trained.name() != "missed_counts") {
+            EXPECT_LE(ranked.trained.cost, 1.1 * answer.none().trained.cost) << ranked.trained.name();
+        }
+    }
+}
 
 TEST(Verdict, OfAPerfectModelIsNoGapWhateverTheNoise) {
     for (const double colour : {0.0, 0.9}) {

@@ -301,13 +301,14 @@ Score score(std::span<const SealedCase> truths, std::span<const Answer> answers,
             }
         }
         const double room = truth.gap_base - truth.noise_floor;
-        const bool named = right && (truth.kind == "single" || truth.kind == "pair");
-        if (named && answer.gap_after && room > 0.0) {
-            const double shrink = (truth.gap_base - *answer.gap_after) / room;
-            total.shrinks.push_back(shrink);
-            if (!oracle.empty() && oracle[i] && oracle[i]->gap_after < truth.gap_base) {
-                total.of_the_oracle.push_back(shrink * room / (truth.gap_base - oracle[i]->gap_after));
-            }
+        const bool listed = truth.kind == "single" || truth.kind == "pair";
+        if (right && listed && answer.gap_after && room > 0.0) {
+            total.shrinks.push_back((truth.gap_base - *answer.gap_after) / room);
+        }
+        if (listed && !oracle.empty() && oracle[i] && oracle[i]->gap_after < oracle[i]->gap_base) {
+            const double after =
+                answer.effects.empty() ? oracle[i]->gap_base : answer.gap_after.value_or(oracle[i]->gap_base);
+            total.of_the_oracle.push_back((oracle[i]->gap_base - after) / (oracle[i]->gap_base - oracle[i]->gap_after));
         }
         if (!oracle.empty() && oracle[i] && oracle[i]->identifiable && truth.kind == "single") {
             total.identifiable.count(right);
@@ -402,10 +403,10 @@ std::string to_text(std::span<const Scored> scored) {
         }
     };
     spread("shrink of the rightly named", own.shrinks);
-    spread("  of the oracle's", own.of_the_oracle);
+    spread("shrink over the oracle's", own.of_the_oracle);
     spread("located gap in the true stretch", own.in_the_stretch);
-    text += fmt::format("\n{:<24} {:>8} {:>10} {:>13} {:>9} {:>9}\n", "beside others", "top-1", "detection",
-                        "false alarms", "unlisted", "pairs");
+    text += fmt::format("\n{:<24} {:>8} {:>13} {:>10} {:>13} {:>9} {:>9}\n", "beside others", "top-1", "identifiable",
+                        "detection", "false alarms", "unlisted", "pairs");
     for (const Scored& other : scored) {
         const auto percent = [&](const Share& share) {
             return share.all == 0 ? std::string("-") : fmt::format("{:.1f} %", 100.0 * share.value());
@@ -414,9 +415,9 @@ std::string to_text(std::span<const Scored> scored) {
             const auto found = other.score.by_class.find(kind);
             return percent(found == other.score.by_class.end() ? Share{} : found->second);
         };
-        text += fmt::format("{:<24} {:>8} {:>10} {:>13} {:>9} {:>9}\n", other.name, percent(other.score.top_one),
-                            percent(other.score.detection), percent(other.score.false_alarms), of_class("unlisted"),
-                            of_class("pair"));
+        text += fmt::format("{:<24} {:>8} {:>13} {:>10} {:>13} {:>9} {:>9}\n", other.name, percent(other.score.top_one),
+                            percent(other.score.identifiable), percent(other.score.detection),
+                            percent(other.score.false_alarms), of_class("unlisted"), of_class("pair"));
     }
     return text;
 }

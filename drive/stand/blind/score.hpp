@@ -45,6 +45,7 @@ struct Answer {
 /// The true effect, refitted by the optimizer of the diagnosis: what could have been reached.
 struct Oracle {
     bool identifiable = false;  ///< beats every other single effect by 10 in validation log-likelihood
+    double gap_base = 0.0;      ///< on the validation records, as the diagnosis simulates them
     double gap_after = 0.0;
 };
 
@@ -87,8 +88,10 @@ struct Score {
     std::map<std::string, Share> by_training;                             ///< single ones, by the training's excitation
     std::vector<Confidence> calibration;                                  ///< of the attributed
     std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth, answer
-    std::vector<double> shrinks;         ///< of rightly named effects, by the true noise floor; sorted
-    std::vector<double> of_the_oracle;   ///< the same over the oracle's; sorted
+    std::vector<double> shrinks;  ///< of rightly named effects, by the true noise floor; sorted
+    /// Of all cases with one or two listed effects: how far the gap shrinks over how far the oracle shrinks it; 0 where
+    /// nothing is named. Sorted.
+    std::vector<double> of_the_oracle;
     std::vector<double> in_the_stretch;  ///< share of the located gap inside the true stretch, for events; sorted
 };
 

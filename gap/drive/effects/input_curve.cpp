@@ -11,8 +11,10 @@ const Effect& input_curve();
 namespace {
 
 std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
-    return {{"curvature", "1", -0.9, 1.0, 0.0, {-0.3, 0.3, 0.8}},
-            {"reference", "u", scales.input_max, scales.input_max, scales.input_max, {scales.input_max}, true}};
+    // At one level a bend with a reference below it is any gain.
+    const double top = scales.input_max;
+    return {{"curvature", "1", -0.9, 1.0, 0.0, {-0.3, 0.3, 0.8, -0.3, 0.3}},
+            {"reference", "u", 0.5 * top, top, top, {top, top, top, 0.5 * top, 0.5 * top}, true}};
 }
 
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {

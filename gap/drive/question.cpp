@@ -1,0 +1,109 @@
+#include "gap/drive/question.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/drive/fit.hpp"
+#include "gap/drive/plausible.hpp"
+
+namespace gap {
+namespace {
+
+// A refitted base has these already.
+bool is_of_the_base(const Effect& effect) {
+    static const std::vector<std::string> theirs = {"gain_error",       "time_scale_error", "dead_time_error",
+                                                    "order_error",      "sensor_offset",    "finite_memory",
+                                                    "single_precision", "fixed_point"};
+    return std::find(theirs.begin(), theirs.end(), effect.name) != theirs.end();
+}
+
+std::vector<const Effect*> list_of(const Question& question, const Scales& scales) {
+    std::vector<const Effect*> list;
+    for (const Effect* effect : effects()) {
+        const bool off =
+            std::find(question.without.begin(), question.without.end(), effect->name) != question.without.end();
+        if (!off && !(question.refit && is_of_the_base(*effect)) && applies(*effect, scales)) {
+            list.push_back(effect);
+        }
+    }
+    return list;
+}
+
+Study make_study(const Question& question, const std::vector<Record>& records, std::vector<std::vector<char>> counts,
+                 const Scales& scales, const Audit& found) {
+    const double least = std::max(0.29 * found.quantum, 2e-4 * scales.output_span);
+    Study study{{question.form, question.refit}, scales, {}, std::move(counts), found.noise, least, 0};
+    Scenario plain;
+    plain.model = model_of(question.form);
+    for (const Record& record : records) {
+        study.courses.push_back(make_course(record, plain, 0.3 * std::max(found.noise, least)));
+    }
+    if (question.metric == Metric::prediction) {
+        study.horizon = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 * scales.length_s / scales.interval_s));
+    }
+    return study;
+}
+
+// Refitted, the steps are off by what the fitted model makes of them, not by what the start did.
+void correct_for(Study& study, const Candidate& fitted) {
+    for (std::size_t r = 0; r < study.courses.size(); ++r) {
+        const Record& record = study.courses[r].record();
+        const double per_interval = record.usual_interval_s / study.courses[r].grid().step_s;
+        const Scenario scenario = scenario_of(study, fitted, r);
+        const std::vector<double> coarse = simulate(scenario, Course(record, per_interval));
+        const std::vector<double> fine = simulate(scenario, Course(record, 2 * per_interval));
+        std::vector<double> off(record.size());
+        for (std::size_t i = 0; i < off.size(); ++i) {
+            off[i] = (fine[i] - coarse[i]) * 4.0 / 3.0;
+        }
+        if (std::all_of(off.begin(), off.end(), [](double value) { return std::isfinite(value); })) {
+            study.courses[r].correct(std::move(off));
+        }
+    }
+}
+
+// Good to about the noise before it is corrected: enough to see which candidates are worth a finer grid.
+Study sketch_of(const Study& study, const Candidate& base) {
+    Study sketch{study.base, study.scales, {}, study.counts, study.noise, study.least_deviation, study.horizon};
+    for (std::size_t r = 0; r < study.courses.size(); ++r) {
+        sketch.courses.push_back(
+            make_sketch(study.courses[r], scenario_of(study, base, r), std::max(study.noise, study.least_deviation)));
+    }
+    return sketch;
+}
+
+// The base at its start.
+Candidate start_of(const Study& study) {
+    Candidate start;
+    start.base = base_of(study);
+    for (const Course& course : study.courses) {
+        start.own.push_back(state_of(study, course.record()));
+    }
+    return start;
+}
+
+}  // namespace
+
+Ground prepare(const Question& question) {
+    const std::vector<Record>& train = question.train;
+    const bool split = question.validate.empty();
+    const std::vector<Record>& validate = split ? train : question.validate;
+    const Audit found = audit(train);
+    const Scales scales = scales_of(model_of(question.form), train, found);
+    Study study = make_study(question, train, split ? part_counts(train, question.split_s, false) : all_count(train),
+                             scales, found);
+    Study validation = make_study(
+        question, validate, split ? part_counts(train, question.split_s, true) : all_count(validate), scales, found);
+    check_plausible(study);
+    check_plausible(validation);
+    Candidate base = start_of(study);
+    if (question.refit) {
+        base = fit(sketch_of(study, base), {}, {}, nullptr, {6, 2, 40});
+        correct_for(study, base);
+        correct_for(validation, split ? base : carried_over(validation, base, nullptr));
+    }
+    Study sketch = sketch_of(study, base);
+    return {found, std::move(study), std::move(sketch), std::move(validation), split, list_of(question, scales)};
+}
+
+}  // namespace gap

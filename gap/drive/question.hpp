@@ -1,0 +1,39 @@
+// What is asked: a model, the records that are fitted and those that are judged; and what a diagnosis makes of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gap/drive/study.hpp"
+
+namespace gap {
+
+enum class Metric { simulation, prediction };
+
+struct Question {
+    drive::Form form;  ///< of the model that is judged, or of the kind that is fitted
+    bool refit = false;
+    std::vector<Record> train;
+    std::vector<Record> validate;   ///< empty: parts of the training records are kept aside
+    std::optional<double> split_s;  ///< the training records up to here, the rest of each for validation
+    Metric metric = Metric::simulation;
+    std::vector<std::string> without;  ///< effects that are taken off the list
+    unsigned jobs = 1;
+};
+
+/// The studies of a question.
+struct Ground {
+    Audit found;
+    Study study;                      ///< what is fitted
+    Study sketch;                     ///< the same records on coarser grids, for first looks
+    Study validation;                 ///< what is judged
+    bool same_records;                ///< judged are parts of the fitted records that were kept aside
+    std::vector<const Effect*> list;  ///< effects that can occur in these records and are asked for
+};
+
+/// \throws glsum::Failure (bad input): records and model that cannot belong together.
+/// The question must outlive the ground, which looks at its records.
+[[nodiscard]] Ground prepare(const Question& question);
+
+}  // namespace gap
