@@ -102,7 +102,7 @@ void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::
     for (Eigen::Index p = 0; p < free; ++p) {
         scaled.col(p) /= length(p) > 0.0 ? length(p) : 1.0;
     }
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(scaled, Eigen::ComputeThinV);
     const double smallest = svd.singularValues()(free - 1);
     const bool singular = smallest < 1e-9 * svd.singularValues()(0);
     Eigen::MatrixXd inverse = Eigen::MatrixXd::Constant(free, free, 0.0);

@@ -209,7 +209,7 @@ std::string to_table(const Answer& answer, bool colour) {
             text += fmt::format("{:<10} {}\n", "real time", share);
         }
     } else {
-        text += "\n" + strong(nearest_miss(answer)) + "\n";
+        text += fmt::format("\n{}\n", strong(nearest_miss(answer)));
         for (const Relaxed& relaxed : answer.choice.relaxed) {
             text += fmt::format("  {} {} instead of {:g} (times {:.3g}): {}, error {:.3g}, {}, {} bytes\n",
                                 option(answer, relaxed.limit), relaxed_value(relaxed), relaxed.from, relaxed.factor(),

@@ -145,7 +145,7 @@ std::string to_table(const Verdict& verdict, bool colour) {
         if (found.empty()) {
             continue;
         }
-        text += "\n" + paint(colour_of(level), fmt::format("{} ({})", plural_of(level), found.size())) + "\n";
+        text += fmt::format("\n{}\n", paint(colour_of(level), fmt::format("{} ({})", plural_of(level), found.size())));
         for (std::size_t i = 0; i < std::min(shown, found.size()); ++i) {
             text += fmt::format("  {:<22} {}: {}\n", name_of(found[i]->layer), subject(*found[i]), found[i]->what);
         }

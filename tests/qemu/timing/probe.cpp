@@ -108,8 +108,14 @@ const Text& text_of(const std::string& assembly) {
 }  // namespace
 
 Setting core(const std::string& name) {
-    const timing::CoreFile file = timing::read_core(TEST_CORES, name);
-    return {file.sets[0].figures, file.placement, file.off};
+    // Each file is read once: a test asks for a core thousands of times.
+    static std::map<std::string, Setting> settings;
+    const auto [at, is_new] = settings.try_emplace(name);
+    if (is_new) {
+        const timing::CoreFile file = timing::read_core(TEST_CORES, name);
+        at->second = {file.sets[0].figures, file.placement, file.off};
+    }
+    return at->second;
 }
 
 Outcome run(const std::string& assembly, const Setting& setting) {

@@ -39,16 +39,22 @@ TEST(MeasuredCycles, ReadsRowsCommentsAndFurtherColumns) {
     EXPECT_EQ(rows[1].line, 5U);
 }
 
+// What is said of a file whose only row is this one.
+std::string message_of_row(const std::string& row) {
+    std::string text = header;
+    text += row;
+    text += '\n';
+    return message_of(text);
+}
+
 TEST(MeasuredCycles, SaysFileLineExpectedAndFound) {
-    EXPECT_NE(message_of(std::string(header) + "a,flash_cached,dtcm,0,5\n").find("m.csv:3: expected 7 cells, found 5"),
-              std::string::npos);
-    EXPECT_NE(message_of(std::string(header) + "a,ram,dtcm,0,5,59,x\n").find("m.csv:3: code: expected"), std::string::npos);
-    EXPECT_NE(message_of(std::string(header) + "a,itcm,dtcm,2,5,59,x\n").find("maintenance"), std::string::npos);
-    EXPECT_NE(message_of(std::string(header) + "a,itcm,dtcm,0,0,59,x\n").find("taps"), std::string::npos);
-    for (const char* cycles : {"nan", "-4", "", "1e", "inf"}) {
-        EXPECT_NE(message_of(std::string(header) + "a,itcm,dtcm,0,5," + cycles + ",x\n").find("m.csv:3: cycles"),
-                  std::string::npos)
-            << cycles;
+    EXPECT_NE(message_of_row("a,flash_cached,dtcm,0,5").find("m.csv:3: expected 7 cells, found 5"), std::string::npos);
+    EXPECT_NE(message_of_row("a,ram,dtcm,0,5,59,x").find("m.csv:3: code: expected"), std::string::npos);
+    EXPECT_NE(message_of_row("a,itcm,dtcm,2,5,59,x").find("maintenance"), std::string::npos);
+    EXPECT_NE(message_of_row("a,itcm,dtcm,0,0,59,x").find("taps"), std::string::npos);
+    for (const char* row : {"a,itcm,dtcm,0,5,nan,x", "a,itcm,dtcm,0,5,-4,x", "a,itcm,dtcm,0,5,,x",
+                            "a,itcm,dtcm,0,5,1e,x", "a,itcm,dtcm,0,5,inf,x"}) {
+        EXPECT_NE(message_of_row(row).find("m.csv:3: cycles"), std::string::npos) << row;
     }
     EXPECT_NE(message_of("kernel,code,data,taps,cycles\n").find("m.csv:1: expected the column maintenance"),
               std::string::npos);
