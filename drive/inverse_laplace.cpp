@@ -28,6 +28,21 @@ constexpr std::size_t most_pieces = 128;
 
 constexpr double checks[] = {1.0, 1.41, 2.0};
 
+// Chebyshev's polynomials, T_k at node i.
+const std::array<std::array<double, InverseLaplace::nodes>, InverseLaplace::nodes>& chebyshev_at_nodes() {
+    static const auto table = [] {
+        std::array<std::array<double, InverseLaplace::nodes>, InverseLaplace::nodes> cosines{};
+        for (std::size_t k = 0; k < InverseLaplace::nodes; ++k) {
+            for (std::size_t i = 0; i < InverseLaplace::nodes; ++i) {
+                cosines[k][i] = std::cos(std::numbers::pi * static_cast<double>(k) * (static_cast<double>(i) + 0.5) /
+                                         InverseLaplace::nodes);
+            }
+        }
+        return cosines;
+    }();
+    return table;
+}
+
 }  // namespace
 
 InverseLaplace::InverseLaplace(std::size_t count, Image image, std::vector<Swing> swings)
@@ -135,7 +150,7 @@ InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
         bool good = true;
         for (std::size_t p = 0; p < octave.pieces; ++p) {
             for (std::size_t i = 0; i < nodes; ++i) {
-                const double x = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / nodes);
+                const double x = chebyshev_at_nodes()[1][i];
                 const double place = (static_cast<double>(p) + 0.5 * (x + 1.0)) / static_cast<double>(octave.pieces);
                 euler_sum(abscissa, from * (1.0 + place), terms, fine, now);
                 for (std::size_t f = 0; f < count_; ++f) {
@@ -147,8 +162,7 @@ InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
                 for (std::size_t k = 0; k < nodes; ++k) {
                     double sum = 0.0;
                     for (std::size_t i = 0; i < nodes; ++i) {
-                        sum += values[f][i] * std::cos(std::numbers::pi * static_cast<double>(k) *
-                                                       (static_cast<double>(i) + 0.5) / nodes);
+                        sum += values[f][i] * chebyshev_at_nodes()[k][i];
                     }
                     c[k] = sum * (k == 0 ? 1.0 : 2.0) / nodes;
                 }

@@ -43,8 +43,10 @@ public:
         return value;
     }
 
-private:
+    /// Of the polynomials of time: their degree is one less.
     static constexpr std::size_t nodes = 16;
+
+private:
     struct Octave {
         std::size_t pieces = 1;
         std::vector<std::array<double, nodes>> coefficients;  // Chebyshev's: those of all functions, piece by piece

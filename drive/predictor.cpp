@@ -41,11 +41,14 @@ InverseLaplace sensitivities_of(const Model& model) {
                         values[at++] = term.coefficient * logarithm * power;
                     }
                 }
-                const std::complex<double> response = model.gain * above / below;
-                values[0] = response / s;
-                values[1] = above / (below * s);
-                const std::complex<double> by_above = model.gain / (below * s);
-                const std::complex<double> by_below = -response / (below * s);
+                // One division for all, by the formula: the operator's care for infinities takes longer than all else.
+                const std::complex<double> divisor = below * s;
+                const std::complex<double> inverse = std::conj(divisor) / std::norm(divisor);
+                values[1] = above * inverse;
+                values[0] = model.gain * values[1];
+                const std::complex<double> response = values[0] * s;
+                const std::complex<double> by_above = model.gain * inverse;
+                const std::complex<double> by_below = -response * inverse;
                 for (std::size_t i = 0; i < 2 * model.numerator.size(); ++i) {
                     values[2 + i] *= by_above;
                 }

@@ -7,14 +7,16 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
 fail() { echo "$*"; failures=$((failures + 1)); }
+# bench NAME OPTION...
 bench() {
     name=$1
     shift
-    "$glsum" bench --quick --orders 0.5,-0.5 --taps 50,full --signals step,noise --benchmark_min_time=0.001 "$@" \
+    "$glsum" bench --quick --orders 0.5,-0.5 --signals step,noise --benchmark_min_time=0.001 "$@" \
         --out "$folder/$name.json" >"$folder/$name.txt" 2>"$folder/$name.err"
 }
 
-bench first || fail "first run: $(tail -n 3 "$folder/first.err")"
+bench first --taps 50,120 || fail "first run: $(tail -n 3 "$folder/first.err")"
+bench second --taps 50,full --kernels 'ring_*_f32,ring_*_q31,modes_*,null,peer_std_f32' || fail "second run failed: $(tail -n 3 "$folder/second.err")"
 for file in first.json first.csv first.svg first.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
 done
@@ -26,7 +28,7 @@ for row in 'gl/mirror_simd_f32/order:0.5/taps:50/accuracy/signal:step' 'gl/ring_
     'gl/null/order:0.5/taps:50/host' 'gl/peer_std_f32/order:0.5/taps:full/host' 'gl/shift_plain_f64/order:0.5/taps:50/m7:count' \
     'gl/ring_plain_q31/order:0.5/taps:full/m7:stm32f746-itcm' 'gl/modes_plain_f32/order:0.5/taps:2+9/host' \
     'gl/modes_compensated_f32/order:-0.5/taps:1+12/accuracy/signal:noise' 'gl/modes_plain_q31/order:-0.5/taps:1+12/m7:stm32f746-itcm'; do
-    grep -q "\"name\": \"$row\"" "$folder/first.json" || fail "expected the row $row"
+    grep -q "\"name\": \"$row\"" "$folder/first.json" "$folder/second.json" || fail "expected the row $row"
 done
 grep -q 'gl/mirror_simd_f32/.*/m7' "$folder/first.json" && fail "a host kernel has a target row"
 grep -q '"label": "instructions only; counted at order 0.5; double precision in software' "$folder/first.json" ||
@@ -36,14 +38,15 @@ grep -q 'double in software' "$folder/first.txt" || fail "expected the mark of d
 grep -q '"error_occurred": true' "$folder/first.json" && fail "a row is wrong"
 
 # Same seed, same numbers, whatever is measured beside: everything but the host's times.
-bench second --kernels 'ring_*,modes_*_f32' || fail "second run failed"
-for run in first second; do grep 'gl/\(ring_\|modes_[a-z]*_f32\)' "$folder/$run.csv" | grep -v '/host,' >"$folder/$run.fixed"; done
+for run in first second; do
+    grep 'gl/\(ring_[a-z]*_\(f32\|q31\)\|modes_[^/]*\)/[^/]*/taps:\(50\|[0-9]*+[0-9]*\)/' "$folder/$run.csv" | grep -v '/host,' >"$folder/$run.fixed"
+done
 [ "$(wc -l <"$folder/second.fixed")" -gt 100 ] || fail "expected rows of the second run"
 cmp -s "$folder/first.fixed" "$folder/second.fixed" || fail "two runs differ: $(diff "$folder/first.fixed" "$folder/second.fixed" | head -n 4)"
 
 # Killed in the middle: the last good result is whole.
 sum=$(cksum <"$folder/first.json")
-bench first &
+bench first --taps 50,120 &
 child=$!
 sleep 0.5
 kill -9 "$child" 2>/dev/null

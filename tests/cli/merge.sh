@@ -8,7 +8,7 @@ fail() { echo "$*"; failures=$((failures + 1)); }
 bench() {
     out=$1
     shift
-    "$program" bench --quick --kernels 'null,*_plain_q15,ring_plain_f??,mirror_simd_f32,peer_std_f32' --orders 0.5,1.9909,-0.5 --taps 20,200 \
+    "$program" bench --quick --kernels 'null,*_plain_q15,ring_plain_f??,mirror_simd_f32,peer_std_f32' --orders 0.5,1.9909,-0.5 --taps 20,600 \
         --signals step,sine5,noise --benchmark_min_time=0.001 --out "$out" "$@" >"$folder/bench.txt" 2>&1 ||
         fail "bench $*: $(tail -n 3 "$folder/bench.txt")"
 }
