@@ -94,34 +94,27 @@ void find_factors(Evidence& evidence, State& state) {
     }
 }
 
-void find_ratio(Evidence& evidence, State& state) {
+// The state with that number at its best, if that is better.
+void find(Evidence& evidence, State& state, double State::*number, double low, double high) {
     const double gap = evidence.fitted_gap(state);
     State tried = state;
-    const auto of_ratio = [&](double ratio) {
-        tried.ratio = ratio;
+    const auto gap_at = [&](double value) {
+        tried.*number = value;
         return evidence.fitted_gap(tried);
     };
-    const double ratio = least_at(of_ratio, 0.25, 4.0);
-    if (better(of_ratio(ratio), gap)) {
+    const double best = least_at(gap_at, low, high);
+    if (better(gap_at(best), gap)) {
         state = tried;
     }
 }
 
+void find_ratio(Evidence& evidence, State& state) { find(evidence, state, &State::ratio, 0.25, 4.0); }
+
 // Only where some rows are on the bus and others are not: in all of them it would be a clock.
 void find_contention(Evidence& evidence, State& state) {
     const auto shared = std::count_if(evidence.rows().begin(), evidence.rows().end(), on_bus);
-    if (shared == 0 || static_cast<std::size_t>(shared) == evidence.rows().size()) {
-        return;
-    }
-    const double gap = evidence.fitted_gap(state);
-    State tried = state;
-    const auto of_contention = [&](double contention) {
-        tried.contention = contention;
-        return evidence.fitted_gap(tried);
-    };
-    const double contention = least_at(of_contention, 0.0, 3.0);
-    if (better(of_contention(contention), gap)) {
-        state = tried;
+    if (shared > 0 && static_cast<std::size_t>(shared) < evidence.rows().size()) {
+        find(evidence, state, &State::contention, 0.0, 3.0);
     }
 }
 
