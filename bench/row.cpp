@@ -39,6 +39,8 @@ std::string to_text(glsum::Status status) {
             return "the coefficients do not fit the format";
         case glsum::Status::modes_out_of_range:
             return "the modes leave no tap, or do not decay";
+        case glsum::Status::weights_out_of_range:
+            return "the weights are too few, are no numbers, or cannot be nested";
     }
     return "unknown status";
 }

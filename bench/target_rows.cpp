@@ -60,15 +60,7 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
     json["first_instructions"] = measured.first.instructions;
     json["worst_instructions"] = measured.worst_instructions;
     if (modelled != nullptr) {
-        json["real_time"] = json["cpu_time"] = modelled->cycles / clock_hz * 1e9;
-        json["model_cycles_per_sample"] = modelled->cycles;
-        json["model_cycles_low"] = modelled->low;
-        json["model_cycles_high"] = modelled->high;
-        json["first_model_cycles"] = modelled->first_cycles;
-        json["worst_model_cycles"] = modelled->worst_cycles;
-        for (std::size_t e = 0; e < timing::effect_count; ++e) {
-            json[fmt::format("stall_{}", timing::effect_names[e])] = modelled->lost[e];
-        }
+        add_modelled(json, *modelled, clock_hz);
     }
     json["code_bytes"] = measured.code_bytes;
     json["stack_bytes"] = measured.stack_bytes;
@@ -82,6 +74,26 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
 }
 
 }  // namespace
+
+void add_modelled(Json& row, const qemu::ModelledCall& call, double clock_hz) {
+    row["real_time"] = row["cpu_time"] = call.cycles / clock_hz * 1e9;
+    row["model_cycles_per_sample"] = call.cycles;
+    row["model_cycles_low"] = call.low;
+    row["model_cycles_high"] = call.high;
+    row["first_model_cycles"] = call.first_cycles;
+    row["worst_model_cycles"] = call.worst_cycles;
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        row[fmt::format("stall_{}", timing::effect_names[e])] = call.lost[e];
+    }
+}
+
+std::vector<double> clocks_of(const timing::TimingRequest& request) {
+    std::vector<double> clocks;
+    for (const timing::CoreFile& core : timing::cores_of(request)) {
+        clocks.push_back(static_cast<double>(core.sets.front().figures.memory_clock_hz));
+    }
+    return clocks;
+}
 
 timing::TimingRequest timing_request(const std::filesystem::path& folder, const std::vector<std::string>& cores) {
     timing::TimingRequest request;
@@ -125,10 +137,7 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
     Progress progress("emulated Cortex-M7", plan.counts.size() + replay_plan.size());
     const auto done = [&] { progress.advance(); };
     const timing::TimingRequest request = timing_request(board.cores, sweep.modelled_cores());
-    std::vector<double> clocks;
-    for (const timing::CoreFile& core : timing::cores_of(request)) {
-        clocks.push_back(static_cast<double>(core.sets.front().figures.memory_clock_hz));
-    }
+    const std::vector<double> clocks = clocks_of(request);
     const auto counts = count_on_target(plan.counts, signals, board, sweep.jobs, done, request);
     const auto replays = run_in_shares<qemu::ReplayedRow>(
         replay_plan, sweep.jobs, [&](const auto& share) { return qemu::replay(board, share, signals, done); },

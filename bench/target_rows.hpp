@@ -20,6 +20,12 @@ struct Counted {
 [[nodiscard]] timing::TimingRequest timing_request(const std::filesystem::path& folder,
                                                    const std::vector<std::string>& cores);
 
+/// The counters of a modelled call, its time in ns at the core's clock.
+void add_modelled(Json& row, const qemu::ModelledCall& call, double clock_hz);
+
+/// The clock of each core of a request, in Hz.
+[[nodiscard]] std::vector<double> clocks_of(const timing::TimingRequest& request);
+
 /// Counts the plan's rows on the emulated board, in shares of about equal cost. \param done  called after each row
 /// \param timing  cores to be modelled in the same runs; may have none
 [[nodiscard]] std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan,

@@ -151,7 +151,9 @@ std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
 void run(const Options& options, const PassedOn& flags) {
     if (options.drive) {
         const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
-        run_drive_bench({options.kernels, options.taps, options.targets, options.quick, options.jobs,
+        std::vector<std::string> cores = options.cores;
+        std::erase(cores, bench::count_only);
+        run_drive_bench({options.kernels, options.taps, options.targets, cores, options.quick, options.jobs,
                          options.out.empty() ? results / "drive.json" : options.out});
         return;
     }

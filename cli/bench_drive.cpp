@@ -17,6 +17,7 @@
 #include "bench/progress.hpp"
 #include "bench/result_file.hpp"
 #include "bench/results.hpp"
+#include "bench/target_rows.hpp"
 #include "cli/board.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/realtime.hpp"
@@ -35,6 +36,7 @@ using glsum::Failure;
 constexpr double step_s = 0.001;
 constexpr double period_cycles = 216e6 * step_s;   // an STM32F746 at 1 kHz
 constexpr std::size_t response_steps = 5000;       // 5 s behind the dead time
+constexpr std::size_t long_steps = 60'000;         // the same, where a step costs the same however long it goes on
 constexpr std::size_t emulated_double_taps = 600;  // longer ones take minutes in software
 
 struct Case {
@@ -42,7 +44,6 @@ struct Case {
     std::string name;  ///< with the writing
     std::string kernel;
     drive::Writing writing;
-    std::size_t taps;  ///< as asked; `design` has those that are needed
     bool full;
     drive::RealtimeModel design;
     std::size_t steps;
@@ -52,13 +53,14 @@ struct Case {
     double final_output = 0.0;
     std::uint32_t saturations = 0;
     double host_ns = 0.0;
+    std::size_t macs = 0;
     std::optional<qemu::MeasuredRow> counted = {};
     bool same_bits = true;
     std::string fault = {};
 
-    [[nodiscard]] std::string length() const { return full ? "full" : std::to_string(design.taps()); }
+    [[nodiscard]] std::string length() const { return full ? "full" : design.memory().text(); }
     [[nodiscard]] bool in_double() const { return kernel.ends_with("f64"); }
-    [[nodiscard]] bool runs_on_target() const { return !in_double() || design.taps() <= emulated_double_taps; }
+    [[nodiscard]] bool runs_on_target() const { return !in_double() || design.memory().taps <= emulated_double_taps; }
 };
 
 const std::vector<double> ones{1.0};
@@ -84,6 +86,7 @@ void run_here(Case& one) {
     }
     one.host_ns = 1e9 * seconds / static_cast<double>(one.steps + 1);
     one.saturations = stepped.saturations;
+    one.macs = stepped.multiplications;
     one.final_output = stepped.output[one.steps];
     double largest = 0.0;
     double square = 0.0;
@@ -98,13 +101,18 @@ void run_here(Case& one) {
     one.error_rms = std::sqrt(square / static_cast<double>(one.steps + 1)) / peak;
 }
 
-Json to_row(const Case& one, const std::string& target) {
+// \param core  which of the counted row's modelled cores; counts alone without
+Json to_row(const Case& one, const std::string& target, std::optional<std::size_t> core = {}, double clock_hz = 1.0) {
     Json row = bench::make_row(fmt::format("drive/{}/{}/taps:{}/{}", one.model, one.name, one.length(), target),
                                one.steps + 1);
     row["error_max"] = one.error_max;
     row["error_rms"] = one.error_rms;
     row["final_output"] = one.final_output;
-    row["effective_taps"] = one.design.taps();
+    if (one.design.memory().modes == 0) {
+        row["effective_taps"] = one.design.memory().taps;
+    }
+    row["macs_per_sample"] = one.macs;
+    row["horizon_samples"] = one.design.memory().modes == 0 ? one.design.memory().taps : one.steps;
     if (!one.fault.empty()) {
         bench::mark_error(row, one.fault);
         return row;
@@ -117,9 +125,8 @@ Json to_row(const Case& one, const std::string& target) {
         return row;
     }
     const qemu::MeasuredRow& counted = *one.counted;
-    row["label"] = one.in_double()
-                       ? "instructions only; double precision in software, where the count depends on the data"
-                       : "instructions only";
+    row["label"] = std::string(core ? "modelled cycles" : "instructions only") +
+                   (one.in_double() ? "; double precision in software, where the count depends on the data" : "");
     row["instructions_per_sample"] = counted.instructions;
     row["loads_per_sample"] = counted.loads;
     row["stores_per_sample"] = counted.stores;
@@ -127,10 +134,19 @@ Json to_row(const Case& one, const std::string& target) {
     row["first_instructions"] = counted.first.instructions;
     row["worst_instructions"] = counted.worst_instructions;
     row["instructions_share_of_period"] = static_cast<double>(counted.worst_instructions) / period_cycles;
+    if (core) {
+        const qemu::ModelledCall& modelled = counted.cores.at(*core);
+        bench::add_modelled(row, modelled, clock_hz);
+        row["share_of_period"] = modelled.worst_cycles / (clock_hz * step_s);
+    }
     row["code_bytes"] = counted.code_bytes;
     row["stack_bytes"] = counted.stack_bytes;
     row["state_bytes"] = counted.state_bytes;
     row["coefficient_bytes"] = counted.coefficient_bytes;
+    if (core && !counted.unknown_encodings.empty()) {
+        bench::mark_error(row, fmt::format("the timing model does not know {} encodings, the first at {:#010x}",
+                                           counted.unknown_encodings.size(), counted.unknown_encodings.front()));
+    }
     if (!one.same_bits) {
         bench::mark_error(row, "the target's outputs differ from the host's");
     }
@@ -138,9 +154,9 @@ Json to_row(const Case& one, const std::string& target) {
 }
 
 std::string to_table(const std::vector<Case>& cases, const std::string& model) {
-    std::string text =
-        fmt::format("\n{}\n  {:<28} {:>6} {:>10} {:>10} {:>10} {:>10} {:>8} {:>8}  {}\n", model, "kernel", "taps",
-                    "error max", "at the end", "M7 instr.", "M7 worst", "period", "bytes", "host ns");
+    std::string text = fmt::format("\n{}\n  {:<28} {:>6} {:>5} {:>5} {:>10} {:>10} {:>10} {:>17} {:>8} {:>8}  {}\n",
+                                   model, "kernel", "taps", "MACs", "for s", "error max", "at the end", "M7 instr.",
+                                   "model cycles", "period", "bytes", "host ns");
     for (const Case& one : cases) {
         if (one.model != model) {
             continue;
@@ -150,20 +166,32 @@ std::string to_table(const std::vector<Case>& cases, const std::string& model) {
             text += one.fault + "\n";
             continue;
         }
-        text += fmt::format("{:>10.2e} {:>10.5f} ", one.error_max, one.final_output);
+        text += fmt::format("{:>5} {:>5.0f} {:>10.2e} {:>10.5f} ", one.macs, static_cast<double>(one.steps) * step_s,
+                            one.error_max, one.final_output);
         if (one.counted) {
             const auto worst = static_cast<double>(one.counted->worst_instructions);
-            text +=
-                fmt::format("{:>10.1f} {:>10.0f} {:>7.2f}% {:>8}  ", one.counted->instructions, worst,
-                            100.0 * worst / period_cycles, one.counted->state_bytes + one.counted->coefficient_bytes);
+            const auto& cores = one.counted->cores;
+            text += fmt::format("{:>10.1f} {:>17} {:>7.2f}% {:>8}  ", one.counted->instructions,
+                                cores.empty()                   ? "-"
+                                : cores[0].low == cores[0].high ? fmt::format("{:.0f}", cores[0].cycles)
+                                                                : fmt::format("{:.0f} ({:.0f}-{:.0f})", cores[0].cycles,
+                                                                              cores[0].low, cores[0].high),
+                                100.0 * (cores.empty() ? worst : cores[0].worst_cycles) / period_cycles,
+                                one.counted->state_bytes + one.counted->coefficient_bytes);
         } else {
-            text += fmt::format("{:>10} {:>10} {:>8} {:>8}  ", "-", "-", "-", "-");
+            text += fmt::format("{:>10} {:>17} {:>8} {:>8}  ", "-", "-", "-", "-");
         }
         text += fmt::format("{:.1f}{}{}\n", one.host_ns,
                             one.saturations > 0 ? fmt::format("  {} saturations", one.saturations) : "",
                             one.same_bits ? "" : "  NOT THE HOST'S BITS");
     }
     return text;
+}
+
+// Whether what is left of the past never ends.
+bool has_tail(const drive::Model& model) {
+    return std::any_of(model.denominator.begin(), model.denominator.end(),
+                       [](const drive::Term& term) { return term.order != std::floor(term.order); });
 }
 
 // The longest memory that a period leaves, if every cycle took an instruction, and what bytes 320 KB leave.
@@ -175,14 +203,15 @@ std::string deadline_table(const std::vector<Case>& cases) {
         "model", "kernel", "instr. a tap", "bytes a tap", "1 a cycle", "in 320 KB");
     std::map<std::pair<std::string, std::string>, std::vector<const Case*>> counted;
     for (const Case& one : cases) {
-        if (one.counted && one.fault.empty()) {
+        if (one.counted && one.fault.empty() && one.design.memory().modes == 0) {
             counted[{one.model, one.name}].push_back(&one);
         }
     }
     for (const auto& [key, list] : counted) {
         const auto [shortest, longest] = std::minmax_element(
-            list.begin(), list.end(), [](const Case* a, const Case* b) { return a->design.taps() < b->design.taps(); });
-        const auto taps = [](const Case* one) { return static_cast<double>(one->design.taps()); };
+            list.begin(), list.end(),
+            [](const Case* a, const Case* b) { return a->design.memory().taps < b->design.memory().taps; });
+        const auto taps = [](const Case* one) { return static_cast<double>(one->design.memory().taps); };
         const auto cost = [](const Case* one) { return static_cast<double>(one->counted->worst_instructions); };
         const auto bytes = [](const Case* one) {
             return static_cast<double>(one->counted->state_bytes + one->counted->coefficient_bytes);
@@ -219,26 +248,43 @@ std::string time_long_records(const drive::Model& model, const std::string& name
     return text + fmt::format("  t(10^6)/t(10^5) = {:.1f}\n", seconds[2] / seconds[1]);
 }
 
-std::vector<std::optional<std::size_t>> lengths_of(const DriveBench& options) {
-    std::vector<std::string> words = options.taps;
-    if (words.empty()) {
-        words = options.quick ? std::vector<std::string>{"100", "600"}
-                              : std::vector<std::string>{"50", "100", "200", "600", "full"};
-    }
-    std::vector<std::optional<std::size_t>> lengths;
-    for (const std::string& word : words) {
-        std::size_t taps = 0;
-        const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), taps);
-        if (word == "full") {
-            lengths.emplace_back();
-        } else if (error == std::errc{} && end == word.data() + word.size() && taps >= 1 && taps <= response_steps) {
-            lengths.emplace_back(taps);
-        } else {
-            throw Failure(Exit::bad_input,
-                          fmt::format("--taps: expected numbers of 1 to {}, or full, found {}", response_steps, word));
+// What a kernel is asked for: nothing is full memory.
+using Lengths = std::vector<std::optional<drive::Memory>>;
+
+Lengths asked_lengths(const DriveBench& options) {
+    Lengths lengths;
+    for (const std::string& word : options.taps) {
+        const auto length = bench::parse_length(word, response_steps + 1);
+        if (!length || length->taps > response_steps + 1) {
+            throw Failure(Exit::bad_input, fmt::format("--taps: expected numbers of 1 to {}, full, or of kernels with "
+                                                       "modes 2+7, found {}",
+                                                       response_steps, word));
         }
+        lengths.push_back(length->full ? std::nullopt
+                                       : std::optional(drive::Memory{length->taps, length->modes.value_or(0)}));
     }
     return lengths;
+}
+
+// Of those asked for, a kernel's own; the usual ones where none were.
+Lengths lengths_of(const DriveBench& options, const Lengths& asked, bool with_modes, drive::Writing writing) {
+    Lengths lengths;
+    std::copy_if(asked.begin(), asked.end(), std::back_inserter(lengths),
+                 [&](const auto& length) { return (length && length->modes > 0) == with_modes; });
+    if (!asked.empty()) {
+        return lengths;
+    }
+    const auto modes = [](std::size_t near_taps, std::size_t count) {
+        return drive::Memory{near_taps + 2 * count, count};
+    };
+    if (with_modes) {
+        return writing == drive::Writing::bdf2 ? Lengths{modes(5, 9), modes(5, 11)}
+                                               : Lengths{modes(2, 5), modes(2, 7), modes(2, 9)};
+    }
+    if (options.quick || writing == drive::Writing::bdf2) {
+        return {drive::Memory{100}, drive::Memory{600}};
+    }
+    return {drive::Memory{50}, drive::Memory{100}, drive::Memory{200}, drive::Memory{600}, std::nullopt};
 }
 
 }  // namespace
@@ -252,7 +298,9 @@ void run_drive_bench(const DriveBench& options) {
         board = built_board();
         (void)qemu::model_elf(*board);
     }
-    const auto lengths = lengths_of(options);
+    const timing::TimingRequest timing = bench::timing_request(cores_folder(), options.cores);
+    const std::vector<double> clocks = bench::clocks_of(timing);
+    const Lengths asked = asked_lengths(options);
     std::map<std::string, drive::Model> models;
     std::map<std::string, std::vector<double>> exact;
     for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
@@ -260,7 +308,7 @@ void run_drive_bench(const DriveBench& options) {
             std::filesystem::path(build_info::source_folder) / "drive" / "models" / (std::string(name) + ".json");
         models[name] = read_model(path);
         const std::size_t steps =
-            response_steps + static_cast<std::size_t>(std::ceil(models[name].delay_s / step_s - 1e-9));
+            long_steps + static_cast<std::size_t>(std::ceil(models[name].delay_s / step_s - 1e-9));
         std::vector<double> times;
         for (std::size_t k = 0; k <= steps; ++k) {
             times.push_back(static_cast<double>(k) * step_s);
@@ -270,7 +318,8 @@ void run_drive_bench(const DriveBench& options) {
 
     std::vector<Case> cases;
     for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
-        for (const drive::Writing writing : {drive::Writing::delta, drive::Writing::merged, drive::Writing::apart}) {
+        for (const drive::Writing writing :
+             {drive::Writing::delta, drive::Writing::bdf2, drive::Writing::merged, drive::Writing::apart}) {
             glsum::ModelKernels::for_each([&]<class K>() {
                 const std::string kernel(K::name());
                 const std::string written = drive::realtime_name(kernel, writing);
@@ -279,16 +328,21 @@ void run_drive_bench(const DriveBench& options) {
                         return fnmatch(glob.c_str(), kernel.c_str(), 0) == 0 ||
                                fnmatch(glob.c_str(), written.c_str(), 0) == 0;
                     });
-                for (std::size_t i = 0; wanted && i < lengths.size(); ++i) {
-                    const std::size_t taps = lengths[i].value_or(response_steps + 1);
-                    drive::RealtimeModel design(models[name], writing, taps, step_s);
+                constexpr bool with_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+                const bool increments = writing == drive::Writing::delta || writing == drive::Writing::bdf2;
+                if (!wanted || (with_modes && (!increments || !has_tail(models[name])))) {
+                    return;
+                }
+                for (const auto& length : lengths_of(options, asked, with_modes, writing)) {
+                    const std::size_t steps = exact[name].size() - 1 - (with_modes ? 0 : long_steps - response_steps);
+                    drive::RealtimeModel design(models[name], writing,
+                                                length.value_or(drive::Memory{response_steps + 1}), step_s, long_steps);
                     // Whole orders end their memory by themselves, however long it might be.
                     const bool known = !cases.empty() && cases.back().model == name && cases.back().name == written &&
-                                       cases.back().design.taps() == design.taps();
+                                       cases.back().design.memory().text() == design.memory().text();
                     if (!known) {
-                        const bool full = !lengths[i] && design.taps() == taps;
-                        cases.push_back({name, written, kernel, writing, taps, full, std::move(design),
-                                         exact[name].size() - 1, &exact[name]});
+                        const bool full = !length && design.memory().taps == response_steps + 1;
+                        cases.push_back({name, written, kernel, writing, full, std::move(design), steps, &exact[name]});
                     }
                 }
             });
@@ -326,7 +380,8 @@ void run_drive_bench(const DriveBench& options) {
                 const Case& one = cases[chosen[i]];
                 plan.push_back({one.kernel, &one.design.design(), ones, one.steps});
             }
-            const auto counted = qemu::step_models(*board, plan, [&] { progress.advance(); });
+            const auto counted = qemu::step_models(
+                *board, plan, [&] { progress.advance(); }, timing);
             for (std::size_t i = 0; i < counted.size(); ++i) {
                 Case& one = cases[chosen[first + i]];
                 one.counted = counted[i];
@@ -344,23 +399,28 @@ void run_drive_bench(const DriveBench& options) {
         }
         if (one.counted) {
             rows.push_back(to_row(one, "m7:count"));
+            for (std::size_t c = 0; c < options.cores.size(); ++c) {
+                rows.push_back(to_row(one, "m7:" + options.cores[c], c, clocks[c]));
+            }
         }
         wrong += one.fault.empty() && one.same_bits ? 0 : 1;
     }
     std::string text = fmt::format(
-        "Models stepped at 1 kHz for 5 s behind their dead time, a unit step; errors relative to the largest exact "
-        "output.\n"
-        "ringdelta: one table on increments; ring: the textbook's, one table; ringapart: the textbook's, one for each "
-        "order.\n");
+        "Models stepped at 1 kHz, a unit step, for so many seconds; errors relative to the largest exact output.\n"
+        "ringdelta: one table on increments; ringbdf2: the same of second order in h; ring: the textbook's, one table; "
+        "ringapart:\n"
+        "the textbook's, one for each order; modes: 2+7 near taps and modes, full memory.\n");
     for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
         text += to_table(cases, name);
     }
-    text +=
-        "\n  M7: instructions a step on the emulated core, dead time and factors included; they are not cycles. "
-        "period: the\n"
-        "  worst step's instructions over 216 000, the cycles of a step on an STM32F746. Every row that ran there "
-        "computed\n"
-        "  the host's bits over the whole record.\n";
+    text += fmt::format(
+        "\n  M7: instructions a step on the emulated core, dead time and factors included; model cycles: "
+        "what the timing\n"
+        "  model gives it on {}, with the band over its rule sets. period: the worst step's {} over\n"
+        "  216 000, the cycles of a step on an STM32F746. Every row that ran there computed the host's "
+        "bits over the\n"
+        "  whole record.\n",
+        options.cores.empty() ? "no core" : options.cores[0], options.cores.empty() ? "instructions" : "cycles");
     if (board) {
         text += deadline_table(cases);
     }

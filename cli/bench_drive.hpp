@@ -9,8 +9,9 @@ namespace cli {
 
 struct DriveBench {
     std::vector<std::string> kernels;  ///< globs
-    std::vector<std::string> taps;     ///< numbers, or full; empty: the usual ones
+    std::vector<std::string> taps;     ///< numbers, full, or 2+7 of kernels with modes; empty: the usual ones
     std::vector<std::string> targets;
+    std::vector<std::string> cores;  ///< of the timing model; the first is what the table shows
     bool quick = false;
     unsigned jobs = 1;
     std::filesystem::path out;

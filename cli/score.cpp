@@ -88,18 +88,25 @@ std::vector<blind::Answer> open_verdicts(const Options& options, const std::vect
     return answers;
 }
 
-// Of each case, what could have been known; of one that cannot be diagnosed at all, nothing.
+// Of each case, what could have been known; of one that cannot be diagnosed at all, nothing, and it is said why.
 std::vector<std::optional<gap::Foresight>> foresee_all(const Options& options,
                                                        const std::vector<blind::SealedCase>& truths) {
     std::vector<std::optional<gap::Foresight>> all(truths.size());
+    std::vector<std::string> faults(truths.size());
     bench::Progress progress("true effects refitted", truths.size());
     bench::parallel_for(truths.size(), options.jobs, [&](std::size_t i) {
         try {
             all[i] = gap::foresee(blind_question(options.folder / truths[i].name), truths[i].effects);
-        } catch (const Failure&) {
+        } catch (const Failure& failure) {
+            faults[i] = failure.what();
         }
         progress.advance();
     });
+    for (std::size_t i = 0; i < truths.size(); ++i) {
+        if (!all[i]) {
+            fmt::print(stderr, "{}: not counted as identifiable: {}\n", truths[i].name, faults[i]);
+        }
+    }
     return all;
 }
 

@@ -4,12 +4,10 @@
 #include <algorithm>
 #include <boost/align/aligned_allocator.hpp>
 #include <cstddef>
-#include <span>
 #include <type_traits>
 #include <vector>
 
 #include "glsum/kernel.hpp"
-#include "glsum/weights.hpp"
 
 namespace drive {
 
@@ -19,34 +17,11 @@ template <class K>
 class KernelSum {
 public:
     explicit KernelSum(const glsum::Design& design)
-        : design_(design),
-          table_(K::table_count(design.taps) + 1),
-          past_(K::past_count(design.taps) + 1),
-          kept_(past_.size()) {
+        : table_(K::table_count(design.taps) + 1), past_(K::past_count(design.taps) + 1), kept_(past_.size()) {
         status_ = K::prepare(state_, design, table_, past_);
     }
 
     [[nodiscard]] glsum::Status status() const { return status_; }
-
-    /// Replaces a_1, a_2, ... of the order by other weights, which the format's scale must hold.
-    /// \return whether this kernel keeps its weights as a plain table; if not, nothing has changed.
-    bool set_weights(std::span<const double> weights) {
-        if constexpr (requires { typename K::FormatPart; }) {
-            using Format = typename K::FormatPart;
-            glsum::Weights own(design_.order);
-            for (std::size_t j = 1; j < design_.taps; ++j) {
-                own.next();
-                if (table_[j - 1] != Format::coefficient(own.weight(), state_.scale)) {
-                    return false;
-                }
-            }
-            for (std::size_t j = 1; j < design_.taps; ++j) {
-                table_[j - 1] = Format::coefficient(weights[j], state_.scale);
-            }
-            return true;
-        }
-        return false;
-    }
 
     /// sum_{j>=1} a_j x_(k-j), before h^-v.
     double past() {
@@ -79,7 +54,6 @@ private:
     template <class T>
     using Buffer = std::vector<T, boost::alignment::aligned_allocator<T, 64>>;
 
-    glsum::Design design_;
     Buffer<typename K::Coefficient> table_;
     Buffer<typename K::Sample> past_;
     Buffer<typename K::Sample> kept_;

@@ -13,6 +13,8 @@
 #include "glsum/gain.hpp"
 #include "glsum/registry.hpp"
 #include "glsum/weights.hpp"
+#include "modes/design.hpp"
+#include "modes/merged.hpp"
 #include "qemu/failure.hpp"
 
 namespace drive {
@@ -79,18 +81,14 @@ std::vector<double> step_merged(const Model& model, const Scheme& scheme, const 
     return output;
 }
 
-// The order whose weights need the most room.
-double widest_order(const std::vector<Term>& terms, std::size_t taps, bool increments) {
-    double widest = 0.0;
-    double largest = 0.0;
+std::vector<glsum::modes::Term> derivatives_of(const std::vector<Term>& terms) {
+    std::vector<glsum::modes::Term> derivatives;
     for (const Term& term : terms) {
-        const double order = term.order - (increments ? 1.0 : 0.0);
-        if (term.order != 0.0 && glsum::absolute_sum(order, taps) > largest) {
-            largest = glsum::absolute_sum(order, taps);
-            widest = order;
+        if (term.order != 0.0 && term.coefficient != 0.0) {
+            derivatives.push_back({term.coefficient, term.order});
         }
     }
-    return widest;
+    return derivatives;
 }
 
 // One sum of the kernel for each order, or one for all; what surrounds them in `Real`.
@@ -115,40 +113,71 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
     }
     std::deque<KernelSum<K>> sums;
     std::vector<Real> factors;
-    const auto add_sum = [&](double order, double factor) -> KernelSum<K>& {
-        sums.emplace_back(glsum::Design{order, taps});
+    const auto add_sum = [&](const glsum::Design& design, double factor) {
+        sums.emplace_back(design);
         if (const glsum::Status status = sums.back().status(); status != glsum::Status::ok) {
-            refuse(fmt::format("{}: no sum of order {} over {} taps: {}", K::name(), order, taps,
+            refuse(fmt::format("{}: no sum of order {} over {} taps: {}", K::name(), design.order, taps,
                                status == glsum::Status::order_out_of_range ? "kernels take orders in (-2, 2]"
-                                                                           : "its coefficients do not fit the format"));
+                               : status == glsum::Status::weights_out_of_range
+                                   ? "it cannot take the weights of a merged table"
+                                   : "its coefficients do not fit the format"));
         }
         factors.push_back(static_cast<Real>(factor));
-        return sums.back();
     };
+    // With modes a length of taps is parted as a design of so many has them.
+    constexpr bool with_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+    if (with_modes && !scheme.taps) {
+        refuse(
+            fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few", K::name()));
+    }
     const auto constant = static_cast<Real>(constant_coefficient(model.denominator));
     Real newest = 0;
     if (scheme.merged) {
-        std::vector<double> weights = merged_weights(model.denominator, scheme.step_s, taps, scheme.increments);
+        std::size_t near_taps = taps;
+        std::vector<glsum::Mode> modes;
+        if constexpr (with_modes) {
+            // The parting of an order in (0, 1), as increments leave them; the table has one tap more than that needs.
+            const std::size_t wanted = glsum::modes::modes_within(0.5, taps - std::min<std::size_t>(taps, 1));
+            near_taps = taps - 2 * wanted;
+            if (!scheme.increments || near_taps < 2) {
+                refuse(fmt::format(
+                    "{}: expected increments and at least 2 taps: the modes of a merged table are theirs", K::name()));
+            }
+            modes = glsum::modes::approximate_merged(derivatives_of(model.denominator), scheme.step_s,
+                                                     glsum::modes::Discretisation::grunwald_letnikov,
+                                                     std::max(count, near_taps), near_taps, wanted)
+                        .modes;
+        }
+        std::vector<double> weights = merged_weights(model.denominator, scheme.step_s, near_taps, scheme.increments);
         const double whole = weights[0] + (scheme.increments ? constant_coefficient(model.denominator) : 0.0);
         newest = static_cast<Real>(whole);
         double factor = 1.0;
         if constexpr (!std::is_floating_point_v<typename K::Sample>) {
-            // Fractions: a mean of the orders' weights, which the order with the largest sum has room for.
-            factor = whole;
+            factor = whole;  // fractions
             for (double& weight : weights) {
                 weight /= whole;
             }
+            for (glsum::Mode& mode : modes) {
+                mode.weight /= whole;
+            }
         }
-        if (!add_sum(widest_order(model.denominator, taps, scheme.increments), factor).set_weights(weights)) {
-            refuse(fmt::format("{}: keeps no plain table of weights, so that it cannot take a merged one", K::name()));
-        }
+        add_sum({0.0, near_taps + 2 * modes.size(), modes, std::span(weights).subspan(1)}, factor);
     } else {
         for (const Term& term : model.denominator) {
             const double factor = term.coefficient * glsum::step_factor(term.order, scheme.step_s);
             newest += static_cast<Real>(factor);
-            if (term.order != 0.0 && term.coefficient != 0.0) {
-                add_sum(term.order - (scheme.increments ? 1.0 : 0.0), factor);
+            if (term.order == 0.0 || term.coefficient == 0.0) {
+                continue;
             }
+            glsum::Design design{term.order - (scheme.increments ? 1.0 : 0.0), taps};
+            std::vector<glsum::Mode> modes;
+            if (with_modes && glsum::modes::has_tail(design.order)) {
+                const std::size_t wanted = glsum::modes::modes_within(design.order, taps);
+                modes = glsum::modes::approximate({design.order, count}, taps - 2 * wanted, wanted).modes;
+                design.taps = taps - 2 * (wanted - modes.size());
+                design.modes = modes;
+            }
+            add_sum(design, factor);
         }
     }
     Real before = 0;

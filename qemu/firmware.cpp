@@ -14,10 +14,10 @@
 #include "qemu/answers.hpp"
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
+#include "qemu/modelled_calls.hpp"
 #include "qemu/scratch.hpp"
 #include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
-#include "targets/firmware/timed_calls.hpp"
 
 namespace qemu {
 namespace {
@@ -167,67 +167,6 @@ bool computes_in_double(const std::string& kernel) {
     return computes;
 }
 
-// The timed calls of one row, in the order in which the program made them.
-void summarise(MeasuredRow& row, const timing::TimingLog& log, const PlannedRow& planned, std::size_t cores) {
-    const firmware::TimedCalls timed{planned.taps, computes_in_double(planned.kernel)};
-    const auto fault = [&](const std::string& what) {
-        return Failure(Exit::check_failed,
-                       fmt::format("the timing model, {} with {} taps: {}", planned.kernel, planned.taps, what));
-    };
-    row.cores.assign(cores, {});
-    for (const auto& [address, times] : log.unknown) {
-        row.unknown_encodings.push_back(address);
-    }
-    std::vector<std::vector<double>> sets(cores);  // cycles of the steady calls, by rule set
-    const auto share = 1.0 / static_cast<double>(timed.steady());
-    auto run = log.runs.begin();
-    std::uint64_t used = 0;
-    for (std::size_t call = 0; call < planned.calls; ++call) {
-        if (!timed.contains(call)) {
-            continue;
-        }
-        if (run == log.runs.end() || run->call.cores.size() != cores) {
-            throw fault("it saw fewer calls than the program marked");
-        }
-        if (call == 0 && run->call.instructions != row.first.instructions) {
-            throw fault(fmt::format("its first call has {} instructions, the counter's {}", run->call.instructions,
-                                    row.first.instructions));
-        }
-        for (std::size_t c = 0; c < cores; ++c) {
-            const timing::CoreTime& time = run->call.cores[c];
-            ModelledCall& modelled = row.cores[c];
-            const double cycles = static_cast<double>(time.half_cycles.at(0)) / 2.0;
-            if (call == 0) {
-                modelled.first_cycles = cycles;
-            } else if (timed.is_full(call)) {
-                modelled.worst_cycles = std::max(modelled.worst_cycles, cycles);
-            }
-            if (timed.is_steady(call)) {
-                sets[c].resize(time.half_cycles.size());
-                for (std::size_t s = 0; s < sets[c].size(); ++s) {
-                    sets[c][s] += share * static_cast<double>(time.half_cycles[s]) / 2.0;
-                }
-                for (std::size_t e = 0; e < timing::effect_count; ++e) {
-                    modelled.lost[e] += share * static_cast<double>(time.losses[e]) / 2.0;
-                }
-            }
-        }
-        if (++used == run->calls) {
-            ++run;
-            used = 0;
-        }
-    }
-    if (run != log.runs.end()) {
-        throw fault("it saw more calls than the program marked");
-    }
-    for (std::size_t c = 0; c < cores; ++c) {
-        row.cores[c].cycles = sets[c].at(0);
-        const auto [low, high] = std::minmax_element(sets[c].begin(), sets[c].end());
-        row.cores[c].low = *low;
-        row.cores[c].high = *high;
-    }
-}
-
 }  // namespace
 
 Board find_board(const std::filesystem::path& build, const std::filesystem::path& plugin,
@@ -346,7 +285,13 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
             }
             rows[i].code_bytes = code_bytes(elf, reached->second);
             if (!timing.cores.empty()) {
-                summarise(rows[i], timing::read_timing_log(times), plan[i], timing.cores.size());
+                const timing::TimingLog log_of_row = timing::read_timing_log(times);
+                rows[i].cores = modelled_calls(log_of_row, {plan[i].taps, computes_in_double(plan[i].kernel)},
+                                               plan[i].calls, timing.cores.size(), rows[i].first.instructions,
+                                               fmt::format("{} with {} taps", plan[i].kernel, plan[i].taps));
+                for (const auto& [address, times_met] : log_of_row.unknown) {
+                    rows[i].unknown_encodings.push_back(address);
+                }
             }
         }
     }

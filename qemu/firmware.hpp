@@ -12,6 +12,7 @@
 #include "glsum/kernel.hpp"
 #include "qemu/call_counter.hpp"
 #include "qemu/emulator.hpp"
+#include "qemu/modelled_calls.hpp"
 #include "qemu/timing/timing_log.hpp"
 
 namespace qemu {
@@ -47,17 +48,6 @@ using Signals = std::vector<std::vector<double>>;
 struct ReplayedRow {
     glsum::Status status;
     std::uint64_t hash;  ///< of all outputs
-};
-
-/// What one core takes for a call, in modelled cycles: see targets/firmware/timed_calls.hpp for the calls.
-struct ModelledCall {
-    double cycles;  ///< the mean of the steady calls, with the nominal rules
-    double low;     ///< over the core file's rule sets, the nominal one included
-    double high;
-    double first_cycles;                            ///< of the call after `prepare`, caches and branch predictor cold
-    double worst_cycles;                            ///< of the timed calls once the past is full
-    std::array<double, timing::effect_count> lost;  ///< of `cycles`, to each effect
-    bool operator==(const ModelledCall&) const = default;
 };
 
 struct MeasuredRow {

@@ -9,10 +9,12 @@
 #include <set>
 #include <stdexcept>
 
+#include "glsum/computes_in_double.hpp"
 #include "qemu/answers.hpp"
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
+#include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
 
 namespace qemu {
@@ -21,7 +23,14 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
-constexpr std::uint64_t steady_steps = 32;
+constexpr std::uint64_t steady_steps = firmware::steady_steps;
+
+bool computes_in_double(const std::string& kernel) {
+    bool computes = false;
+    glsum::ModelKernels::for_each(
+        [&]<class K>() { computes |= K::name() == kernel && glsum::computes_in_double<K>(); });
+    return computes;
+}
 
 // Tables and inputs, each kept once however many rows have it.
 class Numbers {
@@ -45,12 +54,17 @@ std::string bits(double value) { return fmt::format("{:016x}", std::bit_cast<std
 
 std::string to_line(const PlannedModel& planned, Numbers& numbers) {
     const glsum::ModelDesign& design = *planned.design;
-    std::string line = fmt::format("{} {} {} {} {} {} {} {} {} {} {}", planned.kernel, design.increments ? 1 : 0,
-                                   design.delay, planned.steps, numbers.add(planned.input), bits(design.input),
-                                   bits(design.constant), bits(design.input_full_scale), bits(design.stored_full_scale),
-                                   bits(design.output_full_scale), design.tables.size());
+    std::string line =
+        fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", planned.kernel, design.increments ? 1 : 0,
+                    design.half_input ? 1 : 0, design.delay, planned.steps, numbers.add(planned.input),
+                    bits(design.input), bits(design.constant), bits(design.input_full_scale),
+                    bits(design.stored_full_scale), bits(design.output_full_scale), design.tables.size());
     for (const glsum::PastTable& table : design.tables) {
-        line += fmt::format(" {} {}", bits(table.factor), numbers.add(table.ratios));
+        // A mode is two numbers, and an empty piece lies anywhere.
+        static_assert(sizeof(glsum::Mode) == 2 * sizeof(double));
+        const std::span<const double> modes{table.modes.empty() ? nullptr : &table.modes[0].decay,
+                                            2 * table.modes.size()};
+        line += fmt::format(" {} {} {}", bits(table.factor), numbers.add(table.ratios), numbers.add(modes));
     }
     return line + "\n";
 }
@@ -113,17 +127,22 @@ std::filesystem::path model_elf(const Board& board) {
     return path;
 }
 
-std::vector<MeasuredRow> step_models(const Board& board, std::span<const PlannedModel> plan, const RowDone& done) {
+std::vector<MeasuredRow> step_models(const Board& board, std::span<const PlannedModel> plan, const RowDone& done,
+                                     const timing::TimingRequest& timing) {
+    if (!timing.cores.empty()) {
+        (void)timing::cores_of(timing);  // says what is wrong with it here, where it can be said well
+    }
     const std::filesystem::path elf_path = model_elf(board);
     const Elf elf(elf_path);
     const auto entries = entries_of(elf);
     const Scratch scratch;
     Numbers numbers;
     {
-        std::string text = fmt::format("glsum-model-1 {}\n", scratch.file("numbers").string());
+        std::string text = fmt::format("glsum-model-2 {}\n", scratch.file("numbers").string());
         for (const PlannedModel& planned : plan) {
-            if (planned.steps <= steady_steps) {
-                throw Failure(Exit::bad_input, "expected more than 32 steps to count");
+            if (planned.steps < firmware::least_timed_steps) {
+                throw Failure(Exit::bad_input,
+                              fmt::format("expected at least {} steps to count", firmware::least_timed_steps));
             }
             text += to_line(planned, numbers);
         }
@@ -135,11 +154,19 @@ std::vector<MeasuredRow> step_models(const Board& board, std::span<const Planned
         for (const auto& [name, entry] : entries) {
             watch << entry << '\n';
         }
+        const Marks marked = marks_of(elf);
+        std::ofstream(scratch.file("marks")) << fmt::format("{} {} {}\n", marked.row, marked.on, marked.off);
+        std::ofstream request(scratch.file("request"));
+        timing::write_timing_request(request, timing);
     }
     Answers answers(plan.size());
     std::vector<MeasuredRow> rows;
-    const std::string plugin = fmt::format("{},watch={},out={},stream=off", board.plugin.string(),
-                                           scratch.file("watch").string(), scratch.file("calls").string());
+    std::string plugin = fmt::format("{},watch={},out={},stream=off", board.plugin.string(),
+                                     scratch.file("watch").string(), scratch.file("calls").string());
+    if (!timing.cores.empty()) {
+        plugin += fmt::format(",marks={},timing={},times={}", scratch.file("marks").string(),
+                              scratch.file("request").string(), scratch.file("times").string());
+    }
     emulate(board.emulator, elf_path, {scratch.file("plan").string()}, plugin, [&](const std::string& line) {
         if (const auto row = answers.take_measured(line)) {
             rows.push_back(*row);
@@ -149,6 +176,7 @@ std::vector<MeasuredRow> step_models(const Board& board, std::span<const Planned
     answers.check_complete();
     std::ifstream log_file(scratch.file("calls"));
     const CallLog log = read_call_log(log_file);
+    std::ifstream times(scratch.file("times"));
     std::size_t run = 0;
     std::uint64_t used = 0;
     for (std::size_t i = 0; i < plan.size(); ++i) {
@@ -163,6 +191,15 @@ std::vector<MeasuredRow> step_models(const Board& board, std::span<const Planned
         }
         for (const Function* function : functions) {
             rows[i].code_bytes += function != nullptr ? function->bytes : 0;
+        }
+        if (!timing.cores.empty()) {
+            const timing::TimingLog log_of_row = timing::read_timing_log(times);
+            rows[i].cores = modelled_calls(
+                log_of_row, firmware::timed_steps(plan[i].steps, computes_in_double(plan[i].kernel)), plan[i].steps,
+                timing.cores.size(), rows[i].first.instructions, fmt::format("{} in steps of a model", plan[i].kernel));
+            for (const auto& [address, times_met] : log_of_row.unknown) {
+                rows[i].unknown_encodings.push_back(address);
+            }
         }
     }
     if (run != log.runs.size()) {
@@ -183,8 +220,8 @@ SteppedModel step_model_here(const PlannedModel& planned) {
         std::size_t coefficients = 1;
         std::size_t samples = 1;
         for (const glsum::PastTable& table : planned.design->tables) {
-            coefficients += Stepper::table_count(table.ratios.size());
-            samples += Stepper::past_count(table.ratios.size());
+            coefficients += Stepper::table_count(table);
+            samples += Stepper::past_count(table);
         }
         std::vector<typename K::Coefficient> table(coefficients);
         std::vector<typename K::Sample> past(samples);
@@ -203,6 +240,7 @@ SteppedModel step_model_here(const PlannedModel& planned) {
         }
         stepped.hash = hash.value();
         stepped.saturations = state.saturations;
+        stepped.multiplications = Stepper::multiplications(*planned.design);
     });
     if (!found) {
         throw std::out_of_range("no kernel for models is called " + planned.kernel);

@@ -25,7 +25,7 @@ template <class K>
         return modes_error_bound<K>(design, state, peak);
     } else if constexpr (Format::fixed_point) {
         return Technique::template fixed_error<Format>(design, state.scale, peak) +
-               std::ldexp(absolute_sum(design.order, design.taps), -Format::sample_bits - 1) +
+               std::ldexp(absolute_sum(design, design.taps), -Format::sample_bits - 1) +
                std::ldexp(1.0, state.scale.output_exponent - 32);
     } else {
         // (1 + data)^(coefficients + input) (1 + sum)^operations (1 + output) - 1
@@ -36,7 +36,7 @@ template <class K>
                               std::log1p(Format::output_roundoff));
         };
         double bound = growth(0);
-        Weights weights(design.order);
+        Weights weights(design);
         for (std::size_t j = 1; j < design.taps; ++j) {
             weights.next();
             bound += growth(j) * std::fabs(weights.weight());

@@ -26,17 +26,22 @@ struct Design {
     /// For a kernel whose history is `modes`: M exponentials behind the first K = L - 2M taps, K >= 1. Without any it
     /// ends where a window of L taps does. A kernel that keeps a window does not look at them. They are copied.
     std::span<const Mode> modes = {};
+    /// In place of the order's own weights, any others: a_1, a_2, ... as many as the taps before the modes need. So one
+    /// kernel sums the merged table of a model of several orders, or weights of another discretisation. Empty: those of
+    /// the order. The nested forms refuse a weight behind a zero. They are copied.
+    std::span<const double> weights = {};
 };
 
 /// Why `prepare` refused. Nothing else in a kernel can fail.
 enum class Status {
     ok,
-    order_out_of_range,  ///< not in (-2, 2], or not a number
-    no_taps,             ///< taps is 0
-    table_too_small,     ///< fewer coefficients than `table_count(taps)`
-    past_too_small,      ///< fewer samples than `past_count(taps)`
-    format_too_narrow,   ///< the coefficients of this order and length do not fit the format with any scale
-    modes_out_of_range,  ///< no tap is left beside the modes, or one that does not decay or is not a number
+    order_out_of_range,    ///< not in (-2, 2], or not a number
+    no_taps,               ///< taps is 0
+    table_too_small,       ///< fewer coefficients than `table_count(taps)`
+    past_too_small,        ///< fewer samples than `past_count(taps)`
+    format_too_narrow,     ///< the coefficients of this order and length do not fit the format with any scale
+    modes_out_of_range,    ///< no tap is left beside the modes, or one that does not decay or is not a number
+    weights_out_of_range,  ///< fewer weights than taps, one that is not a number, or one that the technique cannot nest
 };
 
 /// A kernel is a type without objects; what changes lives in its State, which the caller owns together with two

@@ -40,7 +40,7 @@ template <class K>
     using Format = typename K::FormatPart;
     const std::size_t near_taps = design.taps - 2 * design.modes.size();
     const std::size_t terms = near_taps + design.modes.size();  // of the sum, x_k included
-    Weights weights(design.order);
+    Weights weights(design);
     if constexpr (Format::fixed_point) {
         const double coefficient = std::ldexp(1.0, state.scale.table_exponent - Format::coefficient_bits - 1);
         double absolute = 1.0;

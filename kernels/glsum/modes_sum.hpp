@@ -67,6 +67,14 @@ struct Sum<Modes, Technique, Format> {
     static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
 
 private:
+    struct Averaged {
+        Sample average;
+        Sample lost;
+    };
+    [[gnu::always_inline]] static inline Averaged move(const Coefficient* of_mode, const Sample* average,
+                                                       Sample leaving);
+    [[gnu::always_inline]] static inline void keep(Sample* average, const Averaged& moved);
+
     static constexpr const auto& name_ = kernel_name<Modes, Technique, Format>;
 };
 

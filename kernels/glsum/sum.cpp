@@ -13,6 +13,34 @@ Status Null::prepare(State&, const Design& design, std::span<float>, std::span<f
 void Null::reset(State&) {}
 float Null::step(State&, float newest) { return newest; }
 
+namespace {
+
+bool is_magnitude_at_most(double real, double limit) { return real <= limit && real >= -limit; }
+
+// Whether the weights that a design names serve its first `count` taps behind a_0.
+template <class Technique, class Format>
+bool weights_in_range(const Design& design, std::size_t count) {
+    if (design.weights.empty()) {
+        return true;
+    }
+    constexpr bool nested = Technique::coefficient_roundings(2) == 2 || Technique::coefficient_roundings(5) == 2;
+    // How far nested sums of any weights reach is not known beforehand, as it is for those of an order.
+    if (design.weights.size() < count || (nested && Format::fixed_point)) {
+        return false;
+    }
+    Weights weights(design);
+    for (std::size_t j = 1; j <= count; ++j) {
+        weights.next();
+        constexpr double largest = std::numeric_limits<double>::max();
+        if (!is_magnitude_at_most(nested ? weights.factor() : weights.weight(), largest)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+}  // namespace
+
 template <class History, class Technique, class Format>
 Status Sum<History, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
                                                 std::span<Sample> past) {
@@ -21,6 +49,9 @@ Status Sum<History, Technique, Format>::prepare(State& state, const Design& desi
     }
     if (design.taps == 0) {
         return Status::no_taps;
+    }
+    if (!weights_in_range<Technique, Format>(design, design.taps - 1)) {
+        return Status::weights_out_of_range;
     }
     if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design.taps)) {
         return Status::table_too_small;
@@ -33,7 +64,7 @@ Status Sum<History, Technique, Format>::prepare(State& state, const Design& desi
         return status;
     }
     const std::size_t past_samples = design.taps - 1;
-    Technique::template fill<Format>(table.data(), past_samples, design.order, scale);
+    Technique::template fill<Format>(table.data(), past_samples, design, scale);
     state = {table.data(), past.data(), static_cast<std::uint32_t>(past_samples), 0, scale};
     reset(state);
     return Status::ok;
@@ -84,8 +115,6 @@ constexpr FixedDecay to_fixed(double decay) {
     return {round_to_integer<std::int32_t>(decay * power_of_two(shift)), shift};
 }
 
-bool is_magnitude_at_most(double real, double limit) { return real <= limit && real >= -limit; }
-
 }  // namespace
 
 template <class Technique, class Format>
@@ -100,6 +129,9 @@ Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design
     const std::size_t modes = design.modes.size();
     if (modes > (design.taps - 1) / 2) {
         return Status::modes_out_of_range;
+    }
+    if (!weights_in_range<Technique, Format>(design, design.taps - 1 - 2 * modes)) {
+        return Status::weights_out_of_range;
     }
     for (const Mode& mode : design.modes) {
         if (!(mode.decay > 0.0 && mode.decay <= 1.0) ||
@@ -126,7 +158,7 @@ Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design
     typename Format::Scale scale = {};
     if constexpr (Format::fixed_point) {
         const auto for_each_coefficient = [&](auto visit) {
-            Weights weights(design.order);
+            Weights weights(design);
             for (std::size_t j = 1; j <= near_samples; ++j) {
                 weights.next();
                 visit(weights.weight());
@@ -140,7 +172,7 @@ Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design
             return status;
         }
     }
-    Plain::fill<Format>(table.data(), near_samples, design.order, scale);
+    Plain::fill<Format>(table.data(), near_samples, design, scale);
     Coefficient* of_mode = table.data() + near_samples;
     for (std::size_t m = modes; m > 0; --m) {
         const Mode& mode = design.modes[m - 1];
@@ -171,43 +203,104 @@ void Sum<Modes, Technique, Format>::reset(State& state) {
     }
 }
 
+// s + d (x - s), with what the step lost before and loses now where that is kept.
+template <class Technique, class Format>
+auto Sum<Modes, Technique, Format>::move(const Coefficient* of_mode, const Sample* average, Sample leaving)
+    -> Averaged {
+    const Sample before = average[0];
+    if constexpr (Format::fixed_point) {
+        const std::int64_t step = std::int64_t{of_mode[0]} * leaving - std::int64_t{of_mode[0]} * before;
+        const std::int32_t shift = of_mode[1];
+        // In 64 bits: the step alone may leave 32 where the average does not.
+        return {static_cast<Sample>(before + ((step + (std::int64_t{1} << (shift - 1))) >> shift)), 0};
+    } else if constexpr (compensated) {
+        const Sample step = of_mode[0] * (leaving - before) + average[1];
+        const Sample after = before + step;
+        return {after, step - (after - before)};
+    } else {
+        return {before + of_mode[0] * (leaving - before), 0};
+    }
+}
+
+template <class Technique, class Format>
+void Sum<Modes, Technique, Format>::keep(Sample* average, const Averaged& moved) {
+    average[0] = moved.average;
+    if constexpr (compensated) {
+        average[1] = moved.lost;
+    }
+}
+
 template <class Technique, class Format>
 auto Sum<Modes, Technique, Format>::step(State& state, Sample newest) -> Output {
     const std::size_t near_samples = state.near_samples;
     const Coefficient* table = state.table;
     Sample* const past = state.past;
     auto sum = Format::start(newest, state.scale);
-    for (std::size_t i = 0; i < near_samples; ++i) {
-        sum = Format::multiply_add(sum, table[i], past[i]);
+    // What the near taps hold no longer when the next sample comes.
+    Sample leaving = newest;
+    if (near_samples != 0) {
+        for (std::size_t i = 0; i < near_samples; ++i) {
+            sum = Format::multiply_add(sum, table[i], past[i]);
+        }
+        leaving = past[near_samples - 1];
+        for (std::size_t i = near_samples - 1; i > 0; --i) {
+            past[i] = past[i - 1];
+        }
+        past[0] = newest;
     }
     table += near_samples;
-    // What the near taps hold no longer when the next sample comes.
-    const Sample leaving = near_samples == 0 ? newest : past[near_samples - 1];
     Sample* average = past + near_samples;
-    for (std::uint32_t m = state.modes; m > 0; --m) {
-        const Sample before = average[0];
-        sum = Format::multiply_add(sum, table[coefficients_of_mode - 1], before);
-        if constexpr (Format::fixed_point) {
-            const std::int64_t step = std::int64_t{table[0]} * leaving - std::int64_t{table[0]} * before;
-            const std::int32_t shift = table[1];
-            // In 64 bits: the step alone may leave 32 where the average does not.
-            average[0] = static_cast<Sample>(before + ((step + (std::int64_t{1} << (shift - 1))) >> shift));
-        } else if constexpr (compensated) {
-            const Sample step = table[0] * (leaving - before) + average[1];
-            const Sample after = before + step;
-            average[0] = after;
-            average[1] = step - (after - before);
-        } else {
-            average[0] = before + table[0] * (leaving - before);
-        }
+    const auto one_mode = [&]() __attribute__((always_inline)) {
+        const Averaged moved = move(table, average, leaving);
+        sum = Format::multiply_add(sum, table[coefficients_of_mode - 1], average[0]);
+        keep(average, moved);
         table += coefficients_of_mode;
         average += words_of_mode;
-    }
-    for (std::size_t i = near_samples; i > 1; --i) {
-        past[i - 1] = past[i - 2];
-    }
-    if (near_samples != 0) {
-        past[0] = newest;
+    };
+    if constexpr (Format::fixed_point) {
+        for (std::uint32_t left = state.modes; left != 0; --left) {
+            one_mode();
+        }
+    } else {
+        // Two at a time: no mode waits for another, and a core that issues in order has something to do between the
+        // steps of one. The sum still takes them one after the other.
+        const auto two_modes = [&]() __attribute__((always_inline)) {
+            const Sample first = average[0];
+            const Sample second = average[words_of_mode];
+            const Coefficient first_gain = table[coefficients_of_mode - 1];
+            const Coefficient second_gain = table[2 * coefficients_of_mode - 1];
+            const Averaged one = move(table, average, leaving);
+            const Averaged other = move(table + coefficients_of_mode, average + words_of_mode, leaving);
+            sum = Format::multiply_add(Format::multiply_add(sum, first_gain, first), second_gain, second);
+            keep(average, one);
+            keep(average + words_of_mode, other);
+            table += 2 * coefficients_of_mode;
+            average += 2 * words_of_mode;
+        };
+        if (state.modes % 2 != 0) {
+            one_mode();
+        }
+        // Into the middle of eight at a time: the end of a loop over a few modes is a branch that is guessed wrong at
+        // each step, a jump to the same place is not.
+        std::uint32_t pairs = state.modes / 2;
+        if (pairs != 0) {
+            switch (pairs % 4) {
+                do {
+                    case 0:
+                        two_modes();
+                        [[fallthrough]];
+                    case 3:
+                        two_modes();
+                        [[fallthrough]];
+                    case 2:
+                        two_modes();
+                        [[fallthrough]];
+                    case 1:
+                        two_modes();
+                        pairs = pairs > 4 ? (pairs - 1) / 4 * 4 : 0;
+                } while (pairs != 0);
+            }
+        }
     }
     return Format::finish(sum, state.scale);
 }

@@ -33,6 +33,12 @@ Pair two_product(double a, double b) {
 
 void Weights::next() {
     ++index_;
+    if (!named_.empty()) {
+        const double before = high_;
+        high_ = index_ <= named_.size() ? named_[index_ - 1] : 0.0;
+        factor_high_ = high_ == 0.0 ? 0.0 : high_ / before;
+        return;
+    }
     const double j = static_cast<double>(index_);
     // The numerator j - 1 - v exactly, as a pair.
     const Pair numerator = two_sum(j - 1.0, -order_);
@@ -50,8 +56,10 @@ void Weights::next() {
     low_ = weight.low;
 }
 
-double absolute_sum(double order, std::size_t taps) {
-    Weights weights(order);
+double absolute_sum(double order, std::size_t taps) { return absolute_sum(Design{order, taps}, taps); }
+
+double absolute_sum(const Design& design, std::size_t taps) {
+    Weights weights(design);
     double sum = 1.0;
     for (std::size_t j = 1; j < taps; ++j) {
         weights.next();

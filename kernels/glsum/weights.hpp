@@ -2,6 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+
+#include "glsum/kernel.hpp"
 
 namespace glsum {
 
@@ -16,6 +19,8 @@ namespace glsum {
 class Weights {
 public:
     explicit Weights(double order) : order_(order) {}
+    /// The weights that a design names, where it does: then `factor` is the quotient of two of them, 0 behind the last.
+    explicit Weights(const Design& design) : order_(design.order), named_(design.weights) {}
 
     void next();
     [[nodiscard]] double factor() const { return factor_high_; }
@@ -24,6 +29,7 @@ public:
 
 private:
     double order_;
+    std::span<const double> named_ = {};
     std::size_t index_ = 0;
     double factor_high_ = 1.0;
     double high_ = 1.0;
@@ -36,5 +42,7 @@ private:
 /// sum_{j=0..taps-1} |a_j|: by it the sum can exceed the largest input. 2 at most for 0 < v <= 1, 2v for
 /// 1 < v <= 2, growing as taps^-v for v < 0.
 [[nodiscard]] double absolute_sum(double order, std::size_t taps);
+/// The same of a design's first `taps` weights.
+[[nodiscard]] double absolute_sum(const Design& design, std::size_t taps);
 
 }  // namespace glsum

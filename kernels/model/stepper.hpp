@@ -9,6 +9,10 @@
 //
 //   x_k = input u_(k-1-d) - constant y_(k-1) - sum_i factor_i S_i,     y_k = y_(k-1) + x_k  or  x_k
 //
+// A scheme of second order takes (u_(k-1-d) + u_(k-d))/2 for u_(k-1-d): an input that jumps at a sample acts at it with
+// half of the jump. With a kernel that compensates, y too carries what its last addition lost ([Dekker1971]): in single
+// precision y else stops where an increment is below half a unit of its last place (4e-5 of model (12) at h = 1 ms).
+//
 // Range, floating point: as the kernel's. Fixed point: x is a fraction of the design's `stored_full_scale`, u of
 // `input_full_scale`; y is exact in 64 bits in increments. Overflow saturates and is counted.
 // Error: that of the scheme (first order in h), of the memory that is cut off, and of the format; measured, not
@@ -28,13 +32,17 @@ namespace glsum {
 
 /// One table of a model's past.
 struct PastTable {
-    double factor;                   ///< m_1 over the newest coefficient
-    std::span<const double> ratios;  ///< m_2/m_1, m_3/m_1, ...; the kernel has one tap more
+    double factor;                     ///< m_1 over the newest coefficient
+    std::span<const double> ratios;    ///< m_2/m_1, m_3/m_1, ...; the kernel has one tap more
+    std::span<const Mode> modes = {};  ///< of a kernel with modes: of what lies behind these, over m_1
+    /// What the kernel is prepared for.
+    [[nodiscard]] Design design() const { return {0.0, ratios.size() + 1 + 2 * modes.size(), modes, ratios}; }
 };
 
 /// A model as numbers, in double, computed once on the host: no power of h is taken on the target.
 struct ModelDesign {
     bool increments = true;
+    bool half_input = false;         ///< the mean of the inputs before and at a sample acts there: second order
     std::uint32_t delay = 0;         ///< whole steps
     double input = 1.0;              ///< gain over the newest coefficient
     double constant = 0.0;           ///< in increments: a of order 0 over the newest coefficient
@@ -68,20 +76,32 @@ public:
         std::int32_t output_shift;
         std::uint32_t tables;
         std::uint32_t increments;
+        std::uint32_t half_input;
         std::uint32_t saturations;
         Output output;
+        Output lost;  // of the output, by its last addition; compensated only
         Sample newest;
         Sample* line;  // inputs that wait for the dead time
         std::uint32_t line_length;
         std::uint32_t line_at;
     };
 
-    /// Coefficients and samples of the past that a table of `ratios` needs.
-    static constexpr std::size_t table_count(std::size_t ratios) { return K::table_count(ratios + 1); }
-    static constexpr std::size_t past_count(std::size_t ratios) { return K::past_count(ratios + 1); }
+    /// Coefficients and samples of the past that a table needs.
+    static constexpr std::size_t table_count(const PastTable& table) { return table_needed<K>(table.design()); }
+    static constexpr std::size_t past_count(const PastTable& table) { return past_needed<K>(table.design()); }
     static constexpr std::size_t line_count(std::uint32_t delay) { return std::size_t{delay} + 1; }
 
+    /// Multiplications of a step: those of the sums, and one for each of them, for the input and for y.
+    static std::size_t multiplications(const ModelDesign& design) {
+        std::size_t count = design.increments && design.constant != 0.0 ? 2 : 1;
+        for (const PastTable& table : design.tables) {
+            count += K::multiplications(table.design().taps) + 1;
+        }
+        return count;
+    }
+
     /// Fills the state and clears the past. `table` and `past` hold those of all tables, one after the other.
+    /// On failure the state is undefined.
     static Status prepare(State& state, const ModelDesign& design, std::span<Coefficient> table, std::span<Sample> past,
                           std::span<Sample> line);
     /// y_k for the next input u_k, which acts from the next sample on.
@@ -95,8 +115,9 @@ public:
     }
 };
 
-/// The kernels that models are stepped with.
+/// The kernels that models are stepped with. A model that names modes needs one with modes, and no other takes them.
 using ModelKernels = KernelList<Sum<Ring, Plain, F32>, Sum<Ring, Oldest, F32>, Sum<Mirror, Multi, F32>,
-                                Sum<Mirror, MultiFma, F32>, Sum<Ring, Plain, Q31>, Sum<Ring, Oldest, F64>>;
+                                Sum<Mirror, MultiFma, F32>, Sum<Ring, Plain, Q31>, Sum<Ring, Oldest, F64>,
+                                Sum<Modes, Plain, F32>, Sum<Modes, Compensated, F32>, Sum<Modes, Plain, Q31>>;
 
 }  // namespace glsum

@@ -8,9 +8,8 @@
 // Marks (marks.S) tell the timing model where a row begins and which of its calls it is to time.
 #include "cortex-m7/stack.hpp"
 #include "glsum/computes_in_double.hpp"
-#include "marks.hpp"
+#include "marker.hpp"
 #include "program.hpp"
-#include "timed_calls.hpp"
 #include "watched.hpp"
 
 extern "C" {
@@ -36,31 +35,6 @@ constexpr NamedCheck checks[] = {
     {"nested", glsum_check_nested},
 };
 
-// Marks the calls to time.
-class Marker {
-public:
-    explicit Marker(firmware::TimedCalls timed) : timed_(timed) {}
-    ~Marker() { switch_to(false); }
-    Marker(const Marker&) = delete;
-    Marker& operator=(const Marker&) = delete;
-    void before(std::size_t call) {
-        if (call == 0) {
-            glsum_mark_row();
-        }
-        switch_to(timed_.contains(call));
-    }
-
-private:
-    void switch_to(bool on) {
-        if (on != on_) {
-            (on ? glsum_mark_on : glsum_mark_off)();
-            on_ = on;
-        }
-    }
-    firmware::TimedCalls timed_;
-    bool on_ = false;
-};
-
 }  // namespace
 
 int firmware_main() {
@@ -77,7 +51,7 @@ int firmware_main() {
             typename K::State state;
             firmware::OutputHash hash;
             {
-                Marker marker({row.taps, glsum::computes_in_double<K>()});
+                firmware::Marker marker({row.taps, glsum::computes_in_double<K>()});
                 if (!firmware::run_row<K>(row, signal, answer, state, hash,
                                           [&](std::size_t call) { marker.before(call); })) {
                     return;

@@ -1,14 +1,17 @@
 // model: steps whole models, as a controller would. The host has designed them: factors and tables come as doubles, so
-// that no power is taken here. The plugin counts the steps from outside.
+// that no power is taken here. The plugin counts the steps from outside; marks tell the timing model which to time.
 //
-//   glsum-model-1 <path of the numbers>
-//   <kernel> <increments> <delay> <steps> <first input> <inputs> <input> <constant> <three full scales> <tables>
-//       { <factor> <first ratio> <ratios> } ...        one line a row; real numbers as their 64 bits in hex
+//   glsum-model-2 <path of the numbers>
+//   <kernel> <increments> <half input> <delay> <steps> <first input> <inputs> <input> <constant> <three full scales>
+//       <tables> { <factor> <first ratio> <ratios> <first of the modes> <twice their number> } ...
+//   one line a row; real numbers as their 64 bits in hex
 //
 // Numbers: one binary file, float64 little-endian; inputs are repeated. Answers, for `steps` steps and one more on a
 // painted stack:
 //   row <n> <status> <hash of the outputs> <bytes of stack> <bytes of state> <bytes of coefficients>
 #include "cortex-m7/stack.hpp"
+#include "glsum/computes_in_double.hpp"
+#include "marker.hpp"
 #include "model/stepper.hpp"
 #include "output_hash.hpp"
 #include "plan.hpp"
@@ -76,24 +79,43 @@ bool take_piece(std::string_view& plan, std::span<const double> numbers, std::sp
     return whole;
 }
 
+// Of all rows that are read: a row's tables point here until the next row is.
+glsum::Mode read_modes[glsum::most_tables][firmware::most_modes];
+
+bool take_modes(std::string_view& plan, std::span<const double> numbers, std::span<glsum::Mode> room,
+                std::span<const glsum::Mode>& modes) {
+    std::span<const double> piece;
+    if (!take_piece(plan, numbers, piece) || piece.size() % 2 != 0 || piece.size() / 2 > room.size()) {
+        return false;
+    }
+    for (std::size_t m = 0; m < piece.size() / 2; ++m) {
+        room[m] = {piece[2 * m], piece[2 * m + 1]};
+    }
+    modes = room.first(piece.size() / 2);
+    return true;
+}
+
 bool take_model(std::string_view& plan, std::span<const double> numbers, Row& row) {
     row.kernel = firmware::take_word(plan);
     unsigned increments = 0;
+    unsigned half_input = 0;
     std::size_t tables = 0;
     const auto word = [&](auto& value) { return firmware::to_number(firmware::take_word(plan), value); };
-    if (!word(increments) || !word(row.design.delay) || !word(row.steps) || !take_piece(plan, numbers, row.input) ||
-        !take_real(plan, row.design.input) || !take_real(plan, row.design.constant) ||
-        !take_real(plan, row.design.input_full_scale) || !take_real(plan, row.design.stored_full_scale) ||
-        !take_real(plan, row.design.output_full_scale) || !word(tables) || tables > glsum::most_tables ||
-        row.input.empty()) {
+    if (!word(increments) || !word(half_input) || !word(row.design.delay) || !word(row.steps) ||
+        !take_piece(plan, numbers, row.input) || !take_real(plan, row.design.input) ||
+        !take_real(plan, row.design.constant) || !take_real(plan, row.design.input_full_scale) ||
+        !take_real(plan, row.design.stored_full_scale) || !take_real(plan, row.design.output_full_scale) ||
+        !word(tables) || tables > glsum::most_tables || row.input.empty()) {
         return false;
     }
     for (std::size_t i = 0; i < tables; ++i) {
-        if (!take_real(plan, row.tables[i].factor) || !take_piece(plan, numbers, row.tables[i].ratios)) {
+        if (!take_real(plan, row.tables[i].factor) || !take_piece(plan, numbers, row.tables[i].ratios) ||
+            !take_modes(plan, numbers, read_modes[i], row.tables[i].modes)) {
             return false;
         }
     }
     row.design.increments = increments != 0;
+    row.design.half_input = half_input != 0;
     row.design.tables = {row.tables, tables};
     return true;
 }
@@ -111,8 +133,13 @@ void run_row(const Row& row, firmware::Answer& answer) {
     }
     firmware::OutputHash hash;
     const auto input = [&](std::size_t k) { return Stepper::from_real(row.design, row.input[k % row.input.size()]); };
-    for (std::size_t k = 0; k < row.steps; ++k) {
-        hash.add(Stepper::step(state, input(k)));
+    {
+        firmware::Marker marker(firmware::timed_steps(row.steps, glsum::computes_in_double<K>()));
+        for (std::size_t k = 0; k < row.steps; ++k) {
+            const auto next = input(k);
+            marker.before(k);
+            hash.add(Stepper::step(state, next));
+        }
     }
     const auto last = input(row.steps);
     typename Stepper::Output output;
@@ -121,8 +148,8 @@ void run_row(const Row& row, firmware::Answer& answer) {
     std::size_t coefficients = 0;
     std::size_t samples = Stepper::line_count(row.design.delay);
     for (const glsum::PastTable& table : row.design.tables) {
-        coefficients += Stepper::table_count(table.ratios.size());
-        samples += Stepper::past_count(table.ratios.size());
+        coefficients += Stepper::table_count(table);
+        samples += Stepper::past_count(table);
     }
     answer.number(hash.value(), 16);
     answer.number(stack);
@@ -145,8 +172,8 @@ int firmware_main() {
     firmware::take_word(command);
     const auto plan_file = port::read_file(firmware::take_word(command), plan_bytes);
     std::string_view plan{reinterpret_cast<const char*>(plan_file.data()), plan_file.size()};
-    if (firmware::take_word(plan) != "glsum-model-1") {
-        port::write("error: no plan of the form glsum-model-1\n");
+    if (firmware::take_word(plan) != "glsum-model-2") {
+        port::write("error: no plan of the form glsum-model-2\n");
         return 2;
     }
     const auto numbers = as<double>(port::read_file(firmware::take_word(plan), number_bytes));

@@ -48,4 +48,11 @@ struct TimedCalls {
     }
 };
 
+/// Of the steps of a model, which has no one length: the first, and of the last 32 the first few.
+inline constexpr std::size_t steady_steps = 32;
+inline constexpr std::size_t least_timed_steps = 100;  ///< so that what is timed beside these lies behind the last
+[[nodiscard]] constexpr TimedCalls timed_steps(std::size_t steps, bool software_double) {
+    return {steps - steady_steps - 1, software_double};
+}
+
 }  // namespace firmware

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "drive/response.hpp"
@@ -37,7 +38,7 @@ double largest_error(const drive::Model& model, const std::vector<double>& outpu
 
 // 5 s behind the dead time of 1 s.
 double error_of(Writing writing, std::size_t taps, const std::string& kernel) {
-    const drive::RealtimeModel model(plants::niopdt(), writing, taps, h);
+    const drive::RealtimeModel model(plants::niopdt(), writing, {taps}, h);
     return largest_error(plants::niopdt(), stepped(model, kernel, 6000));
 }
 
@@ -52,6 +53,72 @@ TEST(Realtime, IncrementsInSinglePrecisionReachWhatIsPromised) {
     EXPECT_LT(error_of(Writing::delta, 5001, "ring_plain_q31"), 6e-4);
 }
 
+// Full memory in single precision, for 60 s: errors against the exact response and multiplications a step.
+TEST(Realtime, AFewModesReachWhatIsPromised) {
+    struct Promise {
+        Writing writing;
+        drive::Memory memory;
+        const char* kernel;
+        double error;
+        std::size_t multiplications;
+    };
+    for (const Promise& promise : {Promise{Writing::delta, {16, 7}, "modes_plain_f32", 7e-4, 18},
+                                   Promise{Writing::bdf2, {23, 9}, "modes_plain_f32", 1e-4, 24},
+                                   Promise{Writing::bdf2, {27, 11}, "modes_compensated_f32", 2e-5, 32}}) {
+        const drive::RealtimeModel model(plants::niopdt(), promise.writing, promise.memory, h);
+        EXPECT_EQ(model.memory().text(), promise.memory.text());
+        const auto found = qemu::step_model_here({promise.kernel, &model.design(), ones, 61'000});
+        EXPECT_LE(found.multiplications, promise.multiplications) << promise.memory.text();
+        std::vector<std::size_t> at;
+        for (std::size_t k = 0; k <= 61'000; k += k < 3000 ? 1 : 50) {
+            at.push_back(k);
+        }
+        std::vector<double> time(at.size());
+        std::transform(at.begin(), at.end(), time.begin(), [](std::size_t k) { return static_cast<double>(k) * h; });
+        const auto exact = drive::respond(plants::niopdt(), std::vector<drive::Change>{{0.0, 1.0}}, time);
+        for (std::size_t i = 0; i < at.size(); ++i) {
+            ASSERT_NEAR(found.output[at[i]], exact[i], promise.error) << promise.memory.text() << " at " << time[i];
+        }
+    }
+}
+
+// Not a step alone: stairs up and down, and one back to rest, within the same errors of a step's height.
+TEST(Realtime, ModesHoldForOtherInputsToo) {
+    const std::vector<drive::Change> changes = {{0.0, 0.5}, {0.7, 0.5}, {2.1, -1.25}, {3.5, 0.25}, {9.0, 1.0}};
+    std::vector<double> input;
+    std::vector<double> time;
+    for (int k = 0; k <= 14'000; ++k) {
+        time.push_back(k * h);
+        double value = 0.0;
+        for (const drive::Change& change : changes) {
+            value += time.back() >= change.time_s - 1e-9 ? change.size : 0.0;
+        }
+        input.push_back(value);
+    }
+    const auto exact = drive::respond(plants::niopdt(), changes, time);
+    const auto off = [&](Writing writing, const drive::Memory& memory, const char* kernel) {
+        const drive::RealtimeModel model(plants::niopdt(), writing, memory, h);
+        const auto found = qemu::step_model_here({kernel, &model.design(), input, input.size() - 1}).output;
+        double largest = 0.0;
+        for (std::size_t k = 0; k < input.size(); ++k) {
+            largest = std::max(largest, std::fabs(found[k] - exact[k]));
+        }
+        return largest;
+    };
+    EXPECT_LT(off(Writing::delta, {16, 7}, "modes_plain_f32"), 2 * 7e-4);
+    EXPECT_LT(off(Writing::delta, {16, 7}, "modes_plain_q31"), 2 * 7e-4);
+    EXPECT_LT(off(Writing::bdf2, {23, 9}, "modes_plain_f32"), 2 * 1e-4);
+    EXPECT_LT(off(Writing::bdf2, {27, 11}, "modes_compensated_f32"), 2 * 2e-5);
+    // A window that a step would flatter.
+    EXPECT_GT(off(Writing::delta, {600}, "ring_plain_f32"), 5e-3);
+}
+
+// The second-order scheme itself, by windows of full memory: a hundredth of the first-order error.
+TEST(Realtime, Bdf2IsOfSecondOrder) {
+    EXPECT_LT(error_of(Writing::bdf2, 6001, "ring_oldest_f64"), 1e-5);
+    EXPECT_GT(error_of(Writing::delta, 6001, "ring_oldest_f64"), 5e-4);
+}
+
 TEST(Realtime, TheTextbookFormFailsInSinglePrecisionAndNotInDouble) {
     EXPECT_GT(error_of(Writing::merged, 5001, "ring_plain_f32"), 0.1);
     EXPECT_GT(error_of(Writing::apart, 5001, "ring_plain_f32"), 0.1);
@@ -63,7 +130,7 @@ TEST(Realtime, StepsTheSameSchemeAsTheSimulation) {
     for (const auto& plant : {plants::fopdt(), plants::sopdt(), plants::niopdt()}) {
         for (const Writing writing : {Writing::merged, Writing::delta, Writing::apart}) {
             for (const std::size_t taps : {3U, 50U, 400U}) {
-                const drive::RealtimeModel model(plant, writing, taps, h);
+                const drive::RealtimeModel model(plant, writing, {taps}, h);
                 const auto found = stepped(model, "ring_oldest_f64", 3000);
                 const auto expected =
                     drive::simulate(plant, {.step_s = h, .taps = taps, .increments = writing == Writing::delta},
@@ -78,17 +145,17 @@ TEST(Realtime, StepsTheSameSchemeAsTheSimulation) {
 }
 
 TEST(Realtime, WholeOrdersNeedNoMoreTermsThanTheyHave) {
-    EXPECT_EQ(drive::RealtimeModel(plants::fopdt(), Writing::delta, 600, h).taps(), 1U);
-    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::delta, 600, h).taps(), 2U);
-    EXPECT_EQ(drive::RealtimeModel(plants::fopdt(), Writing::merged, 600, h).taps(), 2U);
-    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::merged, 600, h).taps(), 3U);
-    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::apart, 600, h).design().tables.size(), 2U);
-    EXPECT_EQ(drive::RealtimeModel(plants::niopdt(), Writing::delta, 600, h).taps(), 600U);
+    EXPECT_EQ(drive::RealtimeModel(plants::fopdt(), Writing::delta, {600}, h).memory().taps, 1U);
+    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::delta, {600}, h).memory().taps, 2U);
+    EXPECT_EQ(drive::RealtimeModel(plants::fopdt(), Writing::merged, {600}, h).memory().taps, 2U);
+    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::merged, {600}, h).memory().taps, 3U);
+    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::apart, {600}, h).design().tables.size(), 2U);
+    EXPECT_EQ(drive::RealtimeModel(plants::niopdt(), Writing::delta, {600}, h).memory().taps, 600U);
 }
 
 // An input that goes against the scales as hard as it can: the sign of the impulse response, backward.
 TEST(Realtime, FixedPointHoldsWhateverTheInput) {
-    const drive::RealtimeModel model(plants::niopdt(), Writing::delta, 600, h);
+    const drive::RealtimeModel model(plants::niopdt(), Writing::delta, {600}, h);
     std::vector<double> worst;
     for (int k = 0; k < 4000; ++k) {
         worst.push_back(k % 7 < 3 ? 1.0 : -1.0);
@@ -107,12 +174,32 @@ TEST(Realtime, FixedPointHoldsWhateverTheInput) {
     }
 }
 
+// The published scheme's own warning: of second order with the first weights within the fit, it blows up.
+TEST(Realtime, ModesAreStableByTheSmallGainTheorem) {
+    const auto gain = [](Writing writing, const drive::Memory& memory) {
+        return drive::RealtimeModel(plants::niopdt(), writing, memory, h).loop_gain();
+    };
+    EXPECT_LT(gain(Writing::delta, {4, 1}), 0.9);
+    EXPECT_LT(gain(Writing::delta, {16, 7}), 0.04);
+    EXPECT_LT(gain(Writing::bdf2, {23, 9}), 0.01);
+    EXPECT_LT(gain(Writing::bdf2, {27, 11}), 0.002);
+    EXPECT_EQ(gain(Writing::delta, {600}), 0.0);
+    EXPECT_THROW((void)gain(Writing::bdf2, {22, 10}), glsum::Failure);
+    EXPECT_THROW((void)gain(Writing::bdf2, {23, 10}), glsum::Failure);
+}
+
 TEST(Realtime, RefusesWhatItCannotStep) {
     drive::Model model = plants::niopdt();
-    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, 0, h), glsum::Failure);
-    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, 10, 0.0), glsum::Failure);
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, {0}, h), glsum::Failure);
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, {10}, 0.0), glsum::Failure);
+    for (const Writing writing : {Writing::merged, Writing::apart}) {
+        EXPECT_THROW(drive::RealtimeModel(model, writing, {16, 7}, h), glsum::Failure);
+    }
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, {15, 7}, h), glsum::Failure);
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, {14, 7}, h), glsum::Failure);
+    EXPECT_EQ(drive::RealtimeModel(plants::sopdt(), Writing::delta, {16, 7}, h).memory().text(), "2");
     model.numerator = {{1.0, 0.5}, {1.0, 0.0}};
-    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, 10, h), glsum::Failure);
+    EXPECT_THROW(drive::RealtimeModel(model, Writing::delta, {10}, h), glsum::Failure);
     EXPECT_THROW((void)qemu::step_model_here({"ring_plain_f33", nullptr, ones, 100}), std::out_of_range);
 }
 

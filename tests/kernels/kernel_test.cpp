@@ -87,6 +87,45 @@ TYPED_TEST(KernelTest, WholeOrdersAreExact) {
     }
 }
 
+// Weights that no order has, as a merged table of several: they alone count, and a design that has too few of them, or
+// one that is none, is refused.
+TYPED_TEST(KernelTest, TakesNamedWeightsInPlaceOfThoseOfItsOrder) {
+    const std::vector<double> weights = {-0.75, 0.5, 0.25, -0.125, 0.375, -0.0625, 0.4375, -0.25, 0.125};
+    std::vector<typename TypeParam::Coefficient> table(TypeParam::table_count(10) + 1);
+    std::vector<typename TypeParam::Sample> past(TypeParam::past_count(10) + 1);
+    typename TypeParam::State state{};
+    const auto prepare = [&](std::span<const double> named, std::size_t taps) {
+        return TypeParam::prepare(state, {0.5, taps, {}, named}, table, past);
+    };
+    constexpr bool nested = TypeParam::TechniquePart::word.starts_with("horner");
+    constexpr bool refuses = nested && TypeParam::FormatPart::fixed_point;
+    for (const std::size_t taps : {2U, 3U, 6U, 10U}) {
+        const glsum::Design design{0.5, taps, {}, weights};
+        Line<TypeParam> line(design);
+        ASSERT_EQ(line.status(), refuses ? glsum::Status::weights_out_of_range : glsum::Status::ok);
+        if (refuses) {
+            continue;
+        }
+        const double bound = glsum::error_bound<TypeParam>(design, line.state(), 0.5);
+        for (std::size_t k = 0; k < 2 * taps + 3; ++k) {
+            const double expected = k == 0 ? 0.5 : k < taps ? 0.5 * weights[k - 1] : 0.0;
+            ASSERT_NEAR(line.step_real(k == 0 ? 0.5 : 0.0), expected, k < taps ? bound : 0.0) << taps << " " << k;
+        }
+    }
+    EXPECT_EQ(prepare(std::span(weights).first(8), 10), glsum::Status::weights_out_of_range);
+    for (const double none : {std::nan(""), static_cast<double>(INFINITY)}) {
+        std::vector<double> bad = weights;
+        bad[4] = none;
+        EXPECT_EQ(prepare(bad, 10), glsum::Status::weights_out_of_range);
+    }
+    std::vector<double> gap = weights;
+    gap[3] = 0.0;
+    EXPECT_EQ(prepare(gap, 10), nested ? glsum::Status::weights_out_of_range : glsum::Status::ok);
+    gap.assign(9, 0.0);
+    gap[0] = 0.5;  // nothing behind the last: that can be nested
+    EXPECT_EQ(prepare(gap, 10), refuses ? glsum::Status::weights_out_of_range : glsum::Status::ok);
+}
+
 TYPED_TEST(KernelTest, IsLinear) {
     const glsum::Design design{0.7, 77};
     Line<TypeParam> one(design);

@@ -86,7 +86,7 @@ struct Fixed {
     template <int accumulator_bits>
     static Status choose_scale(const Design& design, Scale& scale) {
         const auto for_each_weight = [&](auto visit) {
-            Weights weights(design.order);
+            Weights weights(design);
             for (std::size_t j = 1; j < design.taps; ++j) {
                 weights.next();
                 visit(weights.weight());
@@ -139,14 +139,14 @@ struct Fixed {
         if (design.taps > 40000) {
             return Status::format_too_narrow;
         }
-        Weights weights(design.order);
+        Weights weights(design);
         for (std::size_t j = 1; j < design.taps; ++j) {
             weights.next();
             // -1 fits, +1 does not.
             const bool fits = weights.factor() >= -1.0 && weights.factor() < 1.0 - power_of_two(-32);
             scale.table_exponent = fits ? scale.table_exponent : std::int8_t{1};
         }
-        const double absolute = absolute_sum(design.order, design.taps);
+        const double absolute = absolute_sum(design, design.taps);
         while (power_of_two(scale.output_exponent) * (1.0 + 1e-12) < absolute) {
             ++scale.output_exponent;
         }

@@ -22,9 +22,9 @@ struct Horner : WeightTable {
     }
 
     template <class Format>
-    static void fill(typename Format::Coefficient* table, std::size_t past, double order,
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
                      const typename Format::Scale& scale) {
-        Weights weights(order);
+        Weights weights(design);
         for (std::size_t i = 0; i < past; ++i) {
             weights.next();
             table[i] = Format::coefficient(weights.factor(), scale);
@@ -55,7 +55,7 @@ struct Horner : WeightTable {
         double of_weight = 0.0;  // error of the product that stands for a_j
         double before = 1.0;     // |a_(j-1)|
         double of_steps = 0.0;
-        Weights weights(design.order);
+        Weights weights(design);
         for (std::size_t j = 1; j < design.taps; ++j) {
             weights.next();
             const double factor = weights.factor() < 0.0 ? -weights.factor() : weights.factor();

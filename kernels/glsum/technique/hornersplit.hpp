@@ -24,9 +24,9 @@ struct HornerSplit : WeightTable {
     }
 
     template <class Format>
-    static void fill(typename Format::Coefficient* table, std::size_t past, double order,
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
                      const typename Format::Scale& scale) {
-        Weights weights(order);
+        Weights weights(design);
         double factors[chains] = {};  // the last four c_j
         for (std::size_t i = 0; i < past + chains; ++i) {
             weights.next();

@@ -33,7 +33,7 @@ struct Paired : WeightTable {
     }
 
     template <class Format>
-    static void fill(typename Format::Coefficient* table, std::size_t past, double order,
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
                      const typename Format::Scale& scale) {
         for (std::size_t i = 0; i < table_count<Format>(past); ++i) {
             table[i] = 0;
@@ -41,7 +41,7 @@ struct Paired : WeightTable {
         auto* second = table + 2 * aligned_words(past) + 1;
         const double unit = power_of_two(scale.table_exponent - Format::coefficient_bits);
         double lost = 0.0;
-        Weights weights(order);
+        Weights weights(design);
         for (std::size_t i = 0; i < past; ++i) {
             weights.next();
             const double wanted = weights.weight() + lost;

@@ -28,19 +28,19 @@ struct Scaled : WeightTable {
     static Status choose_scale(const Design& design, typename Format::Scale& scale) {
         const Status status = Format::template choose_scale<64>(design, scale);
         int shift = 0;
-        for_each_octave<Format>(design.taps - 1, design.order, scale,
+        for_each_octave<Format>(design.taps - 1, design, scale,
                                 [&](std::size_t, std::size_t, std::size_t, int of_octave) { shift = of_octave; });
         scale.output_shift = static_cast<std::int8_t>(scale.output_shift + shift);
         return status;
     }
 
     template <class Format>
-    static void fill(typename Format::Coefficient* table, std::size_t past, double order,
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
                      const typename Format::Scale& scale) {
         using Coefficient = typename Format::Coefficient;
-        Weights weights(order);
+        Weights weights(design);
         for_each_octave<Format>(
-            past, order, scale, [&](std::size_t octave, std::size_t from, std::size_t to, int shift) {
+            past, design, scale, [&](std::size_t octave, std::size_t from, std::size_t to, int shift) {
                 table[past + octave] = static_cast<Coefficient>(shift);
                 for (std::size_t j = from; j < to; ++j) {
                     weights.next();
@@ -73,7 +73,7 @@ struct Scaled : WeightTable {
     template <class Format>
     static double fixed_error(const Design& design, const typename Format::Scale& scale, double peak) {
         double units = 0.0;
-        for_each_octave<Format>(design.taps - 1, design.order, scale,
+        for_each_octave<Format>(design.taps - 1, design, scale,
                                 [&](std::size_t, std::size_t from, std::size_t to, int shift) {
                                     units += static_cast<double>(to - from) * power_of_two(-shift);
                                 });
@@ -91,9 +91,10 @@ private:
     // that shifts do not fall and the sum is only ever shifted up. At most 24, which with 30 bits of fraction and 9 of
     // sum stays within 63.
     template <class Format, class Visit>
-    static void for_each_octave(std::size_t past, double order, const typename Format::Scale& scale, Visit visit) {
+    static void for_each_octave(std::size_t past, const Design& design, const typename Format::Scale& scale,
+                                Visit visit) {
         double largest[33] = {};  // from an octave on
-        Weights weights(order);
+        Weights weights(design);
         for (std::size_t octave = 0; octave < octaves(past); ++octave) {
             for (std::size_t j = weights.index() + 1; j < end_of(octave, past); ++j) {
                 weights.next();

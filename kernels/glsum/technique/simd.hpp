@@ -40,9 +40,9 @@ struct Simd : WeightTable {
 
     /// a_1 ... a_past, then zeros up to a whole block.
     template <class Format>
-    static void fill(typename Format::Coefficient* table, std::size_t past, double order,
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
                      const typename Format::Scale& scale) {
-        WeightTable::fill<Format>(table, past, order, scale);
+        WeightTable::fill<Format>(table, past, design, scale);
         for (std::size_t i = past; i < table_count<Format>(past); ++i) {
             table[i] = 0;
         }

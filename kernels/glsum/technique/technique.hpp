@@ -5,7 +5,7 @@
 //   contiguous_only                   whether it needs a history that gives one contiguous piece
 //   table_count<Format>(past)         coefficients it keeps for `past` past samples
 //   overread<Format>                  samples beyond the window that it may load (and multiply by zero)
-//   fill<Format>(table, past, order, scale)
+//   fill<Format>(table, past, design, scale)
 //   choose_scale<Format>(design, scale)
 //   sum<Format>(table, window, x_k, scale)            -> the accumulator, or, where it also keeps the past,
 //   sum_and_push<Format>(table, samples, past, x_k, scale)
@@ -38,9 +38,9 @@ struct WeightTable {
     static constexpr std::size_t overread = 0;
 
     template <class Format>
-    static void fill(typename Format::Coefficient* table, std::size_t past, double order,
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
                      const typename Format::Scale& scale) {
-        Weights weights(order);
+        Weights weights(design);
         for (std::size_t i = 0; i < past; ++i) {
             weights.next();
             table[i] = Format::coefficient(weights.weight(), scale);
