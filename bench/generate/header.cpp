@@ -304,6 +304,24 @@ std::string step_body(const KernelData& data, std::size_t past) {
     return std::string(has_head ? "    size_t head = S->head;\n" : "") + (has_index ? "    size_t i;\n" : "") + body;
 }
 
+// The Cortex-M7's own loop of this name, where the body takes one.
+std::string m7_loop_of(const std::string& name) {
+    const auto loop =
+        std::find_if(std::begin(m7_loops), std::end(m7_loops), [&](const M7Loop& one) { return one.name == name; });
+    if (loop == std::end(m7_loops)) {
+        return "";
+    }
+    std::string text(loop->text);
+    constexpr std::string_view ours = "GLSUM_";
+    for (std::size_t at = 0; (at = text.find(ours, at)) != std::string::npos;) {
+        text.replace(at, ours.size(), "@NAME@_");
+    }
+    return fmt::format(
+        "\n#if defined(__ARM_ARCH_7EM__) && defined(__GNUC__)\n#define @NAME@_M7\n{}@NAME@_STEP_ATTRIBUTES\n"
+        "@NAME@_{}(@name@_{}{})\n#endif\n",
+        text, loop->macro, loop->name, loop->arguments);
+}
+
 // The helpers that the body calls, and those that they call, in the order of their definition.
 std::string helpers_of(const KernelData& data, const std::string& body) {
     std::string used = body;
@@ -421,6 +439,7 @@ std::string make_header(const Spec& spec) {
     }
     text += fill(instance, places);
     text += uses && data.pairs ? fill(dsp, places) : "";
+    text += uses ? fill(m7_loop_of(data.technique_text.m7), places) : "";
     text += fill(helpers_of(data, body), places);
     return text + fill(step, places) + fill(self_check, places);
 }

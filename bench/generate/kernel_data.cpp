@@ -40,18 +40,22 @@ constexpr bool can_generate<glsum::Sum<H, T, F>> =
                                                    glsum::Q15C31>;
 
 template <class Technique>
-TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
+TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts, bool q31,
+                      bool f32) {
     using namespace glsum;
     if constexpr (one_of<Technique, Plain, PlainFma>) {
         return plain_text(history, std::is_same_v<Technique, PlainFma>);
     } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
         return oldest_text(history, std::is_same_v<Technique, OldestFma>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {
-        return multi_text(history, past, std::is_same_v<Technique, MultiFma>);
+        return multi_text(history, past, std::is_same_v<Technique, MultiFma>,
+                          q31                                           ? "dot_smlal"
+                          : f32 && !std::is_same_v<Technique, MultiFma> ? "dot_floats"
+                                                                        : "");
     } else if constexpr (one_of<Technique, Horner, HornerFma>) {
         return horner_text(history, std::is_same_v<Technique, HornerFma>);
     } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {
-        return horner_split_text(history, std::is_same_v<Technique, HornerSplitFma>);
+        return horner_split_text(history, past, std::is_same_v<Technique, HornerSplitFma>);
     } else if constexpr (one_of<Technique, Fir, FirFma>) {
         return fir_text(std::is_same_v<Technique, FirFma>);
     } else if constexpr (std::is_same_v<Technique, Compensated>) {
@@ -140,7 +144,8 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.design_error =
             data.modes == 0 ? 0.0 : glsum::modes::approximate({order, horizon}, data.past + 1, data.modes).error;
     } else {
-        data.technique_text = text_of<Technique>(data.history_text, past, shifts);
+        data.technique_text = text_of<Technique>(data.history_text, past, shifts, std::is_same_v<Format, glsum::Q31>,
+                                                 std::is_same_v<Format, glsum::F32>);
     }
     if constexpr (Format::fixed_point) {
         data.scale = {Format::sample_bits, Format::coefficient_bits, state.scale.table_exponent,

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -40,7 +41,17 @@ struct TechniqueText {
     bool pushes = false;  ///< whether they store `newest` too
     bool pairs = false;   ///< needs the words of two samples
     bool fused = false;   ///< needs a fused multiply-add
+    std::string m7 = {};  ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
 };
+
+/// A file of kernels/glsum/m7, which a header holds as it is but for its names.
+struct M7Loop {
+    std::string_view name;       ///< of the function behind @name@_
+    std::string_view macro;      ///< that makes it
+    std::string_view arguments;  ///< of the macro behind the function's name
+    std::string_view text;
+};
+extern const M7Loop m7_loops[4];
 
 /// How a format is written.
 struct FormatText {
@@ -57,9 +68,10 @@ struct FormatText {
 
 [[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
-[[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused);
+/// \param m7  the loop that gives the same bits; empty: none
+[[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, const std::string& m7);
 [[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused);
-[[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused);
 [[nodiscard]] TechniqueText fir_text(bool fused);
 [[nodiscard]] TechniqueText compensated_text(const HistoryText& history);
 [[nodiscard]] TechniqueText paired_text(bool wide);

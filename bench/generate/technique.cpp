@@ -43,6 +43,11 @@ std::string oldest_first(const HistoryText& history, const std::string& body, co
 
 std::string accumulate(bool fused) { return fused ? "@name@_fused_multiply_add" : "@name@_multiply_add"; }
 std::string nest(bool fused) { return fused ? "@name@_fused_nest" : "@name@_nest"; }
+// `body`, but on a Cortex-M7 what gives the same by a loop of its own.
+std::string or_on_m7(const std::string& on_m7, const std::string& body) {
+    return "#if defined(@NAME@_M7)\n" + on_m7 + "#else\n" + body + "#endif\n";
+}
+
 std::string rounded_once(bool fused) { return fused ? ", product and addition rounded once" : ""; }
 
 }  // namespace
@@ -62,7 +67,7 @@ TechniqueText oldest_text(const HistoryText& history, bool fused) {
             .fused = fused};
 }
 
-TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused) {
+TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, const std::string& m7) {
     // A past of fewer than four has no groups: loops over them would only make compilers warn.
     const bool groups = past >= 4;
     const auto add = [&](int chain, int indent) {
@@ -88,12 +93,27 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
         pieces += "    {\n" + pointers(piece.begin, piece.from) + "        const size_t count = (size_t)(" + piece.end +
                   " - x);\n" + body + "    }\n";
     }
+    std::string sum =
+        "    @accumulator@ sum;\n    @accumulator@ s0 = 0;\n"
+        "    @accumulator@ s1 = 0;\n    @accumulator@ s2 = 0;\n    @accumulator@ s3 = 0;\n" +
+        pieces + "    sum = @name@_start(newest) + ((s0 + s1) + (s2 + s3));\n";
+    const bool on_m7 = !m7.empty() && past >= 16;  // a shorter loop over a constant costs less than to enter the other
+    if (on_m7) {
+        const bool floats = m7 == "dot_floats";
+        std::string own = floats ? "    float sum;\n    float s[4] = {0.0F, 0.0F, 0.0F, 0.0F};\n"
+                                 : "    @accumulator@ sum = @name@_start(newest);\n";
+        own += groups ? "    (void)i;\n" : "";
+        for (const Piece& piece : history.pieces) {
+            own += "    {\n" + pointers(piece.begin, piece.from) + (floats ? "        " : "        sum += ") +
+                   "@name@_" + m7 + (floats ? "(s, " : "(") + "a, x, (size_t)(" + piece.end + " - x));\n    }\n";
+        }
+        own += floats ? "    sum = @name@_start(newest) + ((s[0] + s[1]) + (s[2] + s[3]));\n" : "";
+        sum = or_on_m7(own, sum);
+    }
     return {.summary = "newest first, four accumulators in turn" + rounded_once(fused),
-            .sum =
-                "    @accumulator@ sum;\n    @accumulator@ s0 = 0;\n"
-                "    @accumulator@ s1 = 0;\n    @accumulator@ s2 = 0;\n    @accumulator@ s3 = 0;\n" +
-                pieces + "    sum = @name@_start(newest) + ((s0 + s1) + (s2 + s3));\n",
-            .fused = fused};
+            .sum = sum,
+            .fused = fused,
+            .m7 = on_m7 ? m7 : ""};
 }
 
 TechniqueText compensated_text(const HistoryText& history) {
@@ -118,11 +138,13 @@ TechniqueText horner_text(const HistoryText& history, bool fused) {
             .fused = fused};
 }
 
-TechniqueText horner_split_text(const HistoryText& history, bool fused) {
+TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused) {
+    const bool on_m7 = past >= 64 && !fused;
     std::string chains;
     for (int chain = 0; chain < 4; ++chain) {
         chains += fmt::format("        t{0} = {1}(x[i + {0}U], a[i + {2}U], t{0});\n", chain, nest(fused), chain + 4);
     }
+    const std::string loop = "    while (i > 0U) {\n        i -= 4U;\n" + chains + "    }\n";
     return {
         .summary = "nested in four chains, each of every fourth sample" + rounded_once(fused),
         .sum = "    const @sample@ *x = " + history.pieces.front().begin +
@@ -136,13 +158,17 @@ TechniqueText horner_split_text(const HistoryText& history, bool fused) {
                "(@accumulator@)0;\n"
                "    @accumulator@ t3 = 0;\n"
                "    @accumulator@ sum;\n"
-               "    i = @NAME@_PAST - @NAME@_PAST % 4U;\n"
-               "    while (i > 0U) {\n        i -= 4U;\n" +
-               chains +
-               "    }\n"
+               "    i = @NAME@_PAST - @NAME@_PAST % 4U;\n" +
+               (on_m7 ? or_on_m7(
+                            "    {\n        float t[4] = {0.0F, 0.0F, 0.0F, 0.0F};\n        t[0] = t0;\n        t[1] = "
+                            "t1;\n        t[2] = t2;\n        @name@_nest_floats(t, a, x, i / 4U);\n        t0 = "
+                            "t[0];\n        t1 = t[1];\n        t2 = t[2];\n        t3 = t[3];\n    }\n",
+                            loop)
+                      : loop) +
                "    sum = @name@_start(newest) + ((@name@_product(a[0], t0) + @name@_product(a[1], t1)) +\n"
                "                                  (@name@_product(a[2], t2) + @name@_product(a[3], t3)));\n",
-        .fused = fused};
+        .fused = fused,
+        .m7 = on_m7 ? "nest_floats" : ""};
 }
 
 TechniqueText fir_text(bool fused) {
@@ -165,6 +191,8 @@ TechniqueText fir_text(bool fused) {
 
 TechniqueText paired_text(bool wide) {
     const std::string word = wide ? "smlald" : "smlad";
+    const std::string loop = "    for (i = 0; i < words; ++i) {\n        sum = @name@_" + word +
+                             "(a[i], @name@_load_pair(x + 2U * i), sum);\n    }\n";
     return {.summary = std::string("two products an instruction, into ") + (wide ? "64" : "32") + " bits",
             .sum =
                 "    /* Words are read from even samples: a window that begins in the middle of a word has a table of "
@@ -175,12 +203,9 @@ TechniqueText paired_text(bool wide) {
                 "    const size_t words = middle ? @NAME@_SHIFTED : @NAME@_ALIGNED;\n" +
                 std::string(wide ? "    int64_t sum = @name@_start(newest);\n"
                                  : "    int32_t sum = (int32_t)@name@_start(newest);\n") +
-                "    for (i = 0; i < words; ++i) {\n"
-                "        sum = @name@_" +
-                word +
-                "(a[i], @name@_load_pair(x + 2U * i), sum);\n"
-                "    }\n",
-            .pairs = true};
+                (wide ? or_on_m7("    (void)i;\n    sum += @name@_dot_smlald(a, x, words);\n", loop) : loop),
+            .pairs = true,
+            .m7 = wide ? "dot_smlald" : ""};
 }
 
 TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts) {
@@ -220,18 +245,21 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
             "    for (i = 0U; i < @NAME@_PAST; ++i) {\n"
             "        sum = @name@_multiply_add(sum, @name@_table[i], S->past[i]);\n    }\n";
     }
+    // As the kernel does: no mode waits for another.
+    const char* const unrolled =
+        "#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8\n#pragma GCC unroll 8\n#endif\n";
     const std::string step = fixed ? fixed_step : compensated ? compensated_step : floating_step;
     text += modes == 0 ? ""
                        : fmt::format(
                              "    {{\n        const @sample@ leaving = {};\n"
                              "        const @coefficient@ *mode = @name@_table + @NAME@_PAST;\n"
                              "        @sample@ *average = S->past + @NAME@_PAST;\n"
-                             "        for (i = @NAME@_MODES; i > 0U; --i) {{\n"
+                             "{}        for (i = @NAME@_MODES; i > 0U; --i) {{\n"
                              "            const @sample@ before = average[0];\n{}"
                              "            sum = @name@_multiply_add(sum, mode[{}], before);\n"
                              "            mode += {};\n            average += {};\n        }}\n    }}\n",
-                             near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest", step, fixed ? 2 : 1,
-                             fixed ? 3 : 2, compensated ? 2 : 1);
+                             near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest", fixed ? "" : unrolled, step,
+                             fixed ? 2 : 1, fixed ? 3 : 2, compensated ? 2 : 1);
     if (near_samples > 1) {
         text += R"(    for (i = @NAME@_PAST - 1U; i > 0U; --i) {
         @moved@ moved = S->past[i - 1U];

@@ -1,10 +1,28 @@
 // The instructions of the Armv7E-M DSP extension that kernels use, with the same result in portable C++ elsewhere.
 #pragma once
 
+#include <stdint.h>
+
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
+#if defined(__ARM_ARCH_7EM__) && defined(__GNUC__)
+/// Where there are loops in the order of a Cortex-M7's issue slots: the same sums, bit by bit.
+#define GLSUM_M7
+#include "glsum/m7/dot_floats.h"
+#include "glsum/m7/dot_words.h"
+#include "glsum/m7/nest_floats.h"
+#endif
+
 namespace glsum::dsp {
+
+#if defined(GLSUM_M7)
+GLSUM_DOT_WORDS(dot_smlal, "smlal")
+GLSUM_DOT_WORDS(dot_smlald, "smlald")
+GLSUM_DOT_FLOATS(dot_floats)
+GLSUM_NEST_FLOATS(nest_floats)
+#endif
 
 /// Two 16-bit numbers as one word; the lower address in the lower half (little-endian).
 [[nodiscard]] inline std::int32_t load_pair(const std::int16_t* pair) {

@@ -112,7 +112,7 @@ TEST_F(FirmwareTest, CountsAreThoseOfTheLoopsAndDoNotDependOnTheRunner) {
             EXPECT_LE(row.branches, 99.0 + 5);
         }
         if (plan[i].kernel == "mirror_smlald_q15" && plan[i].taps == 100) {
-            EXPECT_LT(row.loads, 99.0 + 25);  // two samples a load
+            EXPECT_LT(row.loads, 99.0 + 40);  // two samples a load, and what is kept of the caller's
         }
     }
 }

@@ -71,10 +71,10 @@ protected:
     static std::string text(const std::string& selector) {
         return run("return document.querySelector(arguments[0]).textContent", Json::array({selector}));
     }
-    // For a person to read: times are no test.
+    // For a person to read: times are no test. -1: the browser has not said yet when it painted.
     static void print_times(const char* what) {
         const Json times =
-            run("return [performance.getEntriesByName('first-contentful-paint')[0].startTime,"
+            run("return [(performance.getEntriesByName('first-contentful-paint')[0] || {startTime: -1}).startTime,"
                 "performance.getEntriesByType('navigation')[0].domContentLoadedEventEnd]");
         std::printf("%s: first paint after %.0f ms, all drawn after %.0f ms\n", what, times[0].get<double>(),
                     times[1].get<double>());

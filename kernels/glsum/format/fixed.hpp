@@ -48,7 +48,10 @@ struct Rounded {
     constexpr std::int64_t lowest = std::numeric_limits<std::int32_t>::min();
     constexpr std::int64_t highest = std::numeric_limits<std::int32_t>::max();
     std::int64_t value = sum;
-    if (shift > 0) {
+    if (shift == 32) {
+        // The common case of q31: the upper word and the bit below it.
+        value = static_cast<std::int32_t>(sum >> 32) + static_cast<std::int64_t>(static_cast<std::uint32_t>(sum) >> 31);
+    } else if (shift > 0) {
         // Not (sum + half) >> shift: sum + half may leave the 64 bits.
         value = ((sum >> (shift - 1)) + 1) >> 1;
     } else if (shift < 0) {
@@ -159,7 +162,10 @@ struct Fixed {
     }
 
     static Accumulator start(Sample sample, const Scale& scale) {
-        return static_cast<std::int64_t>(sample) * (std::int64_t{1} << (coefficient_bits - scale.table_exponent));
+        // By a product of 32 bits, which -2^31 fits and 2^31 does not: a shift of 64 bits takes ten instructions.
+        const auto minus_one =
+            static_cast<std::int32_t>(0U - (std::uint32_t{1} << (coefficient_bits - scale.table_exponent)));
+        return -(static_cast<std::int64_t>(sample) * minus_one);
     }
     static Accumulator zero() { return 0; }
     static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) {

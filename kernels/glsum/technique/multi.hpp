@@ -1,11 +1,14 @@
 // multi, multifma: newest first into four accumulators in turn, joined as (s_0 + s_1) + (s_2 + s_3), x_k last.
 // Four independent chains: a Cortex-M7 needs three to start a multiply-accumulate each cycle [jnk0le], and a term
-// passes a quarter of the additions.
+// passes a quarter of the additions. On a Cortex-M7 f32 and q31 take the taps in the order of its issue slots, with the
+// same bits (glsum/m7/).
 #pragma once
 
 #include <cstddef>
 #include <string_view>
+#include <type_traits>
 
+#include "glsum/dsp.hpp"
 #include "glsum/history/window.hpp"
 #include "glsum/technique/technique.hpp"
 
@@ -36,6 +39,24 @@ protected:
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
         using Sample = typename Format::Sample;
+#if defined(GLSUM_M7)
+        constexpr bool floats = std::is_same_v<typename Format::Accumulator, float> && !fused;
+        constexpr bool words = Format::fixed_point && sizeof(Sample) == 4 && sizeof(typename Format::Coefficient) == 4;
+        if constexpr (floats) {
+            float s[chains] = {};
+            dsp::dot_floats(s, table, window.newer, window.newer_count);
+            if (window.older_count != 0) {
+                dsp::dot_floats(s, table + window.newer_count, window.older, window.older_count);
+            }
+            return Format::start(newest, scale) + ((s[0] + s[1]) + (s[2] + s[3]));
+        } else if constexpr (words) {
+            auto sum = Format::start(newest, scale) + dsp::dot_smlal(table, window.newer, window.newer_count);
+            if (window.older_count != 0) {
+                sum += dsp::dot_smlal(table + window.newer_count, window.older, window.older_count);
+            }
+            return sum;
+        }
+#endif
         auto s0 = Format::zero();
         auto s1 = Format::zero();
         auto s2 = Format::zero();

@@ -61,11 +61,17 @@ struct Paired : WeightTable {
                                             typename Format::Sample newest, const typename Format::Scale& scale) {
         static_assert(sizeof(typename Format::Sample) == 2 && sizeof(typename Format::Coefficient) == 2);
         const std::size_t past = window.newer_count;
-        const bool in_the_middle = (window.first_index & 1U) != 0;
-        const auto* coefficients = in_the_middle ? table + 2 * aligned_words(past) : table;
-        const auto* samples = in_the_middle ? window.newer - 1 : window.newer;
-        const std::size_t words = in_the_middle ? shifted_words(past) : aligned_words(past);
+        // Whether the window begins in the middle of a word: at every other step, so no branch.
+        const std::size_t middle = window.first_index & 1U;
+        const auto* coefficients = table + middle * 2 * aligned_words(past);
+        const auto* samples = window.newer - middle;
+        const std::size_t words = (past + 1 + middle) / 2;
         auto sum = static_cast<Sum>(Format::start(newest, scale));
+#if defined(GLSUM_M7)
+        if constexpr (sizeof(Sum) == 8) {
+            return sum + dsp::dot_smlald(coefficients, samples, words);
+        }
+#endif
         for (std::size_t i = 0; i < words; ++i) {
             const auto a = dsp::load_pair(coefficients + 2 * i);
             const auto x = dsp::load_pair(samples + 2 * i);

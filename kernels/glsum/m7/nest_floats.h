@@ -1,0 +1,68 @@
+/* Nested sums of floats in four chains, in the order of a Cortex-M7's issue slots. C99 and C++; generated headers hold this
+ * very text.
+ *
+ *   void name(float chains[4], const float *c, const float *x, size_t groups)
+ *     for i = groups - 1 ... 0:  chains[r] = x[4 i + r] + c[4 i + 4 + r] chains[r],  r = 0 ... 3
+ *
+ * Product and sum are rounded each: the bits are those of the loop in C.
+ *
+ * A group of four is eight cycles, sixteen issue slots with nothing lost: four products beside the loads of the samples
+ * that are added to them, four sums beside the loads of the factors of the group before. No chain waits: a product and
+ * a sum of it are there four cycles later. Sixteen groups a turn; the first turn is entered in its middle. Reads
+ * c[0 ... 3] too, which the last group needs no more.
+ *
+ * Basic assembly in a function without prologue: compilers take it to read and write any memory. */
+#define GLSUM_NEST_FLOATS(name)                                                                         \
+    __attribute__((naked, noinline, aligned(8), unused)) static void name(                              \
+        float *chains __attribute__((unused)), const float *c __attribute__((unused)),                  \
+        const float *x __attribute__((unused)), size_t groups __attribute__((unused)))                  \
+    {                                                                                                   \
+        __asm__ volatile(                                                                               \
+            "cmp r3, #0\n"                                                                              \
+            "beq.w 3f\n"                                                                                \
+            "push {r0, r4, r5, lr}\n"                                                                   \
+            "rsb r4, r3, #0\n" /* groups that the first turn leaves out, 64 bytes of code each */       \
+            "add.w r5, r1, r3, lsl #4\n"                                                                \
+            "and r4, r4, #15\n"                                                                         \
+            "vldmia r0, {s0-s3}\n"                                                                      \
+            "add.w r3, r3, #15\n"                                                                       \
+            "adr r12, 2f\n"                                                                             \
+            "lsr.w r3, r3, #4\n"                                                                        \
+            "vldmia r5, {s8-s11}\n"                                                                     \
+            "sub.w r5, r3, #1\n"                                                                        \
+            "add r12, r12, r4, lsl #6\n"                                                                \
+            "add r1, r1, r5, lsl #8\n"                                                                  \
+            "add.w r12, r12, #1\n"                                                                      \
+            "add r2, r2, r5, lsl #8\n"                                                                  \
+            "bx r12\n"                                                                                  \
+            ".balign 8\n"                                                                               \
+            "2:\n"                                                                                      \
+            ".set .Lgroup, 240\n"                                                                       \
+            ".rept 16\n"                                                                                \
+            "vmul.f32 s0, s0, s8\n"                                                                     \
+            "vldr s4, [r2, #.Lgroup]\n"                                                                 \
+            "vmul.f32 s1, s1, s9\n"                                                                     \
+            "vldr s5, [r2, #.Lgroup + 4]\n"                                                             \
+            "vmul.f32 s2, s2, s10\n"                                                                    \
+            "vldr s6, [r2, #.Lgroup + 8]\n"                                                             \
+            "vmul.f32 s3, s3, s11\n"                                                                    \
+            "vldr s7, [r2, #.Lgroup + 12]\n"                                                            \
+            "vadd.f32 s0, s4, s0\n"                                                                     \
+            "vldr s8, [r1, #.Lgroup]\n"                                                                 \
+            "vadd.f32 s1, s5, s1\n"                                                                     \
+            "vldr s9, [r1, #.Lgroup + 4]\n"                                                             \
+            "vadd.f32 s2, s6, s2\n"                                                                     \
+            "vldr s10, [r1, #.Lgroup + 8]\n"                                                            \
+            "vadd.f32 s3, s7, s3\n"                                                                     \
+            "vldr s11, [r1, #.Lgroup + 12]\n"                                                           \
+            ".set .Lgroup, .Lgroup - 16\n"                                                              \
+            ".endr\n"                                                                                   \
+            "subs r3, r3, #1\n"                                                                         \
+            "sub.w r1, r1, #256\n"                                                                      \
+            "sub.w r2, r2, #256\n"                                                                      \
+            "bne.w 2b\n"                                                                                \
+            "pop {r0, r4, r5, lr}\n"                                                                    \
+            "vstmia r0, {s0-s3}\n"                                                                      \
+            "3:\n"                                                                                      \
+            "bx lr\n");                                                                                 \
+    }
