@@ -11,7 +11,7 @@
 #include "bench/host_line.hpp"
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
-#include "bench/reference/modes.hpp"
+#include "bench/reference/dropped.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signal_derivatives.hpp"
 #include "bench/signals.hpp"
@@ -54,7 +54,8 @@ struct Case {
     std::vector<reference::Sums> exact;  // of each length, full memory last
     double peak = 0.0;                   // max_k |E_k|
     std::optional<double> discretisation;
-    std::map<std::string, reference::Sums> of_designs;  // by the length's text: of those with modes
+    // Of those that do not end with their window.
+    std::map<std::pair<reference::Dropped, std::string>, reference::Sums> of_designs;
 
     Case(const Sweep& sweep, double v, const std::string& name)
         : order(v), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
@@ -72,14 +73,15 @@ struct Case {
         discretisation = discretisation_error(exact.back(), order, derivative_of_signal(name, sweep.samples));
     }
 
-    /// The exact sums of the design of a length; of a window those of entry `i` of its lengths.
-    const reference::Sums& exact_of(const Length& length, std::size_t i, const glsum::Design& design) {
-        if (!length.modes) {
+    /// The exact sums of what a kernel's design stands for; where that is a window, those of entry `i` of its lengths.
+    const reference::Sums& exact_of(reference::Dropped dropped, const Length& length, std::size_t i,
+                                    const glsum::Design& design) {
+        if (!length.modes && (dropped == reference::Dropped::zero || length.taps >= record.size())) {
             return exact[i];
         }
-        auto& sums = of_designs[length.text()];
+        auto& sums = of_designs[{dropped, length.text()}];
         if (sums.empty()) {
-            sums = reference::sums_of(design, record);
+            sums = reference::sums_of(dropped, design, record);
         }
         return sums;
     }
@@ -100,7 +102,7 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
         aspect += fmt::format("/amplitude:{}", amplitude);
     }
     Json row = make_row(row_name(std::string(K::name()), test.order, length, aspect), test.record.size());
-    HostLine<K> line(design_of(test.order, length, test.record.size()));
+    HostLine<K> line(design_of(std::string(K::name()), test.order, length, test.record.size()));
     if (line.status() != glsum::Status::ok) {
         mark_error(row, to_text(line.status()));
         return row;
@@ -160,7 +162,8 @@ std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::v
                 for (std::size_t l = 0; l < lengths.size(); ++l) {
                     const Length& length = lengths[l];
                     const reference::Sums& exact =
-                        test.exact_of(length, l, design_of(test.order, length, test.record.size()));
+                        test.exact_of(reference::dropped_by<typename K::HistoryPart>(), length, l,
+                                      design_of(kernel, test.order, length, test.record.size()));
                     rows[i].push_back(measure<K>(test, length, exact, 1.0));
                     if (length.taps == amplitude_taps && !length.modes &&
                         std::find(std::begin(amplitude_signals), std::end(amplitude_signals), test.signal) !=

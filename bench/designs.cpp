@@ -8,6 +8,7 @@
 #include <tuple>
 #include <type_traits>
 
+#include "bench/reference/dropped.hpp"
 #include "glsum/registry.hpp"
 #include "modes/design.hpp"
 
@@ -32,23 +33,53 @@ std::optional<Length> shortest(double order, std::size_t samples, double error) 
     });
 }
 
-}  // namespace
-
-bool has_modes(const std::string& kernel) {
-    std::optional<bool> found;
+// What `visit` says of the kernel with this name, `of_null` where it has no history; empty for no kernel.
+template <class Result, class Visit>
+std::optional<Result> find_of_history(const std::string& kernel, Result of_null, Visit visit) {
+    std::optional<Result> found;
     glsum::Registry::for_each([&]<class K>() {
         if (K::name() == kernel) {
             if constexpr (requires { typename K::HistoryPart; }) {
-                found = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+                found = visit.template operator()<K>();
             } else {
-                found = false;
+                found = of_null;
             }
         }
     });
+    return found;
+}
+
+template <class Visit>
+bool of_history(const std::string& kernel, bool of_null, Visit visit) {
+    const std::optional<bool> found = find_of_history(kernel, of_null, visit);
     if (!found) {
         throw std::out_of_range("no kernel " + kernel);
     }
     return *found;
+}
+
+}  // namespace
+
+bool has_modes(const std::string& kernel) {
+    return of_history(kernel, false, []<class K>() { return glsum::keeps_modes<typename K::HistoryPart>; });
+}
+
+double order_of_weights(const std::string& kernel, double order) {
+    return find_of_history(
+               kernel, order,
+               [&]<class K>() { return glsum::keeps_increments<typename K::HistoryPart> ? order - 1.0 : order; })
+        .value_or(order);
+}
+
+bool serves(const std::string& kernel, double order) {
+    return of_history(kernel, glsum::order_in_range(order), [&]<class K>() { return K::order_in_range(order); });
+}
+
+bool truncates(const std::string& kernel) {
+    return of_history(kernel, true, []<class K>() {
+        return reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero &&
+               !glsum::keeps_modes<typename K::HistoryPart>;
+    });
 }
 
 Length length_with_modes(double order, std::size_t taps) {
@@ -56,20 +87,24 @@ Length length_with_modes(double order, std::size_t taps) {
 }
 
 Length length_of(const std::string& kernel, double order, std::size_t taps) {
-    return has_modes(kernel) ? length_with_modes(order, taps) : Length{taps};
+    return has_modes(kernel) ? length_with_modes(order_of_weights(kernel, order), taps) : Length{taps};
 }
 
-glsum::Design design_of(double order, const Length& length, std::size_t samples) {
+glsum::Design design_of(const std::string& kernel, double order, const Length& length, std::size_t samples) {
     glsum::Design design{order, length.taps};
     if (const std::size_t modes = length.modes.value_or(0); modes > 0) {
-        design.modes = remembered(std::tuple(order, samples, length.taps, modes), [&] {
-            return glsum::modes::approximate({order, samples}, length.taps - 2 * modes, modes).modes;
+        const double of_weights = order_of_weights(kernel, order);
+        design.modes = remembered(std::tuple(of_weights, samples, length.taps, modes), [&] {
+            return glsum::modes::approximate({of_weights, samples}, length.taps - 2 * modes, modes).modes;
         });
     }
     return design;
 }
 
 std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order) {
+    if (!serves(kernel, order)) {
+        return {};
+    }
     const bool with_modes = has_modes(kernel);
     std::vector<Length> lengths;
     std::copy_if(sweep.lengths.begin(), sweep.lengths.end(), std::back_inserter(lengths),
@@ -77,12 +112,13 @@ std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, do
     if (!with_modes) {
         return lengths;
     }
-    if (!glsum::modes::has_tail(order)) {
+    const double of_weights = order_of_weights(kernel, order);
+    if (!glsum::modes::has_tail(of_weights)) {
         return {};
     }
     if (lengths.empty()) {
         for (const double error : sweep.design_errors) {
-            if (const auto found = shortest(order, sweep.samples, error)) {
+            if (const auto found = shortest(of_weights, sweep.samples, error)) {
                 lengths.push_back(*found);
             }
         }

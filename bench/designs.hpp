@@ -14,19 +14,31 @@ namespace bench {
 /// the registry.
 [[nodiscard]] bool has_modes(const std::string& kernel);
 
-/// The length of a design of `taps` coefficients: `modes_within` of them are modes.
+/// The order whose weights a kernel sums over what it keeps: v, or v - 1 over increments. Of any other name v.
+[[nodiscard]] double order_of_weights(const std::string& kernel, double order);
+
+/// Whether a kernel takes an order. \throws as has_modes.
+[[nodiscard]] bool serves(const std::string& kernel, double order);
+
+/// Whether a kernel takes what leaves its window as 0: then its error follows from the length as truncation's does.
+/// \throws as has_modes.
+[[nodiscard]] bool truncates(const std::string& kernel);
+
+/// The length of a design of `taps` coefficients: `modes_within` of them are modes. The order is that of the weights.
 [[nodiscard]] Length length_with_modes(double order, std::size_t taps);
 
 /// A length as a kernel counts it: with modes those of `length_with_modes`.
 [[nodiscard]] Length length_of(const std::string& kernel, double order, std::size_t taps);
 
-/// The design of a length: its modes, if any, for a record of `samples`. They stay where they are to the end of the
-/// program, and each is made once. Thread-safe.
-[[nodiscard]] glsum::Design design_of(double order, const Length& length, std::size_t samples);
+/// The design of a kernel at a length: its modes, if any, for a record of `samples`. They stay where they are to the
+/// end of the program, and each is made once. Thread-safe.
+[[nodiscard]] glsum::Design design_of(const std::string& kernel, double order, const Length& length,
+                                      std::size_t samples);
 
 /// The lengths at which a sweep measures a kernel. With a window: those without modes. With modes: those with modes, or
 /// where the sweep names none, for each of its `design_errors` the shortest design that keeps it over the record.
-/// Orders without a tail of exponentials (whole ones, and v <= -1) have none. Rising.
+/// Over increments that is the error for |x_k - x_(k-1)| <= 1. Orders that the kernel does not take, and with modes
+/// those whose weights have no tail of exponentials (whole orders, and weights of order <= -1), have none. Rising.
 [[nodiscard]] std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order);
 
 }  // namespace bench

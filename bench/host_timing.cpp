@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "bench/cycle_counter.hpp"
@@ -21,7 +22,7 @@
 #include "bench/host_line.hpp"
 #include "bench/peers/peer.hpp"
 #include "bench/progress.hpp"
-#include "bench/reference/modes.hpp"
+#include "bench/reference/dropped.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signals.hpp"
 #include "glsum/bound.hpp"
@@ -34,7 +35,7 @@ namespace {
 // A power of two, so that the index needs no division; long enough that no branch predictor learns the data.
 constexpr std::size_t stream_samples = 1 << 14;
 
-// What a kernel with modes is checked on, from rest: its past has no end.
+// What a kernel whose past has no end is checked on, from rest: so many samples behind its taps.
 constexpr std::size_t record_from_rest = 1024;
 
 const std::vector<double>& stream() {
@@ -151,6 +152,15 @@ void set_sizes(benchmark::State* state, std::size_t macs, std::size_t coefficien
 }
 
 template <class K>
+bool ends_with_window(const glsum::Design& design) {
+    if constexpr (std::is_same_v<K, glsum::Null>) {
+        return true;
+    } else {
+        return design.modes.empty() && reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero;
+    }
+}
+
+template <class K>
 double time_kernel(benchmark::State* state, const glsum::Design& design, const std::vector<reference::Real>& weights) {
     Placed<HostLine<K>> placed(design, places().placement());
     HostLine<K>& line = *placed;
@@ -170,11 +180,11 @@ double time_kernel(benchmark::State* state, const glsum::Design& design, const s
         return time_line(state, samples, {reference::Real(1)}, 1e-7, step, to_real);
     } else {
         std::function<void()> rest;
-        if (!design.modes.empty()) {
+        if (!ends_with_window<K>(design)) {
             rest = [&] { K::reset(line.state()); };
         }
-        const double ns = time_line(state, samples, weights, glsum::error_bound<K>(design, line.state(), signal_peak),
-                                    step, to_real, rest);
+        const double bound = glsum::error_bound<K>(design, line.state(), signal_peak, weights.size());
+        const double ns = time_line(state, samples, weights, bound, step, to_real, rest);
         set_sizes(state, K::multiplications(design.taps), line.coefficient_bytes(), line.state_bytes());
         return ns;
     }
@@ -309,25 +319,36 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
             registered->Iterations(iterations_for(work(nullptr), timed.length.taps));
         }
     };
-    std::map<std::pair<double, std::string>, std::shared_ptr<const std::vector<reference::Real>>> weights_of;
-    for (const Timed& timed : cases) {
-        const std::size_t taps = timed.length.taps;
-        const double order = timed.order;
-        const glsum::Design design = design_of(order, timed.length, samples);
-        auto& weights = weights_of[{order, timed.length.text()}];
+    using Weights = std::shared_ptr<const std::vector<reference::Real>>;
+    std::map<std::tuple<double, std::string, reference::Dropped>, Weights> known;
+    const auto weights_of = [&](const Timed& timed, reference::Dropped dropped, const glsum::Design& design,
+                                bool ends) {
+        auto& weights = known[{timed.order, timed.length.text(), dropped}];
         if (!weights) {
             weights = std::make_shared<const std::vector<reference::Real>>(
-                design.modes.empty() ? reference::weights(reference::Real(order), taps)
-                                     : reference::weights_of(design, record_from_rest));
+                ends ? reference::weights(reference::Real(timed.order), design.taps)
+                     : reference::weights_of(dropped, design, design.taps + record_from_rest));
         }
+        return weights;
+    };
+    for (const Timed& timed : cases) {
         glsum::Registry::for_each([&]<class K>() {
             if (K::name() == timed.name) {
+                const glsum::Design design = design_of(timed.name, timed.order, timed.length, samples);
+                reference::Dropped dropped{};
+                if constexpr (requires { typename K::HistoryPart; }) {
+                    dropped = reference::dropped_by<typename K::HistoryPart>();
+                }
+                const Weights weights = weights_of(timed, dropped, design, ends_with_window<K>(design));
                 add(timed,
                     [design, weights](benchmark::State* state) { return time_kernel<K>(state, design, *weights); });
             }
         });
         for (const Peer& peer : peers()) {
             if (peer.name == timed.name) {
+                const std::size_t taps = timed.length.taps;
+                const double order = timed.order;
+                const Weights weights = weights_of(timed, reference::Dropped::zero, {order, taps}, true);
                 add(timed, [&peer, order, taps, weights](benchmark::State* state) {
                     return std::visit([&](auto make) { return time_peer(state, make, order, taps, *weights); },
                                       peer.make);
@@ -368,8 +389,10 @@ HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flag
             continue;
         }
         for (const std::string& name : sweep.kernels) {
-            if (!has_modes(name)) {
-                cases.push_back({name, length, sweep.orders.front()});
+            const auto order =
+                std::find_if(sweep.orders.begin(), sweep.orders.end(), [&](double v) { return serves(name, v); });
+            if (!has_modes(name) && order != sweep.orders.end()) {
+                cases.push_back({name, length, *order});
             }
         }
         for (const std::string& name : sweep.peers) {

@@ -60,7 +60,7 @@ TargetPlan make_target_plan(const Sweep& sweep) {
                 const std::string& kernel = kernels[k];
                 const Length& length = lengths[k][l];
                 const std::size_t taps = length.taps;
-                const glsum::Design design = design_of(order, length, sweep.samples);
+                const glsum::Design design = design_of(kernel, order, length, sweep.samples);
                 const std::vector<glsum::Mode> modes(design.modes.begin(), design.modes.end());
                 const auto [count, is_new] =
                     known.try_emplace({k, taps, count_path(kernel, design)}, plan.counts.size());

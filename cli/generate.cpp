@@ -35,10 +35,20 @@ struct Options {
 
 [[noreturn]] void refuse(const std::string& what) { throw Failure(Exit::bad_input, what); }
 
-// Kernels that match what was typed; one that is there but cannot be generated is refused by name.
-std::vector<std::string> named_kernels(const std::string& glob) {
+// Kernels that match what was typed; one that is there but cannot be generated is refused by name. Of several those
+// that do not take the order are left out, and named.
+std::vector<std::string> named_kernels(const std::string& glob, double order) {
     std::vector<std::string> kernels = generate::generatable();
     std::erase_if(kernels, [&](const std::string& kernel) { return fnmatch(glob.c_str(), kernel.c_str(), 0) != 0; });
+    if (kernels.size() > 1) {
+        std::erase_if(kernels, [&](const std::string& kernel) {
+            const bool serves = bench::serves(kernel, order);
+            if (!serves) {
+                fmt::print("{} is left out: it does not take order {}\n", kernel, order);
+            }
+            return !serves;
+        });
+    }
     if (kernels.empty()) {
         kernels = {glob};  // make_header says why not
     }
@@ -113,7 +123,7 @@ void run(const Options& options, Budget budget, const std::string& command) {
         budget.step_s = budget.step_s == 0.0 ? 0.001 : budget.step_s;
         budget.target = budget.target.empty() ? "m7" : budget.target;
         budget.max_error = 1.0;  // no limit: it is measured and told
-        const std::vector<std::string> kernels = named_kernels(options.kernel);
+        const std::vector<std::string> kernels = named_kernels(options.kernel, budget.order);
         if (kernels.size() > 1 && !options.out.empty()) {
             refuse(fmt::format("--kernel: expected one kernel for --out, found {} that match {}", kernels.size(),
                                options.kernel));

@@ -49,8 +49,8 @@ std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
             ++remembered_;
         }
         if (!known_.contains(wanted) && std::find(planned.begin(), planned.end(), wanted) == planned.end()) {
-            const glsum::Design design = bench::design_of(order_, bench::length_of(wanted.first, order_, wanted.second),
-                                                          signals_.front().size());
+            const glsum::Design design = bench::design_of(
+                wanted.first, order_, bench::length_of(wanted.first, order_, wanted.second), signals_.front().size());
             plan.push_back({wanted.first,
                             order_,
                             wanted.second,

@@ -46,7 +46,8 @@ std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::
     if (!length || length->taps > samples) {
         return std::nullopt;
     }
-    const bool asked_for = !length->modes || length->modes == bench::length_with_modes(order, length->taps).modes;
+    const double of_weights = bench::order_of_weights(key.kernel, order);
+    const bool asked_for = !length->modes || length->modes == bench::length_with_modes(of_weights, length->taps).modes;
     return asked_for ? std::optional(length->taps) : std::nullopt;
 }
 

@@ -73,16 +73,27 @@ MeasuredErrors::MeasuredErrors(double order, std::vector<Record> records)
 }
 
 std::optional<std::vector<std::size_t>> MeasuredErrors::lengths(const std::string& kernel) const {
-    if (!bench::has_modes(kernel)) {
+    if (bench::truncates(kernel)) {
         return std::nullopt;
     }
-    std::vector<std::size_t> all(std::min(longest(), glsum::modes::most_taps(order_)));
-    std::iota(all.begin(), all.end(), std::size_t{1});
-    return all;
+    if (bench::has_modes(kernel)) {
+        const double of_weights = bench::order_of_weights(kernel, order_);
+        std::vector<std::size_t> all(std::min(longest(), glsum::modes::most_taps(of_weights)));
+        std::iota(all.begin(), all.end(), std::size_t{1});
+        return all;
+    }
+    // Truncation does not say how long a kernel must be that takes what it drops for more than 0.
+    constexpr std::size_t one_by_one = 128;
+    std::vector<std::size_t> rungs = {1};
+    while (rungs.back() < longest()) {
+        const std::size_t taps = rungs.back();
+        rungs.push_back(std::min(longest(), taps + (taps < one_by_one ? 1 : taps / 8)));
+    }
+    return rungs;
 }
 
 glsum::Design MeasuredErrors::design_of(const std::string& kernel, std::size_t taps) const {
-    return bench::design_of(order_, bench::length_of(kernel, order_, taps), longest());
+    return bench::design_of(kernel, order_, bench::length_of(kernel, order_, taps), longest());
 }
 
 void MeasuredErrors::remember(const std::string& kernel, std::size_t taps, const std::string& signal, double error) {
@@ -106,7 +117,7 @@ double MeasuredErrors::rounding_bound(const std::string& kernel, std::size_t tap
             const glsum::Design design = design_of(kernel, taps);
             bench::HostLine<K> line(design);
             if (line.status() == glsum::Status::ok) {
-                bound = glsum::error_bound<K>(design, line.state(), bench::signal_peak) / least_peak;
+                bound = glsum::error_bound<K>(design, line.state(), bench::signal_peak, longest()) / least_peak;
             }
         }
     });

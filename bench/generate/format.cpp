@@ -56,6 +56,13 @@ FormatText floating_text(bool wide_data, bool wide_sum) {
                 "    @accumulator@ product = (@accumulator@)a * (@accumulator@)x;\n" + keep + "    return product;\n")},
         {"multiply_add", helper("@accumulator@", "multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
                                 "    return sum + @name@_multiply(a, x);\n")},
+        // Adds to a number and keeps what the addition lost, for the next one.
+        {"carry", helper("void", "carry", "@sample@ *carried, @sample@ step",
+                         "    const @sample@ whole = step + carried[1];\n"
+                         "    const @sample@ after = carried[0] + whole;\n"
+                         "    const @sample@ part = after - carried[0];\n"
+                         "    carried[1] = (carried[0] - (after - part)) + (whole - part);\n"
+                         "    carried[0] = after;\n")},
         {"fused_multiply_add",
          helper("@accumulator@", "fused_multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
                 "    return " + fma + "(a, x, sum);\n")},
@@ -75,8 +82,8 @@ FormatText floating_text(bool wide_data, bool wide_sum) {
 
 FormatText fixed_text(const FixedScale& scale) {
     FormatText text;
-    text.summary = fmt::format("samples of {} bits, coefficients of {}, exact sums in 64", scale.sample_bits + 1,
-                               scale.coefficient_bits + 1);
+    text.summary = fmt::format("samples of {} bits, coefficients of {}, exact sums in 64",
+                               scale.sample_bits + (scale.half_scale ? 2 : 1), scale.coefficient_bits + 1);
     const int shift = scale.coefficient_bits - scale.table_exponent;
     text.helpers = {
         {"start",
@@ -93,13 +100,14 @@ FormatText fixed_text(const FixedScale& scale) {
         {"finish", helper("int32_t", "finish", "@name@_instance *S, int64_t sum", finish(scale.output_shift))},
     };
     text.scaling = fmt::format(
-        "Input: fractions of {0} bits, x = integer / 2^{0}, so -1 <= x < 1. Coefficients: fractions of {1} bits of\n"
+        "Input: fractions of {0} bits, x = integer / 2^{0}, so {5}. Coefficients: fractions of {1} bits of\n"
         "a_j / 2^{2}; a_0 = 1 is exact. Output: S_k = output * 2^({3} - 31), to nearest, halves up: {3} integer bit{4} "
         "hold the\n"
         "sum of all |a_j|. The sum itself cannot overflow, whatever the input. Only an output within half a unit of\n"
-        "+2^{3} can saturate; it does so to INT32_MAX and is counted in `saturations`.",
+        "+2^{3} can saturate; it does so to INT32_MAX and is counted in `saturations`{6}.",
         scale.sample_bits, scale.coefficient_bits, scale.table_exponent, scale.output_exponent,
-        scale.output_exponent == 1 ? "" : "s");
+        scale.output_exponent == 1 ? "" : "s", scale.half_scale ? "-2 <= x < 2" : "-1 <= x < 1",
+        scale.half_scale ? ",\nas is an increment beyond 2: none where |x| <= 1 - 2^-30" : "");
     return text;
 }
 

@@ -10,6 +10,7 @@
 #include "bench/generate/kernel_data.hpp"
 #include "bench/generate/text.hpp"
 #include "bench/signals.hpp"
+#include "glsum/bound.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
@@ -98,13 +99,20 @@ std::string comment(const std::string& text) {
     return lines;
 }
 
-// What the sum of the coefficients beyond the length can come to for |x| <= 1, at any length of the record.
-std::string truncation_bound(double order, std::size_t taps) {
+// What the sum of the coefficients beyond the length can come to for |x| <= 1, at any length of the record; twice that
+// where other samples stand for those dropped.
+std::string truncation_bound(double order, std::size_t taps, const KernelData& data) {
+    if (data.increments && order <= 0.0) {
+        return "none for v <= 0: the signal's level goes with the increments";
+    }
     if (order < 0.0) {
-        return "none for records without end (v < 0); of N samples, the sum of |a_j| from L to N-1";
+        return std::string("none for records without end (v < 0); of N samples, ") + (data.guesses ? "twice " : "") +
+               "the sum of |a_j| from L to N-1";
     }
     const double all = order == 0.0 ? 1.0 : order <= 1.0 ? 2.0 : 2.0 * order;
-    return fmt::format("{:.3g}", std::max(0.0, all - glsum::absolute_sum(order, taps)) * (1.0 + 1e-9) + 1e-14);
+    const double largest = data.increments || data.guesses ? 2.0 : 1.0;
+    return fmt::format("{:.3g}",
+                       largest * std::max(0.0, all - glsum::absolute_sum(order, taps)) * (1.0 + 1e-9) + 1e-14);
 }
 
 const char* const head = R"(#ifndef @NAME@_H
@@ -277,6 +285,11 @@ std::string constants(const Spec& spec, const KernelData& data) {
         text += fmt::format("#define @NAME@_STEP_FACTOR {} /* h^-v: times S_k it is the derivative */\n",
                             real_literal(data.inputs.type, glsum::step_factor(spec.order, *spec.step_s)));
     }
+    if (data.guesses) {
+        text += fmt::format(
+            "#define @NAME@_IN_WINDOW ({}) /* a_0 + ... + a_(L-1) */\n#define @NAME@_MINUS_ORDER ({}) /* -v */\n",
+            real_literal(data.inputs.type, data.in_window), real_literal(data.inputs.type, data.minus_order));
+    }
     if (data.modes > 0) {
         text += fmt::format("#define @NAME@_MODES {}U              /* decaying averages of what lies behind these */\n",
                             data.modes);
@@ -293,12 +306,17 @@ std::string constants(const Spec& spec, const KernelData& data) {
 
 // The statements of `step`. A length of 1 has no past to read or keep.
 std::string step_body(const KernelData& data, std::size_t past) {
-    if (past == 0) {
-        return std::string("    return @name@_finish(S, ") + (data.nested ? "newest" : "@name@_start(newest)") + ");\n";
-    }
     const HistoryText& history = data.history_text;
-    const std::string body = data.technique_text.sum + (data.technique_text.pushes ? "" : history.push) +
-                             "    return @name@_finish(S, sum);\n";
+    if (past == 0 && data.guesses) {
+        return "    @accumulator@ sum = @name@_start(newest);\n" + history.behind +
+               "    return @name@_finish(S, sum);\n";
+    }
+    if (past == 0) {
+        return history.before + "    return @name@_finish(S, " + (data.nested ? "newest" : "@name@_start(newest)") +
+               ");\n";
+    }
+    const std::string body = history.before + data.technique_text.sum + history.behind +
+                             (data.technique_text.pushes ? "" : history.push) + "    return @name@_finish(S, sum);\n";
     const bool has_head = history.fields.find(" head;") != std::string::npos;
     const bool has_index = body.find("i = ") != std::string::npos;
     return std::string(has_head ? "    size_t head = S->head;\n" : "") + (has_index ? "    size_t i;\n" : "") + body;
@@ -340,13 +358,15 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
     const std::string name = places.at("name");
     std::string text = fmt::format(
         "{}, {}: the Grünwald-Letnikov sum of order v = {}\n\n"
-        "  S_k = sum_{{j=0..min(k, L-1)}} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 - (1+v)/j)\n\n"
-        "one sum a sample; h^-v S_k approximates the derivative of order v (v < 0: the integral).\n"
+        "{} h^-v S_k approximates the derivative of order v (v < 0: the integral).\n"
         "Made by glsum; make it again rather than edit it.\n\n",
         spec.kernel,
         data.modes == 0 ? fmt::format("{} taps", spec.taps)
                         : fmt::format("{} taps and {} modes", data.past + 1, data.modes),
-        spec.order);
+        spec.order,
+        data.history_text.formula.empty() ? "  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 "
+                                            "- (1+v)/j)\n\none sum a sample;"
+                                          : data.history_text.formula);
     text += fmt::format(
         "  static {0}_instance line;\n  {1}_init_{2}(&line);\n  {3} sum = {1}_step_{2}(&line, x);  once a sample\n\n",
         name, spec.prefix, data.format, data.output);
@@ -357,9 +377,11 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
         "Error bounds, absolute, of S_k for |x| <= 1, before h^-v\n"
         "against the exact sum of {}, rounding of coefficients and inputs included: {:.3g}\n"
         "of that sum against full memory ({}): {}\n\n",
-        data.modes == 0 ? fmt::format("{} taps", spec.taps) : "these taps and modes, as designed in double",
+        data.guesses ? fmt::format("{} taps and the tail's weights, over {} samples", spec.taps, glsum::longest_record)
+        : data.modes == 0 ? fmt::format("{} taps", spec.taps)
+                          : "these taps and modes, as designed in double",
         data.error_bound, data.modes == 0 ? "truncation" : fmt::format("{} samples from rest", spec.horizon),
-        data.modes == 0 ? truncation_bound(spec.order, spec.taps) : fmt::format("{:.3g}", data.design_error));
+        data.modes == 0 ? truncation_bound(spec.order, spec.taps, data) : fmt::format("{:.3g}", data.design_error));
     for (const std::string& line : spec.provenance) {
         text += line + "\n";
     }
@@ -397,7 +419,9 @@ std::string make_header(const Spec& spec) {
                   {"f", data.format},
                   {"taps", std::to_string(spec.taps)},
                   {"past", std::to_string(data.past)},
-                  {"reads", data.modes == 0 ? fmt::format("the {} samples", past) : "all samples"},
+                  {"reads", data.increments || data.guesses ? "what is kept of those"
+                            : data.modes == 0               ? fmt::format("the {} samples", past)
+                                                            : "all samples"},
                   {"samples", std::to_string(std::max<std::size_t>(1, data.samples_held))},
                   {"sample", data.inputs.type},
                   {"coefficient", data.pairs ? "uint32_t" : data.table.type},

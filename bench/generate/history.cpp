@@ -10,6 +10,13 @@ const char* const clear = R"(    for (i = 0; i < @NAME@_SAMPLES; ++i) {
 const char* const next_head = R"(    head = (head == 0U ? @NAME@_PAST : head) - 1U;
 )";
 
+std::string replaced(std::string text, const std::string& what, const std::string& with) {
+    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
+        text.replace(at, what.size(), with);
+    }
+    return text;
+}
+
 }  // namespace
 
 // The value passes through an empty instruction: without it compilers make the loop a call of memmove, which small C
@@ -56,6 +63,68 @@ HistoryText history_text(glsum::Modes) {
             .reset = clear,
             .pieces = {},
             .push = {}};
+}
+
+// kernels/glsum/history/delta.hpp.
+HistoryText increments_text(const HistoryText& kept, bool fixed) {
+    HistoryText text = kept;
+    text.summary = "of increments d_k = x_k - x_(k-1): " + kept.summary;
+    text.formula =
+        "  S_k = sum_{j=0..min(k, L-1)} b_j (x_(k-j) - x_(k-j-1)),   b_0 = 1,   b_j = b_(j-1) (1 - v/j)\n\n"
+        "one sum a sample, of the order v - 1 over the increments;";
+    text.fields = "    @sample@ before; /* x_(k-1) */\n" + replaced(kept.fields, "x_(k", "d_(k");
+    text.reset = kept.reset + "    S->before = 0;\n";
+    text.before = fixed ? R"(    int64_t increment = (int64_t)newest - S->before;
+    S->before = newest;
+    if (increment > INT32_MAX || increment < INT32_MIN) {
+        increment = increment < 0 ? INT32_MIN : INT32_MAX;
+        ++S->saturations;
+    }
+    newest = (int32_t)increment;
+)"
+                        : R"(    const @sample@ increment = newest - S->before;
+    S->before = newest;
+    newest = increment;
+)";
+    return text;
+}
+
+// kernels/glsum/history/tail.hpp.
+HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first) {
+    HistoryText text = window;
+    text.summary =
+        window.summary + (to_first ? "; what it dropped is taken on the line from its oldest to the first sample"
+                                   : "; what it dropped is taken as its oldest sample");
+    text.formula = std::string("  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j)") +
+                   (to_first ? " + (T_k - U_k) x_(k-L+1) + U_k x_0" : " + T_k x_(k-L+1)") +
+                   ",   a_0 = 1,   a_j = a_(j-1) (1 - (1+v)/j)\n" + "  T_k = sum_{j=L..k} a_j" +
+                   (to_first ? ",   U_k = sum_{j=L..k} a_j (j-L+1)/(k-L+1)" : "") + "\n\none sum a sample;";
+    // Before the past: behind it they would lie beyond the reach of a load with an immediate offset.
+    text.fields =
+        std::string(
+            "    uint32_t count; /* samples since init */\n"
+            "    @sample@ tail[2]; /* T_k, and what its last step lost */\n") +
+        (to_first ? "    @sample@ mean[2]; /* T_k - U_k, the mean of all T before; what its last step lost */\n"
+                    "    @sample@ first; /* x_0 */\n"
+                  : "") +
+        window.fields;
+    text.reset = window.reset + "    S->count = 0U;\n    S->tail[0] = 0;\n    S->tail[1] = 0;\n" +
+                 (to_first ? "    S->mean[0] = 0;\n    S->mean[1] = 0;\n    S->first = 0;\n" : "");
+    text.behind =
+        std::string("    {\n        const uint32_t k = S->count;\n        if (k > @NAME@_PAST) {\n") +
+        "            const @sample@ oldest = " + (past > 0 ? "S->past[head + @NAME@_PAST - 1U]" : "newest") + ";\n" +
+        (to_first ? "            @sample@ mean;\n" : "") + "            if (k != UINT32_MAX) {\n" +
+        (to_first ? "                @name@_carry(S->mean, (S->tail[0] - S->mean[0]) / (@sample@)(k - @NAME@_PAST));\n"
+                  : "") +
+        "                @name@_carry(S->tail, @name@_product(@NAME@_IN_WINDOW + S->tail[0], @NAME@_MINUS_ORDER) / "
+        "(@sample@)k);\n            }\n" +
+        (to_first ? "            mean = S->mean[0];\n"
+                    "            sum = @name@_multiply_add(sum, mean, oldest);\n"
+                    "            sum = @name@_multiply_add(sum, S->tail[0] - mean, S->first);\n        }\n"
+                    "        if (k == 0U) {\n            S->first = newest;\n        }\n"
+                  : "            sum = @name@_multiply_add(sum, S->tail[0], oldest);\n        }\n") +
+        "        S->count = k != UINT32_MAX ? k + 1U : k;\n    }\n";
+    return text;
 }
 
 }  // namespace generate

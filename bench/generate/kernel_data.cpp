@@ -32,7 +32,8 @@ template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes> &&
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::MirrorDelta, glsum::ModesDelta,
+           glsum::MirrorHold, glsum::MirrorLinear> &&
     (is_paired<T> ||
      one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
             glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
@@ -65,6 +66,19 @@ TechniqueText text_of(const HistoryText& history, std::size_t past, const std::v
     } else {
         return paired_text(!std::is_same_v<Technique, Smlad>);
     }
+}
+
+template <class History>
+HistoryText text_of_history(History history, std::size_t, bool) {
+    return history_text(history);
+}
+template <class Kept>
+HistoryText text_of_history(glsum::Delta<Kept>, std::size_t, bool fixed) {
+    return increments_text(history_text(Kept{}), fixed);
+}
+template <bool to_first>
+HistoryText text_of_history(glsum::Guess<to_first>, std::size_t past, bool) {
+    return guess_text(history_text(glsum::Mirror{}), past, to_first);
 }
 
 template <class T>
@@ -105,9 +119,10 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     using Format = typename K::FormatPart;
     using Sample = typename K::Sample;
     using Output = typename K::Output;
-    constexpr bool has_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+    constexpr bool has_modes = glsum::keeps_modes<typename K::HistoryPart>;
+    constexpr bool increments = glsum::keeps_increments<typename K::HistoryPart>;
     const bench::Length length = bench::length_of(std::string(K::name()), order, taps);
-    const glsum::Design design = bench::design_of(order, length, horizon);
+    const glsum::Design design = bench::design_of(std::string(K::name()), order, length, horizon);
     bench::HostLine<K> line(design);
     if (line.status() != glsum::Status::ok) {
         throw Failure(Exit::bad_input, fmt::format("{} with {} taps at order {}: {}", K::name(), length.text(), order,
@@ -133,16 +148,27 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     data.samples_held = glsum::past_needed<K>(design);
     data.table = numbers(table);
     data.aligned_words = (past + 1) / 2;
-    data.history_text = history_text(typename K::HistoryPart{});
+    data.history_text = text_of_history(typename K::HistoryPart{}, past, Format::fixed_point);
+    data.increments = increments;
+    if constexpr (glsum::guesses_tail<typename K::HistoryPart>) {
+        data.guesses = true;
+        data.in_window = static_cast<double>(state.in_window);
+        data.minus_order = static_cast<double>(state.minus_order);
+    }
     if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Ring> &&
                   std::is_same_v<typename K::FormatPart, glsum::Q15>) {
         // With its test last, GCC 12 keeps the 64-bit sum of SMLALBB in memory: two more instructions a tap.
         data.history_text.pieces.front().may_be_empty = true;
     }
     if constexpr (has_modes) {
-        data.technique_text = modes_text(data.past, data.modes, K::compensated, Format::fixed_point);
+        data.technique_text =
+            modes_text(data.past, data.modes, std::is_same_v<Technique, glsum::Compensated>, Format::fixed_point);
+        const double of_weights = increments ? order - 1.0 : order;
+        const double largest = increments ? 2.0 : 1.0;  // of what is kept
         data.design_error =
-            data.modes == 0 ? 0.0 : glsum::modes::approximate({order, horizon}, data.past + 1, data.modes).error;
+            data.modes == 0
+                ? 0.0
+                : largest * glsum::modes::approximate({of_weights, horizon}, data.past + 1, data.modes).error;
     } else {
         data.technique_text = text_of<Technique>(data.history_text, past, shifts, std::is_same_v<Format, glsum::Q31>,
                                                  std::is_same_v<Format, glsum::F32>);
@@ -150,6 +176,11 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     if constexpr (Format::fixed_point) {
         data.scale = {Format::sample_bits, Format::coefficient_bits, state.scale.table_exponent,
                       state.scale.output_exponent, state.scale.output_shift};
+        if (increments) {
+            --data.scale.sample_bits;
+            ++data.scale.output_exponent;
+            data.scale.half_scale = true;
+        }
         data.format_text = fixed_text(data.scale);
     } else {
         data.format_text =

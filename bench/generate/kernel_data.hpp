@@ -28,6 +28,10 @@ struct KernelData {
     std::size_t samples_held = 0;
     std::size_t modes = 0;
     double design_error = 0.0;  ///< with modes: against full memory over the horizon, for |x| <= 1
+    bool increments = false;
+    bool guesses = false;      ///< what its window dropped
+    double in_window = 0.0;    ///< then: a_0 + ... + a_(L-1), as the kernel has it
+    double minus_order = 0.0;  ///< and -v
     Numbers table;
     std::size_t aligned_words = 0;  ///< of a table of pairs: those of the first of the two tables
     FixedScale scale{};

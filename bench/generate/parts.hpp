@@ -28,10 +28,13 @@ struct Piece {
 /// How a history is written.
 struct HistoryText {
     std::string summary;
+    std::string formula = {};   ///< of the sum, in the opening comment; empty: that of a window
     std::string fields;         ///< of the instance
     std::string reset;          ///< statements of `init`
     std::vector<Piece> pieces;  ///< newest first
     std::string push;           ///< statements that store `newest`
+    std::string before = {};    ///< statements before the sum, which may change `newest`
+    std::string behind = {};    ///< statements behind it, before `push`, which add to `sum`
 };
 
 /// How a technique is written.
@@ -65,6 +68,10 @@ struct FormatText {
 [[nodiscard]] HistoryText history_text(glsum::Ring);
 [[nodiscard]] HistoryText history_text(glsum::Mirror);
 [[nodiscard]] HistoryText history_text(glsum::Modes);
+/// Increments, kept as `kept` keeps samples.
+[[nodiscard]] HistoryText increments_text(const HistoryText& kept, bool fixed);
+/// A window of `past` samples and a guess of what it dropped; with `to_first` on the line to the first sample.
+[[nodiscard]] HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first);
 
 [[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
@@ -90,6 +97,7 @@ struct FixedScale {
     int table_exponent;
     int output_exponent;
     int output_shift;
+    bool half_scale = false;  ///< samples of increments: `sample_bits` and `output_exponent` are those of x and S
 };
 [[nodiscard]] FormatText fixed_text(const FixedScale& scale);
 

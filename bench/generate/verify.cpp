@@ -165,8 +165,9 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
     for (std::size_t i = 0; i < specs.size(); ++i) {
         specs[i].prefix = fmt::format("k{}", i);
         write(scratch.file((specs[i].prefix + ".h").c_str()), make_header(specs[i]));
-        const glsum::Design design = bench::design_of(
-            specs[i].order, bench::length_of(specs[i].kernel, specs[i].order, specs[i].taps), specs[i].horizon);
+        const glsum::Design design =
+            bench::design_of(specs[i].kernel, specs[i].order,
+                             bench::length_of(specs[i].kernel, specs[i].order, specs[i].taps), specs[i].horizon);
         plan.push_back({specs[i].kernel,
                         specs[i].order,
                         specs[i].taps,

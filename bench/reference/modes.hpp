@@ -18,4 +18,10 @@ namespace reference {
 /// without modes ends behind its taps.
 [[nodiscard]] Sums sums_of(const glsum::Design& design, std::span<const double> record);
 
+/// The same with near weights of one's own, a_0 included.
+[[nodiscard]] std::vector<Real> weights_of(std::span<const Real> near, std::span<const glsum::Mode> modes,
+                                           std::size_t count);
+[[nodiscard]] Sums sums_of(std::span<const Real> near, std::span<const glsum::Mode> modes,
+                           std::span<const double> record);
+
 }  // namespace reference

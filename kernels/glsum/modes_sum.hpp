@@ -56,6 +56,9 @@ struct Sum<Modes, Technique, Format> {
     /// Multiplications for one output.
     static constexpr std::size_t multiplications(std::size_t taps) { return taps - 1; }
 
+    /// The orders that `prepare` takes.
+    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
+
     /// Makes the table for the design and clears the past. On failure the state is as it was.
     static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
     /// Forgets the past and the count of saturations: x = 0 before the next sample.

@@ -1,6 +1,7 @@
 // The registry as types. See registry.def for the list itself.
 #pragma once
 
+#include "glsum/delta_sum.hpp"
 #include "glsum/format/fixed.hpp"
 #include "glsum/format/floating.hpp"
 #include "glsum/history/mirror.hpp"
@@ -10,6 +11,7 @@
 #include "glsum/modes_sum.hpp"
 #include "glsum/null.hpp"
 #include "glsum/sum.hpp"
+#include "glsum/tail_sum.hpp"
 #include "glsum/technique/compensated.hpp"
 #include "glsum/technique/fir.hpp"
 #include "glsum/technique/horner.hpp"

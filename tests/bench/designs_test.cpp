@@ -70,6 +70,70 @@ TEST(Designs, OfAKernelWithModesAreTheShortestForTheErrors) {
     EXPECT_EQ(bench::lengths_of(named, "ring_plain_f32", 0.5).front().text(), "50");
 }
 
+// Over increments the weights, and so the designs, are of one order less; and not every order is taken.
+TEST(Designs, OfIncrementsAreThoseOfOneOrderLess) {
+    const bench::Sweep sweep = sweep_of({"modesdelta_plain_f32"});
+    const auto lengths = bench::lengths_of(sweep, "modesdelta_plain_f32", 0.5);
+    const auto of_less = bench::lengths_of(sweep, "modes_plain_f32", -0.5);
+    ASSERT_EQ(lengths.size(), of_less.size());
+    ASSERT_FALSE(lengths.empty());
+    for (std::size_t i = 0; i < lengths.size(); ++i) {
+        EXPECT_EQ(lengths[i].text(), of_less[i].text());
+        const auto design = bench::design_of("modesdelta_plain_f32", 0.5, lengths[i], sweep.samples);
+        const auto less = bench::design_of("modes_plain_f32", -0.5, lengths[i], sweep.samples);
+        EXPECT_EQ(design.order, 0.5);
+        ASSERT_EQ(design.modes.size(), less.modes.size());
+        EXPECT_EQ(design.modes.data(), less.modes.data());  // made once
+    }
+    EXPECT_EQ(bench::length_of("modesdelta_plain_f32", 0.5, 16).text(),
+              bench::length_of("modes_plain_f32", -0.5, 16).text());
+    EXPECT_TRUE(bench::lengths_of(sweep, "modesdelta_plain_f32", -0.5).empty());  // weights of -1.5 have no tail
+    EXPECT_FALSE(bench::lengths_of(sweep, "mirrordelta_plain_f32", -0.5).empty());
+    EXPECT_TRUE(bench::lengths_of(sweep, "mirrordelta_plain_f32", -1.5).empty());
+    EXPECT_FALSE(bench::lengths_of(sweep, "mirrorhold_plain_f32", -1.5).empty());
+    EXPECT_TRUE(bench::truncates("ring_plain_f32"));
+    for (const char* kernel :
+         {"mirrordelta_plain_f32", "mirrorhold_plain_f32", "mirrorlinear_plain_f32", "modes_plain_f32"}) {
+        EXPECT_FALSE(bench::truncates(kernel)) << kernel;
+    }
+}
+
+// A row's rounding is against what its history stands for: so small for every signal, and no truncation where it is
+// exact.
+TEST(Accuracy, OfGuessesAndIncrementsIsAgainstTheirOwnSums) {
+    const bench::Sweep sweep = sweep_of(
+        {"mirrordelta_oldest_f64", "modesdelta_plain_f64", "mirrorhold_oldest_f64", "mirrorlinear_oldest_f64"});
+    std::vector<std::size_t> cases(sweep.signals.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        cases[i] = i;  // of order 0.5
+    }
+    const auto rows = bench::measure_accuracy(sweep, cases);
+    std::set<std::string> exact;
+    std::size_t measured = 0;
+    for (const auto& of_case : rows) {
+        for (const bench::Json& row : of_case) {
+            ASSERT_FALSE(row.contains("error_occurred")) << row;
+            EXPECT_LE(row["rounding_error_max"].get<double>(), 1e-13) << row["name"];
+            const double truncation = row["truncation_error_max"].get<double>();
+            EXPECT_LE(row["error_max"].get<double>(),
+                      (truncation + row["rounding_error_max"].get<double>()) * (1 + 1e-9));
+            const auto key = bench::parse_key(row["name"].get<std::string>());
+            ASSERT_TRUE(key);
+            if (key->taps == "50") {
+                if (truncation < 1e-15) {  // a ramp's samples are rounded
+                    exact.insert(key->kernel + " " + key->signal);
+                } else {
+                    EXPECT_GT(truncation, 1e-3) << row["name"];
+                }
+            }
+            ++measured;
+        }
+    }
+    EXPECT_EQ(exact, (std::set<std::string>{"mirrorhold_oldest_f64 step", "mirrorlinear_oldest_f64 ramp",
+                                            "mirrorlinear_oldest_f64 step"}));
+    EXPECT_GE(measured, cases.size() * 9);
+}
+
 // The error of a row is within the design's, which is of |x| <= 1, and rounding: for every signal.
 TEST(Accuracy, OfModesIsThatOfTheirDesign) {
     const bench::Sweep sweep = sweep_of({"modes_plain_f64", "modes_compensated_f32"});
@@ -133,7 +197,7 @@ TEST(TargetPlan, KernelsWithModesAreReplayedWithThemAndCountedOnce) {
         const auto& row = plan.rows.at(replay.row);
         replayed.insert(replay.row);
         if (row.length.modes) {
-            const auto design = bench::design_of(row.order, row.length, sweep.samples);
+            const auto design = bench::design_of(row.kernel, row.order, row.length, sweep.samples);
             ASSERT_EQ(replay.planned.modes.size(), design.modes.size());
             for (std::size_t m = 0; m < design.modes.size(); ++m) {
                 EXPECT_EQ(replay.planned.modes[m].decay, design.modes[m].decay);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <string>
 
+#include "bench/reference/dropped.hpp"
 #include "tests/bench/closed_forms.hpp"
 #include "tests/bench/digits.hpp"
 
@@ -29,6 +30,57 @@ TEST(Reference, WeightsAreTheBinomialCoefficients) {
         const auto a = reference::weights(Real(order), samples);
         for (unsigned k = 0; k < samples; k += k < 10 ? 1 : 80) {
             digits::expect_thirty(a[k], closed_form::weight(Real(order), k), std::string(order) + " weight");
+        }
+    }
+}
+
+// Order 1 has the weights 1, -1: by hand what one tap, and of increments two, make of the rest.
+TEST(Reference, WhatIsDroppedStandsForWhatItsHistorySays) {
+    using reference::Dropped;
+    const auto expect = [](Dropped dropped, const glsum::Design& design, const std::vector<double>& weights) {
+        const auto found = reference::weights_of(dropped, design, weights.size());
+        ASSERT_EQ(found.size(), weights.size());
+        for (std::size_t j = 0; j < weights.size(); ++j) {
+            EXPECT_EQ(found[j], Real(weights[j])) << static_cast<int>(dropped) << " " << j;
+        }
+    };
+    expect(Dropped::zero, {1.0, 1}, {1.0, 0.0, 0.0});
+    expect(Dropped::held, {1.0, 1}, {0.0, 0.0, 0.0});
+    expect(Dropped::line, {1.0, 1}, {0.5, 0.0, -0.5});
+    expect(Dropped::line, {1.0, 1}, {0.25, 0.0, 0.0, 0.0, -0.25});
+    expect(Dropped::increments, {1.0, 1}, {1.0, -1.0, 0.0});
+    expect(Dropped::increments, {2.0, 2}, {1.0, -2.0, 1.0, 0.0});
+    expect(Dropped::increments, {0.0, 2}, {1.0, 0.0, -1.0, 0.0});
+    expect(Dropped::held, {-1.0, 2}, {1.0, 3.0, 0.0, 0.0});
+    expect(Dropped::line, {-1.0, 2}, {1.0, 1.5, 0.0, 1.5});
+}
+
+// The sums of a record are those of its weights, however they were come by.
+TEST(Reference, SumsOfWhatIsDroppedAreThoseOfItsWeights) {
+    using reference::Dropped;
+    const std::vector<glsum::Mode> modes = {{0.01, -0.01}, {0.25, -0.125}};
+    std::vector<double> record(60);
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        record[k] = (static_cast<double>(k * k * 7 % 31) - 15.0) / 16.0;
+    }
+    for (const Dropped dropped : {Dropped::zero, Dropped::increments, Dropped::held, Dropped::line}) {
+        for (const double order : {0.5, 0.2, -0.5, 1.5}) {
+            std::vector<glsum::Design> designs = {{order, 1}, {order, 5}, {order, 80}};
+            if (dropped == Dropped::zero || dropped == Dropped::increments) {
+                designs.push_back({order, 7, modes});
+            }
+            for (const glsum::Design& design : designs) {
+                const auto sums = reference::sums_of(dropped, design, record);
+                for (std::size_t k = 0; k < record.size(); ++k) {
+                    const auto weights = reference::weights_of(dropped, design, k + 1);
+                    Real sum = 0;
+                    for (std::size_t j = 0; j <= k; ++j) {
+                        sum += weights[j] * Real(record[k - j]);
+                    }
+                    EXPECT_NEAR(static_cast<double>(Real(sum - to_real(sums[k]))), 0.0, 1e-29)
+                        << static_cast<int>(dropped) << " order " << order << ", taps " << design.taps << ", k " << k;
+                }
+            }
         }
     }
 }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "bench/designs.hpp"
 #include "bench/generate/header.hpp"
 
 int main(int argc, char** argv) {
@@ -17,8 +18,9 @@ int main(int argc, char** argv) {
         double order;
         std::size_t taps;
     };
-    // Each kind of scale and shift (v < 0, 0 < v <= 1, 1 < v), no past at all, groups of four and their rests: three of
-    // them for a kernel, the other three for the next, which has its technique or its format.
+    // Orders that a kernel does not take are left out. Each kind of scale and shift (v < 0, 0 < v <= 1, 1 < v), no past
+    // at all, groups of four and their rests: three of them for a kernel, the other three for the next, which has its
+    // technique or its format.
     const Case cases[] = {{0.5, 1}, {1.9909, 2}, {0.98319, 40}, {-0.5, 101}, {0.5, 63}, {-1.9, 150}};
     std::string includes;
     std::string calls;
@@ -28,6 +30,9 @@ int main(int argc, char** argv) {
         ++turn;
         for (std::size_t c = turn % 2; c < std::size(cases); c += 2) {
             const Case& test = cases[c];
+            if (!bench::serves(kernel, test.order)) {
+                continue;
+            }
             const std::string prefix = fmt::format("g{}", number++);
             const std::string file = prefix + ".h";
             std::ofstream out(folder / file);

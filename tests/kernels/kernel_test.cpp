@@ -26,13 +26,25 @@ TYPED_TEST(KernelTest, ImpulseGivesTheWeightsOverTheWholeWindowAndNothingAfter) 
     for (const double order : orders) {
         for (const std::size_t taps : lengths) {
             Line<TypeParam> line({order, taps});
+            if (!TypeParam::order_in_range(order)) {
+                ASSERT_EQ(line.status(), glsum::Status::order_out_of_range);
+                continue;
+            }
             ASSERT_EQ(line.status(), glsum::Status::ok);
-            const double bound = glsum::error_bound<TypeParam>({order, taps}, line.state(), 0.5);
+            const std::size_t samples = 2 * taps + 3;
+            const double bound = glsum::error_bound<TypeParam>({order, taps}, line.state(), 0.5, samples);
+            std::vector<double> after(samples, 0.0);  // what follows the weights
+            if constexpr (!test::takes_zero<TypeParam>) {
+                std::vector<double> impulse(samples, 0.0);
+                impulse[0] = 0.5;
+                const auto exact = test::exact_sums<TypeParam>({order, taps}, impulse);
+                std::transform(exact.begin(), exact.end(), after.begin(), [](const auto& sum) { return sum.high; });
+            }
             glsum::Weights weights(order);
             double weight = 1.0;
-            for (std::size_t k = 0; k < 2 * taps + 3; ++k) {
-                const double expected = k < taps ? 0.5 * weight : 0.0;
-                ASSERT_NEAR(line.step_real(k == 0 ? 0.5 : 0.0), expected, k < taps ? bound : 0.0)
+            for (std::size_t k = 0; k < samples; ++k) {
+                const double expected = k < taps ? 0.5 * weight : after[k];
+                ASSERT_NEAR(line.step_real(k == 0 ? 0.5 : 0.0), expected, k < taps || after[k] != 0.0 ? bound : 0.0)
                     << "order " << order << ", taps " << taps << ", k " << k;
                 weights.next();
                 weight = weights.weight();
@@ -57,8 +69,12 @@ TYPED_TEST(KernelTest, WindowKeepsEverySampleOverManyTurns) {
         for (std::size_t k = 0; k < 5 * taps + 7; ++k) {
             past.push_back(noise(generator));
             double expected = 0.0;
-            for (std::size_t j = std::min(taps, past.size()); j > 0; --j) {
-                expected += weights[j - 1] * past[past.size() - j];
+            if constexpr (test::takes_zero<TypeParam>) {
+                for (std::size_t j = std::min(taps, past.size()); j > 0; --j) {
+                    expected += weights[j - 1] * past[past.size() - j];
+                }
+            } else {
+                expected = test::exact_sums<TypeParam>({1.5, taps}, past).back().high;
             }
             ASSERT_NEAR(line.step_real(past.back()), expected, bound + 1e-14) << "taps " << taps << ", k " << k;
         }
@@ -70,7 +86,28 @@ TYPED_TEST(KernelTest, WholeOrdersAreExact) {
     const auto sample = [](std::size_t k) { return (static_cast<double>((5 * k * k + 3 * k) % 13) - 6.0) / 64.0; };
     for (const std::size_t taps : lengths) {
         for (const int order : {0, 1, 2, -1}) {
-            Line<TypeParam> line({static_cast<double>(order), taps});
+            const glsum::Design design{static_cast<double>(order), taps};
+            if (!TypeParam::order_in_range(design.order)) {
+                continue;
+            }
+            Line<TypeParam> line(design);
+            if constexpr (!test::takes_zero<TypeParam>) {
+                // Whole weights of what is dropped; but a share of one, where the line has any.
+                if (reference::dropped_by<typename TypeParam::HistoryPart>() == reference::Dropped::line &&
+                    order >= static_cast<int>(taps)) {
+                    continue;
+                }
+                std::vector<double> record(2 * taps + 3);
+                for (std::size_t k = 0; k < record.size(); ++k) {
+                    record[k] = sample(k);
+                }
+                const auto exact = test::exact_sums<TypeParam>(design, record);
+                for (std::size_t k = 0; k < record.size(); ++k) {
+                    ASSERT_EQ(line.step_real(record[k]), exact[k].high)
+                        << "order " << order << ", taps " << taps << ", k " << k;
+                }
+                continue;
+            }
             double running = 0.0;
             for (std::size_t k = 0; k < 2 * taps + 3; ++k) {
                 const double x0 = sample(k);
@@ -97,6 +134,11 @@ TYPED_TEST(KernelTest, TakesNamedWeightsInPlaceOfThoseOfItsOrder) {
     const auto prepare = [&](std::span<const double> named, std::size_t taps) {
         return TypeParam::prepare(state, {0.5, taps, {}, named}, table, past);
     };
+    if constexpr (glsum::guesses_tail<typename TypeParam::HistoryPart>) {
+        EXPECT_EQ(prepare(weights, 10), glsum::Status::weights_out_of_range);  // they do not say what lies behind
+        EXPECT_EQ(prepare({}, 10), glsum::Status::ok);
+        return;
+    }
     constexpr bool nested = TypeParam::TechniquePart::word.starts_with("horner");
     constexpr bool refuses = nested && TypeParam::FormatPart::fixed_point;
     for (const std::size_t taps : {2U, 3U, 6U, 10U}) {
@@ -107,9 +149,13 @@ TYPED_TEST(KernelTest, TakesNamedWeightsInPlaceOfThoseOfItsOrder) {
             continue;
         }
         const double bound = glsum::error_bound<TypeParam>(design, line.state(), 0.5);
+        // Over increments: the weights of x_k - x_(k-1).
+        const auto weight = [&](std::size_t j) { return j == 0 ? 1.0 : j < taps ? weights[j - 1] : 0.0; };
+        constexpr bool increments = glsum::keeps_increments<typename TypeParam::HistoryPart>;
         for (std::size_t k = 0; k < 2 * taps + 3; ++k) {
-            const double expected = k == 0 ? 0.5 : k < taps ? 0.5 * weights[k - 1] : 0.0;
-            ASSERT_NEAR(line.step_real(k == 0 ? 0.5 : 0.0), expected, k < taps ? bound : 0.0) << taps << " " << k;
+            const double expected = 0.5 * (weight(k) - (increments && k > 0 ? weight(k - 1) : 0.0));
+            ASSERT_NEAR(line.step_real(k == 0 ? 0.5 : 0.0), expected, k < taps || expected != 0.0 ? bound : 0.0)
+                << taps << " " << k;
         }
     }
     EXPECT_EQ(prepare(std::span(weights).first(8), 10), glsum::Status::weights_out_of_range);

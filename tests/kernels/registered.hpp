@@ -7,6 +7,7 @@
 #include <string>
 
 #include "bench/host_line.hpp"
+#include "bench/reference/dropped.hpp"
 #include "glsum/registry.hpp"
 
 namespace test {
@@ -31,11 +32,15 @@ struct Filter<Wanted, testing::Types<K, Rest...>, Kept...>
     : std::conditional_t<Wanted<K>::value, Filter<Wanted, testing::Types<Rest...>, Kept..., K>,
                          Filter<Wanted, testing::Types<Rest...>, Kept...>> {};
 
+/// Whether a kernel takes what leaves its window as 0; the others' order is stated in dropped_kernel_test.cpp.
 template <class K>
-using IsFixed = std::bool_constant<K::FormatPart::fixed_point>;
+inline constexpr bool takes_zero = reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero;
+
+template <class K>
+using IsFixed = std::bool_constant<K::FormatPart::fixed_point && takes_zero<K>>;
 /// Floating point with an order that scalar code can state; the vector kernels have a test of their own.
 template <class K>
-using IsScalarFloating = std::bool_constant<!K::FormatPart::fixed_point && !K::host_only>;
+using IsScalarFloating = std::bool_constant<!K::FormatPart::fixed_point && !K::host_only && takes_zero<K>>;
 
 using FixedKernels = Filter<IsFixed, Kernels>::Types;
 using FloatingKernels = Filter<IsScalarFloating, Kernels>::Types;
@@ -49,5 +54,11 @@ struct KernelNames {
 
 template <class K>
 using Line = bench::HostLine<K>;
+
+/// The exact sums of what a kernel's design stands for.
+template <class K>
+reference::Sums exact_sums(const glsum::Design& design, std::span<const double> record) {
+    return reference::sums_of(reference::dropped_by<typename K::HistoryPart>(), design, record);
+}
 
 }  // namespace test
