@@ -116,16 +116,21 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
     const auto add_sum = [&](const glsum::Design& design, double factor) {
         sums.emplace_back(design);
         if (const glsum::Status status = sums.back().status(); status != glsum::Status::ok) {
-            refuse(fmt::format("{}: no sum of order {} over {} taps: {}", K::name(), design.order, taps,
-                               status == glsum::Status::order_out_of_range ? "kernels take orders in (-2, 2]"
-                               : status == glsum::Status::weights_out_of_range
-                                   ? "it cannot take the weights of a merged table"
-                                   : "its coefficients do not fit the format"));
+            refuse(fmt::format(
+                "{}: no sum of order {} over {} taps: {}", K::name(), design.order, taps,
+                status == glsum::Status::order_out_of_range     ? (glsum::keeps_increments<typename K::HistoryPart>
+                                                                       ? "over increments kernels take orders in (-1, 2]"
+                                                                       : "kernels take orders in (-2, 2]")
+                : status == glsum::Status::weights_out_of_range ? "it cannot take the weights of a merged table"
+                                                                : "its coefficients do not fit the format"));
         }
         factors.push_back(static_cast<Real>(factor));
     };
     // With modes a length of taps is parted as a design of so many has them.
     constexpr bool with_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+    if (glsum::keeps_increments<typename K::HistoryPart> && glsum::keeps_modes<typename K::HistoryPart>) {
+        refuse(fmt::format("{}: expected increments and a kernel modes_..., which is the same sum", K::name()));
+    }
     if (with_modes && !scheme.taps) {
         refuse(
             fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few", K::name()));

@@ -30,6 +30,7 @@ struct Memories {
     std::string_view data;   ///< dtcm or axi
     bool maintenance;        ///< whether each call's timing is to hold a clean and invalidate of the data cache
     std::string_view setup;  ///< what else a measurement depends on, in one word
+    std::uintptr_t code_end = UINTPTR_MAX;  ///< functions from here on lie elsewhere than in `code`
 };
 Memories memories();
 /// Cleans and invalidates the whole data cache.

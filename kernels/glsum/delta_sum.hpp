@@ -33,11 +33,16 @@ struct Sum<Delta<Kept>, Technique, Format> {
 
     static constexpr std::size_t table_count(std::size_t taps) { return Inner::table_count(taps); }
     static constexpr std::size_t past_count(std::size_t taps) { return Inner::past_count(taps); }
-    static constexpr std::size_t table_count(std::size_t taps, std::size_t modes) requires keeps_modes<Kept> {
-        return Inner::table_count(taps, modes);
+    // Templates: a compiler may instantiate with the class what is none, whatever it requires.
+    template <class Kind = Inner>
+    requires keeps_modes<Kept>
+    static constexpr std::size_t table_count(std::size_t taps, std::size_t modes) {
+        return Kind::table_count(taps, modes);
     }
-    static constexpr std::size_t past_count(std::size_t taps, std::size_t modes) requires keeps_modes<Kept> {
-        return Inner::past_count(taps, modes);
+    template <class Kind = Inner>
+    requires keeps_modes<Kept>
+    static constexpr std::size_t past_count(std::size_t taps, std::size_t modes) {
+        return Kind::past_count(taps, modes);
     }
 
     /// Multiplications for one output; a subtraction besides.

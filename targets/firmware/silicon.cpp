@@ -72,6 +72,11 @@ bool measure_kernel(std::size_t taps) {
     // Through a pointer that the compiler does not see through: neither inlined nor reached by a veneer.
     typename K::Output (*volatile step)(typename K::State&, typename K::Sample) = &K::step;
     const typename K::Sample newest = K::from_real(0.25);
+    if (const port::Memories memories = port::memories();
+        reinterpret_cast<std::uintptr_t>(+step) >= memories.code_end) {
+        firmware::Answer("# ").add(K::name()).add(": not in ").add(memories.code).write();
+        return true;
+    }
     measure(K::name(), taps, [&, call = +step] { (void)call(state, newest); });
     return true;
 }

@@ -108,7 +108,13 @@ void start() {
 
 std::uint32_t cycles() { return at(core::dwt_cyccnt); }
 
-Memories memories() { return {code, data, GLSUM_MAINTENANCE != 0, GLSUM_SETUP}; }
+Memories memories() {
+    Memories memories{code, data, GLSUM_MAINTENANCE != 0, GLSUM_SETUP};
+    if (link_itcm_end != nullptr) {
+        memories.code_end = reinterpret_cast<std::uintptr_t>(link_itcm_end);
+    }
+    return memories;
+}
 
 void maintain_data_cache() {
     for_each_line([](std::uint32_t line) { at(core::dccisw) = line; });

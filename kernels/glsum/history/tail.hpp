@@ -12,18 +12,18 @@
 //
 // The weights are carried along, in the format's own precision, by two recurrences without a table or a power:
 //
-//   T_k = T_(k-1) - (A + T_(k-1)) v / k,   A = a_0 + ... + a_(L-1), since A + T_(k-1) is the sum of the weights to k -
-//   1, H_k = H_(k-1) + (T_(k-1) - H_(k-1)) / n,   the mean of all T before,
+//   T_k = T_(k-1) - (A + T_(k-1)) v / k,       A = a_0 + ... + a_(L-1): the bracket is a_0 + ... + a_(k-1)
 //
-// each with a carry word (Carried), from T_(L-1) = H_L = 0 on. They do not add up rounding errors as a_k = a_(k-1)
-// (k-1-v)/k would, 10^6 steps of which lose 10^6 units: an error of T enters the next step times 1 - v/k. So, with u
-// the roundoff of the format and to first order in it, T errs for v >= 0 by at most 11 u sum_{j=L..k} |a_j|, however
-// long the record is; for v < 0, where T grows as k^-v, by 11 u |v| (1/L + ln(k/L)) (A + T). Of second order, k u^2 |T|
-// at most. The bound (tail_bound.hpp) walks both recurrences and takes every rounding into account.
+//   H_k = H_(k-1) + (T_(k-1) - H_(k-1)) / n,   the mean of all T before,
 //
-// k is counted to 2^32 - 1; then T, H and U stay as they are.
+// each with a carry word (Carried), from T_(L-1) = H_L = 0 on. They do not add up rounding errors, as a_k = a_(k-1)
+// (k-1-v)/k does: an error of T enters the next step times 1 - v/k. So, with u the roundoff of the format and to first
+// order in it, T errs for v >= 0 by at most 11 u sum_{j=L..k} |a_j|, however long the record is; for v < 0, where T
+// grows as k^-v, by 11 u |v| (1/L + ln(k/L)) (A + T). Of second order, k u^2 |T| at most. The bound (tail_bound.hpp)
+// walks both recurrences and takes every rounding into account.
+//
+// k is counted to 2^32 - 1; then T, H and U stay as they are. Range and overflow: as the format's, floating point only.
 // Order: as a window's. Named weights are refused: they do not say what lies behind them.
-// Range and overflow: as the format's, floating point only.
 // Order of summation: the window as its technique sums it, then the oldest sample's term, then the first's.
 #pragma once
 
