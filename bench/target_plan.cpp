@@ -65,7 +65,7 @@ TargetPlan make_target_plan(const Sweep& sweep) {
                 const auto [count, is_new] =
                     known.try_emplace({k, taps, count_path(kernel, design)}, plan.counts.size());
                 if (is_new) {
-                    plan.counts.push_back({kernel, order, taps, signals, qemu::calls_to_measure(taps), modes});
+                    plan.counts.push_back({kernel, order, taps, signals, qemu::calls_to_measure(kernel, taps), modes});
                 }
                 // With modes the past is never over.
                 const std::size_t longest = double_in_software(kernel) ? longest_replay_in_software : longest_replay;

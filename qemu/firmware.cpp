@@ -142,12 +142,11 @@ std::size_t code_bytes(const Elf& elf, const std::set<std::uint32_t>& reached) {
     return bytes;
 }
 
-void summarise(MeasuredRow& row, Calls& calls, std::uint32_t entry, std::size_t taps) {
+void summarise(MeasuredRow& row, Calls& calls, std::uint32_t entry, const firmware::TimedCalls& made) {
     row.first = calls.take(entry, 1).front().counts;
-    calls.take(entry, taps);  // the past fills
-    const std::size_t turn = std::max(taps, steady_calls);
+    calls.take(entry, made.taps);  // the past fills
     std::size_t seen = 0;
-    for (const CallRun& run : calls.take(entry, turn)) {
+    for (const CallRun& run : calls.take(entry, made.turn())) {
         row.worst_instructions = std::max(row.worst_instructions, run.counts.instructions);
         const auto share =
             static_cast<double>(std::min<std::uint64_t>(run.calls, steady_calls - std::min(seen, steady_calls))) /
@@ -184,7 +183,9 @@ Board find_board(const std::filesystem::path& build, const std::filesystem::path
     return board;
 }
 
-std::size_t calls_to_measure(std::size_t taps) { return 1 + taps + std::max(taps, steady_calls); }
+std::size_t calls_to_measure(const std::string& kernel, std::size_t taps) {
+    return firmware::TimedCalls{taps, computes_in_double(kernel)}.calls();
+}
 
 ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
     const auto& signal = signals.at(row.signal);
@@ -278,7 +279,8 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (rows[i].status == glsum::Status::ok) {
             const std::uint32_t entry = watch.kernels.at(plan[i].kernel);
-            summarise(rows[i], calls, entry, plan[i].taps);
+            const firmware::TimedCalls made{plan[i].taps, computes_in_double(plan[i].kernel)};
+            summarise(rows[i], calls, entry, made);
             const auto reached = log.reached.find(entry);
             if (reached == log.reached.end()) {
                 throw Failure(Exit::check_failed, "the instrument saw no instruction of " + plan[i].kernel);

@@ -68,8 +68,9 @@ struct MeasuredRow {
     bool operator==(const MeasuredRow&) const = default;
 };
 
-/// How many calls `measure` needs at this length: one, a past full, then a whole turn of a ring and at least 32.
-[[nodiscard]] std::size_t calls_to_measure(std::size_t taps);
+/// How many calls `measure` needs of a kernel at this length: `firmware::TimedCalls::calls`.
+/// \param kernel  of any name; none that the registry does not have computes in double
+[[nodiscard]] std::size_t calls_to_measure(const std::string& kernel, std::size_t taps);
 
 /// The hash of the same calls on this machine. `status` as `prepare` gave it; no calls unless ok.
 /// \throws std::out_of_range for a kernel that is not in the registry.
@@ -85,7 +86,7 @@ using RowDone = std::function<void()>;
 /// each instruction and each access with its address.
 enum class Counting { blocks, stream };
 
-/// Checks the instrument on loops of known counts first. Every row's `calls` must be `calls_to_measure(taps)`.
+/// Checks the instrument on loops of known counts first. Every row's `calls` must be `calls_to_measure(kernel, taps)`.
 /// \param timing  cores that the timing model is to have, in the same run; none: instructions only
 /// \throws glsum::Failure when the instrument miscounts, or the emulator fails, and as timing::cores_of.
 [[nodiscard]] std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow> plan,

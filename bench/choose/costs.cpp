@@ -55,7 +55,7 @@ std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
                             order_,
                             wanted.second,
                             0,
-                            qemu::calls_to_measure(wanted.second),
+                            qemu::calls_to_measure(wanted.first, wanted.second),
                             {design.modes.begin(), design.modes.end()}});
             planned.push_back(wanted);
         }

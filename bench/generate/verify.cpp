@@ -84,7 +84,7 @@ static uint32_t verify_{0}(void)
     return wrong;
 }}
 )",
-                            specs[i].prefix, name, format, qemu::calls_to_measure(specs[i].taps),
+                            specs[i].prefix, name, format, qemu::calls_to_measure(specs[i].kernel, specs[i].taps),
                             format == "f64"             ? "double"
                             : format.starts_with("f32") ? "float"
                             : format == "q31"           ? "int32_t"
@@ -172,7 +172,7 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
                         specs[i].order,
                         specs[i].taps,
                         0,
-                        qemu::calls_to_measure(specs[i].taps),
+                        qemu::calls_to_measure(specs[i].kernel, specs[i].taps),
                         {design.modes.begin(), design.modes.end()}});
     }
     const std::filesystem::path path = link(specs, board, scratch);

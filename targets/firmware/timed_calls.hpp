@@ -18,6 +18,11 @@ struct TimedCalls {
     static constexpr std::size_t groups = 4;       ///< of a longer one, so many groups of so many calls
     static constexpr std::size_t group = 2;
 
+    /// How many calls are made once the past is full: a turn of a ring and at least 32. In software double, where the
+    /// arithmetic dwarfs the upkeep, 32: a turn of 5000 taps would take longer than all other kernels together.
+    [[nodiscard]] constexpr std::size_t turn() const { return software_double ? 32 : std::max<std::size_t>(taps, 32); }
+    /// All calls: the first, the past, the turn.
+    [[nodiscard]] constexpr std::size_t calls() const { return 1 + taps + turn(); }
     /// How many calls let caches and predictor settle before the steady ones.
     [[nodiscard]] constexpr std::size_t settling() const { return software_double ? 0 : 2; }
     /// How many calls the steady figure is the mean of.
@@ -33,18 +38,17 @@ struct TimedCalls {
         if (!is_full(call)) {
             return call + settling() > taps;
         }
-        const std::size_t turn = std::max<std::size_t>(taps, 32);
-        const std::size_t behind = call - taps;  // 1 to turn
+        const std::size_t behind = call - taps;  // 1 to turn()
         if (software_double) {
-            return behind == turn;
+            return behind == turn();
         }
         for (std::size_t g = 1; g <= groups; ++g) {
-            const std::size_t end = turn * g / groups;
+            const std::size_t end = turn() * g / groups;
             if (behind <= end && behind + group > end) {
                 return true;
             }
         }
-        return turn <= whole_turn;
+        return turn() <= whole_turn;
     }
 };
 

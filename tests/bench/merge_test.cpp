@@ -67,7 +67,8 @@ TEST(Pieces, ShardsCostAboutTheSame) {
         }
         const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
         EXPECT_LE(*most - *least, dearest) << count;
-        EXPECT_LT(*most, count < 5 ? 1.1 * *least : 1.5 * *least) << count;
+        // A share of nothing but the dearest piece may be larger than the others.
+        EXPECT_LT(*most, std::max((count < 5 ? 1.1 : 1.5) * *least, 1.001 * dearest)) << count;
     }
 }
 

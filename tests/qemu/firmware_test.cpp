@@ -85,7 +85,7 @@ TEST_F(FirmwareTest, CountsAreThoseOfTheLoopsAndDoNotDependOnTheRunner) {
     std::vector<qemu::PlannedRow> plan;
     for_each_target_kernel([&](const std::string& kernel) {
         for (const std::size_t taps : {1U, 50U, 100U}) {
-            plan.push_back({kernel, 0.5, taps, 5, qemu::calls_to_measure(taps)});
+            plan.push_back({kernel, 0.5, taps, 5, qemu::calls_to_measure(kernel, taps)});
         }
     });
     const auto rows = qemu::measure(board_, plan, signals_, [] {});
@@ -129,7 +129,7 @@ TEST_F(FirmwareTest, BlocksAndTheWholeStreamGiveTheSameCounts) {
     std::vector<qemu::PlannedRow> plan;
     for_each_target_kernel([&](const std::string& kernel) {
         for (const std::size_t taps : {1U, 2U, 7U, 100U}) {
-            plan.push_back({kernel, -0.5, taps, 5, qemu::calls_to_measure(taps)});
+            plan.push_back({kernel, -0.5, taps, 5, qemu::calls_to_measure(kernel, taps)});
         }
     });
     const auto by_blocks = qemu::measure(
@@ -148,7 +148,7 @@ TEST_F(FirmwareTest, ModelledCyclesDoNotDependOnWhatElseRuns) {
     std::vector<qemu::PlannedRow> plan;
     for (const char* kernel : {"shift_plain_f32", "ring_plain_q31", "mirror_smlald_q15", "ring_horner_f64"}) {
         for (const std::size_t taps : {1U, 20U, 100U}) {
-            plan.push_back({kernel, 0.5, taps, 5, qemu::calls_to_measure(taps)});
+            plan.push_back({kernel, 0.5, taps, 5, qemu::calls_to_measure(kernel, taps)});
         }
     }
     const auto request_of = [](const std::vector<std::string>& cores) {
@@ -204,7 +204,7 @@ TEST_F(FirmwareTest, CountsFollowFromThePathAloneButInSoftwareDouble) {
             for (const std::size_t taps : {1U, 2U, 7U, 50U, 101U}) {
                 for (const double order : {0.5, 1.9909, -0.5}) {
                     for (const std::size_t signal : {0U, 5U}) {  // step, noise
-                        plan.push_back({kernel, order, taps, signal, qemu::calls_to_measure(taps)});
+                        plan.push_back({kernel, order, taps, signal, qemu::calls_to_measure(kernel, taps)});
                     }
                 }
             }
@@ -225,8 +225,9 @@ TEST_F(FirmwareTest, CountsFollowFromThePathAloneButInSoftwareDouble) {
 }
 
 TEST_F(FirmwareTest, ARowBeyondTheCapacityOrFormatComesBackWithItsStatus) {
-    const std::vector<qemu::PlannedRow> plan{{"shift_plain_f32", 0.5, 100000, 0, qemu::calls_to_measure(100000)},
-                                             {"shift_plain_f32", 0.5, 3, 0, qemu::calls_to_measure(3)}};
+    const std::vector<qemu::PlannedRow> plan{
+        {"shift_plain_f32", 0.5, 100000, 0, qemu::calls_to_measure("shift_plain_f32", 100000)},
+        {"shift_plain_f32", 0.5, 3, 0, qemu::calls_to_measure("shift_plain_f32", 3)}};
     const auto rows = qemu::measure(board_, plan, signals_, [] {});
     EXPECT_EQ(rows[0].status, glsum::Status::table_too_small);
     EXPECT_EQ(rows[1].status, glsum::Status::ok);

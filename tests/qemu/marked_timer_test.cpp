@@ -79,7 +79,8 @@ TEST(TimedCalls, HoldFirstSteadyAndTheTurnsEnd) {
     for (const bool software_double : {false, true}) {
         for (const std::size_t taps : {1U, 2U, 31U, 32U, 33U, 64U, 65U, 600U, 5000U}) {
             const firmware::TimedCalls timed{taps, software_double};
-            const std::size_t calls = 1 + taps + std::max<std::size_t>(taps, 32);
+            const std::size_t calls = timed.calls();
+            EXPECT_EQ(calls, 1 + taps + (software_double ? 32 : std::max<std::size_t>(taps, 32)));
             std::size_t count = 0;
             std::size_t steady = 0;
             for (std::size_t call = 0; call < calls; ++call) {
