@@ -72,4 +72,9 @@ echo '{"kind": "pid", "kd": 1}' >"$folder/pd.json"
 expect 2 "filter_s: expected a time above 0" identify "$folder/loop.csv" --controller "$folder/pd.json"
 
 expect 0 "0.9977144659 without its dead time" paper
+# Models stepped: a design that is not stable is named and left out, the others go on; with none left there is an error.
+steps='bench --drive --quick --targets host'
+expect 0 "left out: niopdt modesbdf2_plain_f32: expected more taps or modes than 2+7" $steps --kernels 'modes*_plain_f32' --taps 2+7 --out "$folder/steps.json"
+grep -q '"drive/niopdt/modesdelta_plain_f32/taps:2+7/host"' "$folder/steps.json" || fail "expected the row of modesdelta_plain_f32"
+expect 2 "nothing that can be stepped" $steps --kernels 'modesbdf2*' --taps 2+7 --out "$folder/none.json"
 [ "$failures" -eq 0 ]
