@@ -61,7 +61,7 @@ struct Case {
         : order(v), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
         std::vector<std::size_t> lengths;
         for (const Length& length : sweep.lengths) {
-            if (!length.modes) {
+            if (length.window()) {
                 lengths.push_back(length.taps);
             }
         }
@@ -76,10 +76,10 @@ struct Case {
     /// The exact sums of what a kernel's design stands for; where that is a window, those of entry `i` of its lengths.
     const reference::Sums& exact_of(reference::Dropped dropped, const Length& length, std::size_t i,
                                     const glsum::Design& design) {
-        if (!length.modes && (dropped == reference::Dropped::zero || length.taps >= record.size())) {
+        if (length.window() && (dropped == reference::Dropped::zero || length.taps >= record.size())) {
             return exact[i];
         }
-        auto& sums = of_designs[{dropped, length.text()}];
+        auto& sums = of_designs[{dropped, (length.blocks ? "blocks " : "") + length.text()}];
         if (sums.empty()) {
             sums = reference::sums_of(dropped, design, record);
         }
@@ -102,7 +102,8 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
         aspect += fmt::format("/amplitude:{}", amplitude);
     }
     Json row = make_row(row_name(std::string(K::name()), test.order, length, aspect), test.record.size());
-    HostLine<K> line(design_of(std::string(K::name()), test.order, length, test.record.size()));
+    const glsum::Design design = design_of(std::string(K::name()), test.order, length, test.record.size());
+    HostLine<K> line(design);
     if (line.status() != glsum::Status::ok) {
         mark_error(row, to_text(line.status()));
         return row;
@@ -134,10 +135,10 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
     if constexpr (K::FormatPart::fixed_point) {
         row["saturations"] = line.state().scale.saturations;
     }
-    if (!length.modes) {
+    if (length.window()) {
         row["effective_taps"] = line.effective_taps();
     }
-    row["horizon_samples"] = length.modes ? test.record.size() : std::min(length.taps, test.record.size());
+    row["horizon_samples"] = length.modes ? test.record.size() : std::min(glsum::reach_of(design), test.record.size());
     row["macs_per_sample"] = K::multiplications(length.taps);
     row["coefficient_bytes"] = line.coefficient_bytes();
     row["state_bytes"] = line.state_bytes();
@@ -165,7 +166,7 @@ std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::v
                         test.exact_of(reference::dropped_by<typename K::HistoryPart>(), length, l,
                                       design_of(kernel, test.order, length, test.record.size()));
                     rows[i].push_back(measure<K>(test, length, exact, 1.0));
-                    if (length.taps == amplitude_taps && !length.modes &&
+                    if (length.taps == amplitude_taps && length.window() &&
                         std::find(std::begin(amplitude_signals), std::end(amplitude_signals), test.signal) !=
                             std::end(amplitude_signals)) {
                         for (const double amplitude : {0x1p-4, 0x1p-8}) {

@@ -14,7 +14,8 @@ namespace bench {
 ///   error_max, error_rms                            kernel against E
 ///   rounding_error_max                              kernel against the exact sum of what its design stands for:
 ///                                                   of its taps; of its taps and exponentials, as designed in double;
-///                                                   of the increments kept; of its taps and the tail that it guesses
+///                                                   of its taps and blocks; of the increments kept; of its taps and
+///                                                   the tail that it guesses
 ///   truncation_error_max                            that sum against E
 ///   discretisation_error_max                        E against h^v D^v x(t_k), the exact derivative, at up to 200 k
 ///                                                   log-spaced over 1..N-1; of the order and the signal, whatever the

@@ -35,13 +35,16 @@ concept has_scale = requires(typename K::State state) {
 
 CountPath count_path(const std::string& kernel, const glsum::Design& design) {
     return of_kernel(kernel, [&]<class K>() {
-        std::vector<typename K::Coefficient> table(K::table_count(design.taps));
-        std::vector<typename K::Sample> past(K::past_count(design.taps));
+        std::vector<typename K::Coefficient> table(glsum::table_needed<K>(design));
+        std::vector<typename K::Sample> past(glsum::past_needed<K>(design));
         typename K::State state{};
-        CountPath path{.status = K::prepare(state, design, table, past), .modes = design.modes.size()};
+        CountPath path{.status = K::prepare(state, design, table, past), .modes = design.modes.size(), .blocks = {}};
         if constexpr (has_scale<K>) {
             path.table_exponent = state.scale.table_exponent;
             path.output_exponent = state.scale.output_exponent;
+        }
+        if constexpr (requires { state.per_level; }) {
+            path.blocks = {design.blocks.count, design.blocks.per_level};
         }
         return path;
     });

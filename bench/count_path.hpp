@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstddef>
 #include <string>
+#include <utility>
 
 #include "glsum/kernel.hpp"
 
@@ -17,6 +18,7 @@ struct CountPath {
     int table_exponent = 0;
     int output_exponent = 0;
     std::size_t modes = 0;
+    std::pair<std::size_t, std::size_t> blocks = {};  ///< their number, and how many a level has
     auto operator<=>(const CountPath&) const = default;
 };
 /// \throws std::out_of_range for a kernel that is not in the registry.

@@ -10,6 +10,7 @@
 
 #include "bench/reference/dropped.hpp"
 #include "glsum/registry.hpp"
+#include "modes/blocks.hpp"
 #include "modes/design.hpp"
 
 namespace bench {
@@ -64,6 +65,10 @@ bool has_modes(const std::string& kernel) {
     return of_history(kernel, false, []<class K>() { return glsum::keeps_modes<typename K::HistoryPart>; });
 }
 
+bool has_blocks(const std::string& kernel) {
+    return of_history(kernel, false, []<class K>() { return glsum::keeps_blocks<typename K::HistoryPart>; });
+}
+
 double order_of_weights(const std::string& kernel, double order) {
     return find_of_history(
                kernel, order,
@@ -78,7 +83,7 @@ bool serves(const std::string& kernel, double order) {
 bool truncates(const std::string& kernel) {
     return of_history(kernel, true, []<class K>() {
         return reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero &&
-               !glsum::keeps_modes<typename K::HistoryPart>;
+               !glsum::keeps_modes<typename K::HistoryPart> && !glsum::keeps_blocks<typename K::HistoryPart>;
     });
 }
 
@@ -86,12 +91,29 @@ Length length_with_modes(double order, std::size_t taps) {
     return {taps, false, glsum::modes::modes_within(order, taps)};
 }
 
-Length length_of(const std::string& kernel, double order, std::size_t taps) {
-    return has_modes(kernel) ? length_with_modes(order_of_weights(kernel, order), taps) : Length{taps};
+Length length_with_blocks(double order, std::size_t taps, std::size_t samples) {
+    const glsum::Blocks blocks = remembered(std::tuple(order, taps, samples), [&] {
+        return glsum::modes::design_blocks({order, samples}, taps).blocks;
+    });
+    return {taps, false, {}, blocks};
+}
+
+Length length_of(const std::string& kernel, double order, std::size_t taps, std::size_t samples) {
+    return has_blocks(kernel)  ? length_with_blocks(order_of_weights(kernel, order), taps, samples)
+           : has_modes(kernel) ? length_with_modes(order_of_weights(kernel, order), taps)
+                               : Length{taps};
+}
+
+Length as_counted(const std::string& kernel, const Length& read) {
+    const bool blocks = find_of_history(kernel, false, []<class K>() {
+                            return glsum::keeps_blocks<typename K::HistoryPart>;
+                        }).value_or(false);
+    return blocks && read.modes ? Length{read.taps - *read.modes, false, {}, glsum::Blocks{*read.modes, 1}} : read;
 }
 
 glsum::Design design_of(const std::string& kernel, double order, const Length& length, std::size_t samples) {
     glsum::Design design{order, length.taps};
+    design.blocks = length.blocks.value_or(glsum::Blocks{});
     if (const std::size_t modes = length.modes.value_or(0); modes > 0) {
         const double of_weights = order_of_weights(kernel, order);
         design.modes = remembered(std::tuple(of_weights, samples, length.taps, modes), [&] {
@@ -107,6 +129,14 @@ std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, do
     }
     const bool with_modes = has_modes(kernel);
     std::vector<Length> lengths;
+    if (has_blocks(kernel)) {
+        for (const Length& length : sweep.lengths) {
+            if (length.window() && !length.full) {
+                lengths.push_back(length_of(kernel, order, length.taps, sweep.samples));
+            }
+        }
+        return lengths;
+    }
     std::copy_if(sweep.lengths.begin(), sweep.lengths.end(), std::back_inserter(lengths),
                  [&](const Length& length) { return length.modes.has_value() == with_modes; });
     if (!with_modes) {

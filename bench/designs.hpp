@@ -14,6 +14,9 @@ namespace bench {
 /// the registry.
 [[nodiscard]] bool has_modes(const std::string& kernel);
 
+/// Whether a kernel keeps near taps and blocks in place of a window. \throws as has_modes.
+[[nodiscard]] bool has_blocks(const std::string& kernel);
+
 /// The order whose weights a kernel sums over what it keeps: v, or v - 1 over increments. Of any other name v.
 [[nodiscard]] double order_of_weights(const std::string& kernel, double order);
 
@@ -27,15 +30,23 @@ namespace bench {
 /// The length of a design of `taps` coefficients: `modes_within` of them are modes. The order is that of the weights.
 [[nodiscard]] Length length_with_modes(double order, std::size_t taps);
 
-/// A length as a kernel counts it: with modes those of `length_with_modes`.
-[[nodiscard]] Length length_of(const std::string& kernel, double order, std::size_t taps);
+/// The same with blocks: those of `design_blocks` for a record of so many samples.
+[[nodiscard]] Length length_with_blocks(double order, std::size_t taps, std::size_t samples);
 
-/// The design of a kernel at a length: its modes, if any, for a record of `samples`. They stay where they are to the
-/// end of the program, and each is made once. Thread-safe.
+/// A length as a kernel counts it: with modes those of `length_with_modes`, with blocks of `length_with_blocks`.
+[[nodiscard]] Length length_of(const std::string& kernel, double order, std::size_t taps, std::size_t samples);
+
+/// What `parse_length` read as taps and modes, as the kernel counts it: of one with blocks each is one coefficient, and
+/// how many a level has is not written. Of any other name as it is.
+[[nodiscard]] Length as_counted(const std::string& kernel, const Length& read);
+
+/// The design of a kernel at a length: its blocks, or its modes, if any, for a record of `samples`. They stay where
+/// they are to the end of the program, and each is made once. Thread-safe.
 [[nodiscard]] glsum::Design design_of(const std::string& kernel, double order, const Length& length,
                                       std::size_t samples);
 
-/// The lengths at which a sweep measures a kernel. With a window: those without modes. With modes: those with modes, or
+/// The lengths at which a sweep measures a kernel. With a window: those without modes. With
+/// blocks: one for each of these but `full`, of as many coefficients. With modes: those with modes, or
 /// where the sweep names none, for each of its `design_errors` the shortest design that keeps it over the record.
 /// Over increments that is the error for |x_k - x_(k-1)| <= 1. Orders that the kernel does not take, and with modes
 /// those whose weights have no tail of exponentials (whole orders, and weights of order <= -1), have none. Rising.

@@ -156,7 +156,8 @@ bool ends_with_window(const glsum::Design& design) {
     if constexpr (std::is_same_v<K, glsum::Null>) {
         return true;
     } else {
-        return design.modes.empty() && reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero;
+        return design.modes.empty() && design.blocks.count == 0 &&
+               reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero;
     }
 }
 
@@ -323,7 +324,7 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
     std::map<std::tuple<double, std::string, reference::Dropped>, Weights> known;
     const auto weights_of = [&](const Timed& timed, reference::Dropped dropped, const glsum::Design& design,
                                 bool ends) {
-        auto& weights = known[{timed.order, timed.length.text(), dropped}];
+        auto& weights = known[{timed.order, (timed.length.blocks ? "blocks " : "") + timed.length.text(), dropped}];
         if (!weights) {
             weights = std::make_shared<const std::vector<reference::Real>>(
                 ends ? reference::weights(reference::Real(timed.order), design.taps)
@@ -385,13 +386,13 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
 HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flags) {
     std::vector<Timed> cases;
     for (const Length& length : sweep.lengths) {
-        if (length.modes) {
+        if (!length.window()) {
             continue;
         }
         for (const std::string& name : sweep.kernels) {
             const auto order =
                 std::find_if(sweep.orders.begin(), sweep.orders.end(), [&](double v) { return serves(name, v); });
-            if (!has_modes(name) && order != sweep.orders.end()) {
+            if (!has_modes(name) && !has_blocks(name) && order != sweep.orders.end()) {
                 cases.push_back({name, length, *order});
             }
         }
@@ -400,7 +401,7 @@ HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flag
         }
     }
     for (const std::string& kernel : sweep.kernels) {
-        if (!has_modes(kernel)) {
+        if (!has_modes(kernel) && !has_blocks(kernel)) {
             continue;
         }
         std::set<std::string> seen;

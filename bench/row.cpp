@@ -41,6 +41,8 @@ std::string to_text(glsum::Status status) {
             return "the modes leave no tap, or do not decay";
         case glsum::Status::weights_out_of_range:
             return "the weights are too few, are no numbers, or cannot be nested";
+        case glsum::Status::blocks_out_of_range:
+            return "the blocks leave no tap, are none a level, or reach too far";
     }
     return "unknown status";
 }

@@ -9,18 +9,25 @@
 #include <string>
 #include <vector>
 
+#include "glsum/kernel.hpp"
+
 namespace bench {
 
-/// A memory length: a number of taps, all of the record, or near taps and modes, each of these counting as two taps.
+/// A memory length: a number of taps, all of the record, or near taps and modes, each of these counting as two taps, or
+/// near taps and blocks, each counting as one.
 struct Length {
     std::size_t taps;
     bool full = false;
     std::optional<std::size_t> modes = {};
-    /// "600", "full", "2+7".
+    std::optional<glsum::Blocks> blocks = {};
+    /// Whether it is a window's.
+    [[nodiscard]] bool window() const { return !modes && !blocks; }
+    /// "600", "full", "2+7"; which kind the last is, the kernel says.
     [[nodiscard]] std::string text() const {
-        return full    ? "full"
-               : modes ? std::to_string(taps - 2 * *modes) + '+' + std::to_string(*modes)
-                       : std::to_string(taps);
+        return full     ? "full"
+               : blocks ? std::to_string(taps - blocks->count) + '+' + std::to_string(blocks->count)
+               : modes  ? std::to_string(taps - 2 * *modes) + '+' + std::to_string(*modes)
+                        : std::to_string(taps);
     }
 };
 

@@ -65,14 +65,15 @@ TargetPlan make_target_plan(const Sweep& sweep) {
                 const auto [count, is_new] =
                     known.try_emplace({k, taps, count_path(kernel, design)}, plan.counts.size());
                 if (is_new) {
-                    plan.counts.push_back({kernel, order, taps, signals, qemu::calls_to_measure(kernel, taps), modes});
+                    plan.counts.push_back(
+                        {kernel, order, taps, signals, qemu::calls_to_measure(kernel, taps), modes, design.blocks});
                 }
-                // With modes the past is never over.
+                // With modes the past is never over, with blocks it is longer than the taps.
                 const std::size_t longest = double_in_software(kernel) ? longest_replay_in_software : longest_replay;
-                const std::size_t calls = std::min({sweep.samples, length.modes ? longest : taps + 64, longest});
+                const std::size_t calls = std::min({sweep.samples, length.window() ? taps + 64 : longest, longest});
                 for (std::size_t turn = place[k]; turn == place[k] || turn < signals; turn += places[k]) {
                     plan.replays.push_back(
-                        {plan.rows.size(), {kernel, order, taps, (turn + k) % signals, calls, modes}});
+                        {plan.rows.size(), {kernel, order, taps, (turn + k) % signals, calls, modes, design.blocks}});
                 }
                 ++place[k];
                 // One for all orders, which share their counts; of a kernel with modes one for all of its designs.

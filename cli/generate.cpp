@@ -69,22 +69,26 @@ choose::Answer choose_one(const Budget& budget) {
     return answer;
 }
 
-// The length as a kernel counts it: a number, or 2+7 of near taps and modes, parted as a design of so many has them.
-std::size_t to_taps(const std::string& text, const std::string& kernel, double order) {
+// The length as a kernel counts it: a number, or 2+7 of near taps and modes or blocks, parted as a design of so many
+// has them.
+std::size_t to_taps(const std::string& text, const std::string& kernel, double order, std::size_t samples) {
     const auto length = text == "full" ? std::nullopt : bench::parse_length(text, 0);
     if (!length || length->taps > 8000) {
-        refuse(fmt::format("--taps: expected 1 to 8000 with --kernel, or 2+7 of a kernel with modes, found {}",
-                           text.empty() ? "nothing" : text));
+        refuse(
+            fmt::format("--taps: expected 1 to 8000 with --kernel, or 2+7 of a kernel with modes or blocks, found {}",
+                        text.empty() ? "nothing" : text));
     }
     if (length->modes) {
         const std::vector<std::string> known = generate::generatable();
+        const bench::Length written = bench::as_counted(kernel, *length);
         const bench::Length parted = std::find(known.begin(), known.end(), kernel) == known.end()
-                                         ? *length
-                                         : bench::length_of(kernel, order, length->taps);
-        if (parted.text() != length->text()) {
+                                         ? written
+                                         : bench::length_of(kernel, order, written.taps, samples);
+        if (parted.text() != written.text()) {
             refuse(fmt::format("--taps: {} at order {} with as many coefficients has {}, found {}", kernel, order,
                                parted.text(), text));
         }
+        return written.taps;
     }
     return length->taps;
 }
@@ -129,7 +133,8 @@ void run(const Options& options, Budget budget, const std::string& command) {
                                options.kernel));
         }
         for (const std::string& kernel : kernels) {
-            specs.push_back(to_spec(options, budget, kernel, to_taps(options.taps, kernel, budget.order)));
+            specs.push_back(
+                to_spec(options, budget, kernel, to_taps(options.taps, kernel, budget.order, samples_of(budget))));
         }
         if (!options.out.empty()) {
             (void)generate::make_header(specs.front());  // refused before anything is measured
@@ -141,8 +146,8 @@ void run(const Options& options, Budget budget, const std::string& command) {
         const std::string header = generate::make_header(specs.front());
         bench::write_file(options.out, header);
         const generate::Spec& spec = specs.front();
-        fmt::print("{} with {} taps in {}\n", spec.kernel, bench::length_of(spec.kernel, spec.order, spec.taps).text(),
-                   options.out);
+        fmt::print("{} with {} taps in {}\n", spec.kernel,
+                   bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(), options.out);
     }
     if (options.verify) {
         const auto verified = generate::verify_on_target(specs, built_board());
@@ -163,7 +168,8 @@ void add_generate(CLI::App& app, const std::string& command_line) {
     auto budget = add_budget(*command);
     auto options = std::make_shared<Options>();
     command->add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
-    command->add_option("--taps", options->taps, "Its length, with --kernel: a number, or 2+7 of near taps and modes");
+    command->add_option("--taps", options->taps,
+                        "Its length, with --kernel: a number, or 2+7 of near taps and modes or blocks");
     command->add_option("--prefix", options->prefix, "Begins every identifier of the header")->capture_default_str();
     command->add_option("--licence", options->licence, "The header's licence line");
     command->add_option("--out", options->out, "The header");

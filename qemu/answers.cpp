@@ -39,7 +39,7 @@ std::optional<Row> Answers::take(const std::string& line, Read read) {
     const auto status = words.number<unsigned>();
     Row row{};
     row.status = static_cast<glsum::Status>(status.value_or(0));
-    const bool known = status && *status <= static_cast<unsigned>(glsum::Status::weights_out_of_range);
+    const bool known = status && *status <= static_cast<unsigned>(glsum::Status::blocks_out_of_range);
     if (!known || (row.status == glsum::Status::ok && !read(words, row)) || !words.done()) {
         throw Failure(Exit::check_failed, "the firmware answered a damaged row: " + line);
     }

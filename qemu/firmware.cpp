@@ -35,10 +35,10 @@ void write_plan(const std::filesystem::path& path, const std::filesystem::path& 
                       static_cast<std::streamsize>(signal.size() * sizeof(double)));
     }
     std::ofstream out(path);
-    out << fmt::format("glsum-plan-2 {} {}\n", signals_path.string(), signals.at(0).size());
+    out << fmt::format("glsum-plan-3 {} {}\n", signals_path.string(), signals.at(0).size());
     for (const PlannedRow& row : plan) {
-        out << fmt::format("{} {:016x} {} {} {} {}", row.kernel, std::bit_cast<std::uint64_t>(row.order), row.taps,
-                           row.signal, row.calls, row.modes.size());
+        out << fmt::format("{} {:016x} {} {} {} {} {} {}", row.kernel, std::bit_cast<std::uint64_t>(row.order),
+                           row.taps, row.signal, row.calls, row.blocks.count, row.blocks.per_level, row.modes.size());
         for (const glsum::Mode& mode : row.modes) {
             out << fmt::format(" {:016x} {:016x}", std::bit_cast<std::uint64_t>(mode.decay),
                                std::bit_cast<std::uint64_t>(mode.weight));
@@ -194,8 +194,8 @@ ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
         if (K::name() != row.kernel) {
             return;
         }
-        std::vector<typename K::Coefficient> table(K::table_count(row.taps));
-        std::vector<typename K::Sample> past(K::past_count(row.taps));
+        std::vector<typename K::Coefficient> table(glsum::table_needed<K>(row.design()));
+        std::vector<typename K::Sample> past(glsum::past_needed<K>(row.design()));
         typename K::State state{};
         result = ReplayedRow{K::prepare(state, row.design(), table, past), 0};
         if (result->status != glsum::Status::ok) {

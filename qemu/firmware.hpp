@@ -38,8 +38,9 @@ struct PlannedRow {
     std::size_t signal;  ///< index into the signals
     std::size_t calls;
     std::vector<glsum::Mode> modes = {};
+    glsum::Blocks blocks = {};
 
-    [[nodiscard]] glsum::Design design() const { return {order, taps, modes}; }
+    [[nodiscard]] glsum::Design design() const { return {order, taps, modes, {}, blocks}; }
 };
 
 /// Records of equal length, |x| <= 1.

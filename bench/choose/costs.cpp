@@ -50,13 +50,15 @@ std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
         }
         if (!known_.contains(wanted) && std::find(planned.begin(), planned.end(), wanted) == planned.end()) {
             const glsum::Design design = bench::design_of(
-                wanted.first, order_, bench::length_of(wanted.first, order_, wanted.second), signals_.front().size());
+                wanted.first, order_, bench::length_of(wanted.first, order_, wanted.second, signals_.front().size()),
+                signals_.front().size());
             plan.push_back({wanted.first,
                             order_,
                             wanted.second,
                             0,
                             qemu::calls_to_measure(wanted.first, wanted.second),
-                            {design.modes.begin(), design.modes.end()}});
+                            {design.modes.begin(), design.modes.end()},
+                            design.blocks});
             planned.push_back(wanted);
         }
     }
@@ -131,7 +133,7 @@ std::vector<Cost> HostTimes::costs(const std::vector<Case>& cases) {
     }
     std::vector<bench::Timed> timed;
     for (const auto& [kernel, taps] : cases) {
-        timed.push_back({kernel, bench::length_of(kernel, order_, taps), order_});
+        timed.push_back({kernel, bench::length_of(kernel, order_, taps, samples_), order_});
     }
     const bench::HostTiming timing = bench::time_on_host(timed, samples_, 9, {});
     cycle_counter_ = timing.context.value("cycle_counter", "unknown");

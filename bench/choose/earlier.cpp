@@ -46,9 +46,15 @@ std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::
     if (!length || length->taps > samples) {
         return std::nullopt;
     }
+    if (!length->modes) {
+        return length->taps;
+    }
+    const bench::Length written = bench::as_counted(key.kernel, *length);
     const double of_weights = bench::order_of_weights(key.kernel, order);
-    const bool asked_for = !length->modes || length->modes == bench::length_with_modes(of_weights, length->taps).modes;
-    return asked_for ? std::optional(length->taps) : std::nullopt;
+    const bench::Length counted = written.blocks ? bench::length_with_blocks(of_weights, written.taps, samples)
+                                                 : bench::length_with_modes(of_weights, written.taps);
+    const bool asked_for = counted.text() == written.text();
+    return asked_for ? std::optional(written.taps) : std::nullopt;
 }
 
 Earlier read_earlier(const Question& question, const bench::Json& context) {

@@ -82,7 +82,8 @@ std::optional<std::vector<std::size_t>> MeasuredErrors::lengths(const std::strin
         std::iota(all.begin(), all.end(), std::size_t{1});
         return all;
     }
-    // Truncation does not say how long a kernel must be that takes what it drops for more than 0.
+    // Truncation does not say how long a kernel must be that takes what it drops for more than 0, or keeps it as
+    // blocks.
     constexpr std::size_t one_by_one = 128;
     std::vector<std::size_t> rungs = {1};
     while (rungs.back() < longest()) {
@@ -93,7 +94,7 @@ std::optional<std::vector<std::size_t>> MeasuredErrors::lengths(const std::strin
 }
 
 glsum::Design MeasuredErrors::design_of(const std::string& kernel, std::size_t taps) const {
-    return bench::design_of(kernel, order_, bench::length_of(kernel, order_, taps), longest());
+    return bench::design_of(kernel, order_, bench::length_of(kernel, order_, taps, longest()), longest());
 }
 
 void MeasuredErrors::remember(const std::string& kernel, std::size_t taps, const std::string& signal, double error) {

@@ -53,8 +53,9 @@ public:
     void remember(const std::string& kernel, std::size_t taps, const std::string& signal, double error);
 
     [[nodiscard]] std::size_t longest() const override { return truncation_.size(); }
-    /// Of a kernel with modes: the designs of `bench::length_of`, for the records. Of one that does not take what its
-    /// window dropped as 0: every length to 128, then to the longest each an eighth longer than the last.
+    /// Of a kernel with modes: the designs of `bench::length_of`, for the records. Of one with blocks, and one that
+    /// does not take what its window dropped as 0: every length to 128, then to the longest each an eighth longer than
+    /// the last.
     [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
     [[nodiscard]] double truncation(std::size_t taps) const override { return truncation_[taps - 1]; }
     [[nodiscard]] double rounding_bound(const std::string& kernel, std::size_t taps) const override;

@@ -118,7 +118,8 @@ Answer measure_one(const Question& question, const std::string& kernel, std::siz
     Candidate candidate{kernel, taps, errors.error(kernel, taps), {}};
     if (!candidate.error.fault.empty()) {
         throw Failure(Exit::bad_input,
-                      fmt::format("{} with {} taps: {}", kernel, taps_text(candidate, question.conditions.order),
+                      fmt::format("{} with {} taps: {}", kernel,
+                                  taps_text(candidate, question.conditions.order, question.conditions.samples),
                                   candidate.error.fault));
     }
     std::string note;

@@ -38,7 +38,7 @@ std::string relaxed_value(const Relaxed& relaxed) {
 }
 
 std::string taps_of(const Answer& answer, const Candidate& candidate) {
-    return taps_text(candidate, answer.question.conditions.order);
+    return taps_text(candidate, answer.question.conditions.order, answer.question.conditions.samples);
 }
 
 std::string at(const Answer& answer, const Candidate& candidate) {
@@ -108,9 +108,17 @@ bench::Json to_json(const Answer& answer, const Candidate& candidate) {
     bench::Json json;
     json["kernel"] = candidate.kernel;
     json["taps"] = candidate.taps;
-    if (const auto modes = bench::length_of(candidate.kernel, answer.question.conditions.order, candidate.taps).modes) {
-        json["near_taps"] = candidate.taps - 2 * *modes;
-        json["modes"] = *modes;
+    const auto& conditions = answer.question.conditions;
+    const bench::Length length =
+        bench::length_of(candidate.kernel, conditions.order, candidate.taps, conditions.samples);
+    if (length.modes) {
+        json["near_taps"] = candidate.taps - 2 * *length.modes;
+        json["modes"] = *length.modes;
+    }
+    if (length.blocks) {
+        json["near_taps"] = candidate.taps - length.blocks->count;
+        json["blocks"] = length.blocks->count;
+        json["blocks_per_level"] = length.blocks->per_level;
     }
     json["error_max"] = candidate.error.error;
     json["worst_signal"] = candidate.error.signal;

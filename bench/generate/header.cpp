@@ -7,11 +7,13 @@
 #include <span>
 #include <sstream>
 
+#include "bench/designs.hpp"
 #include "bench/generate/kernel_data.hpp"
 #include "bench/generate/text.hpp"
 #include "bench/signals.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/gain.hpp"
+#include "glsum/history/nested.hpp"
 #include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
 
@@ -294,6 +296,12 @@ std::string constants(const Spec& spec, const KernelData& data) {
         text += fmt::format("#define @NAME@_MODES {}U              /* decaying averages of what lies behind these */\n",
                             data.modes);
     }
+    if (data.blocks.count > 0) {
+        text += fmt::format(
+            "#define @NAME@_BLOCKS {}U             /* of samples that lie behind these */\n"
+            "#define @NAME@_PER_LEVEL {}U          /* of each width: 2, 4, 8, ... */\n",
+            data.blocks.count, data.blocks.per_level);
+    }
     if (data.pairs) {
         const std::size_t all = data.table.integers.size() / 2;
         text += fmt::format(
@@ -361,8 +369,9 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
         "{} h^-v S_k approximates the derivative of order v (v < 0: the integral).\n"
         "Made by glsum; make it again rather than edit it.\n\n",
         spec.kernel,
-        data.modes == 0 ? fmt::format("{} taps", spec.taps)
-                        : fmt::format("{} taps and {} modes", data.past + 1, data.modes),
+        data.blocks.count > 0 ? fmt::format("{} taps and {} blocks", data.past + 1, data.blocks.count)
+        : data.modes == 0     ? fmt::format("{} taps", spec.taps)
+                              : fmt::format("{} taps and {} modes", data.past + 1, data.modes),
         spec.order,
         data.history_text.formula.empty() ? "  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 "
                                             "- (1+v)/j)\n\none sum a sample;"
@@ -378,14 +387,27 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
         "against the exact sum of {}, rounding of coefficients and inputs included: {:.3g}\n"
         "of that sum against full memory ({}): {}\n\n",
         data.guesses ? fmt::format("{} taps and the tail's weights, over {} samples", spec.taps, glsum::longest_record)
-        : data.modes == 0 ? fmt::format("{} taps", spec.taps)
-                          : "these taps and modes, as designed in double",
-        data.error_bound, data.modes == 0 ? "truncation" : fmt::format("{} samples from rest", spec.horizon),
-        data.modes == 0 ? truncation_bound(spec.order, spec.taps, data) : fmt::format("{:.3g}", data.design_error));
+        : data.blocks.count > 0 ? "these taps and blocks"
+        : data.modes == 0       ? fmt::format("{} taps", spec.taps)
+                                : "these taps and modes, as designed in double",
+        data.error_bound,
+        data.modes == 0 && !data.has_blocks ? "truncation" : fmt::format("{} samples from rest", spec.horizon),
+        data.modes == 0 && !data.has_blocks ? truncation_bound(spec.order, spec.taps, data)
+                                            : fmt::format("{:.3g}", data.design_error));
     for (const std::string& line : spec.provenance) {
         text += line + "\n";
     }
     return "/**\n" + comment(text + (spec.provenance.empty() ? "" : "\n") + "Licence: " + spec.licence + ".") + " */\n";
+}
+
+// Samples that a kernel with blocks holds; of another, or none, 0.
+std::size_t past_held(const Spec& spec) {
+    const std::vector<std::string> known = generatable();
+    if (std::find(known.begin(), known.end(), spec.kernel) == known.end() || !bench::has_blocks(spec.kernel)) {
+        return 0;
+    }
+    const bench::Length length = bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon);
+    return glsum::reach_of(bench::design_of(spec.kernel, spec.order, length, spec.horizon)) - 1;
 }
 
 bool is_identifier(const std::string& text) {
@@ -406,8 +428,9 @@ std::string make_header(const Spec& spec) {
                       fmt::format("--prefix: expected letters, digits and underscores, found {}", spec.prefix));
     }
     const std::size_t past = spec.taps - 1;
-    // Past twice the window, so that every history wraps, and two blocks more.
-    const std::size_t steps = ((2 * past + 3 + check_samples - 1) / check_samples + 2) * check_samples;
+    // Past twice the window, so that every history wraps, and two turns of the inputs more.
+    const std::size_t held = std::max(past, past_held(spec));
+    const std::size_t steps = ((2 * held + 3 + check_samples - 1) / check_samples + 2) * check_samples;
     const KernelData data = describe(spec.kernel, spec.order, spec.taps, spec.horizon, check_signal(), steps);
     const std::string name = spec.prefix + "_" + data.format;
     const bool wide_sum = data.accumulator == "double";
@@ -420,6 +443,7 @@ std::string make_header(const Spec& spec) {
                   {"taps", std::to_string(spec.taps)},
                   {"past", std::to_string(data.past)},
                   {"reads", data.increments || data.guesses ? "what is kept of those"
+                            : data.blocks.count > 0         ? fmt::format("the {} samples", held)
                             : data.modes == 0               ? fmt::format("the {} samples", past)
                                                             : "all samples"},
                   {"samples", std::to_string(std::max<std::size_t>(1, data.samples_held))},

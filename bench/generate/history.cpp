@@ -65,6 +65,21 @@ HistoryText history_text(glsum::Modes) {
             .push = {}};
 }
 
+// kernels/glsum/history/nested.hpp.
+HistoryText history_text(glsum::Nested) {
+    return {.summary = "the newest samples as they are, all older ones as sliding sums over blocks of 2, 4, 8, ...",
+            .formula =
+                "  S_k = sum_{j=0..K-1} a_j x_(k-j) + sum_b w_b s_b,   a_0 = 1,   a_j = a_(j-1) (1 - (1+v)/j)\n"
+                "  s_b the sum of x_(k-j), w_b the mean of a_j over the lags j of block b\n\n"
+                "one sum a sample;",
+            .fields =
+                "    size_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
+                "    @sample@ past[@NAME@_SAMPLES]; /* behind the samples the sums of 2, of 4, ...: one ring */\n",
+            .reset = std::string("    S->head = 0U;\n") + clear,
+            .pieces = {},
+            .push = replaced(next_head, "_PAST", "_SAMPLES") + "    S->past[head] = newest;\n    S->head = head;\n"};
+}
+
 // kernels/glsum/history/delta.hpp.
 HistoryText increments_text(const HistoryText& kept, bool fixed) {
     HistoryText text = kept;

@@ -12,6 +12,7 @@
 #include "bench/row.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
+#include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "qemu/failure.hpp"
 #include "targets/firmware/output_hash.hpp"
@@ -32,8 +33,8 @@ template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::MirrorDelta, glsum::ModesDelta,
-           glsum::MirrorHold, glsum::MirrorLinear> &&
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Nested, glsum::MirrorDelta,
+           glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
     (is_paired<T> ||
      one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
             glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
@@ -121,7 +122,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     using Output = typename K::Output;
     constexpr bool has_modes = glsum::keeps_modes<typename K::HistoryPart>;
     constexpr bool increments = glsum::keeps_increments<typename K::HistoryPart>;
-    const bench::Length length = bench::length_of(std::string(K::name()), order, taps);
+    const bench::Length length = bench::length_of(std::string(K::name()), order, taps, horizon);
     const glsum::Design design = bench::design_of(std::string(K::name()), order, length, horizon);
     bench::HostLine<K> line(design);
     if (line.status() != glsum::Status::ok) {
@@ -143,8 +144,9 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     data.format = Format::word;
     data.accumulator = c_type<typename Format::Accumulator>();
     data.output = c_type<Output>();
-    data.past = past - 2 * design.modes.size();
+    data.past = past - 2 * design.modes.size() - design.blocks.count;
     data.modes = design.modes.size();
+    data.blocks = design.blocks;
     data.samples_held = glsum::past_needed<K>(design);
     data.table = numbers(table);
     data.aligned_words = (past + 1) / 2;
@@ -169,6 +171,10 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
             data.modes == 0
                 ? 0.0
                 : largest * glsum::modes::approximate({of_weights, horizon}, data.past + 1, data.modes).error;
+    } else if constexpr (glsum::keeps_blocks<typename K::HistoryPart>) {
+        data.has_blocks = true;
+        data.technique_text = nested_text(data.past, data.blocks, Format::fixed_point);
+        data.design_error = glsum::modes::design_blocks({order, horizon}, taps).error;
     } else {
         data.technique_text = text_of<Technique>(data.history_text, past, shifts, std::is_same_v<Format, glsum::Q31>,
                                                  std::is_same_v<Format, glsum::F32>);

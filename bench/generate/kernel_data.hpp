@@ -27,7 +27,9 @@ struct KernelData {
     std::size_t past = 0;  ///< samples that a sum reads
     std::size_t samples_held = 0;
     std::size_t modes = 0;
-    double design_error = 0.0;  ///< with modes: against full memory over the horizon, for |x| <= 1
+    bool has_blocks = false;  ///< whether the kernel keeps them, if only none
+    glsum::Blocks blocks = {};
+    double design_error = 0.0;  ///< with modes or blocks: against full memory over the horizon, for |x| <= 1
     bool increments = false;
     bool guesses = false;      ///< what its window dropped
     double in_window = 0.0;    ///< then: a_0 + ... + a_(L-1), as the kernel has it
@@ -44,10 +46,10 @@ struct KernelData {
     std::uint64_t hash = 0;              ///< of the outputs, as targets/firmware/output_hash.hpp has it
 };
 
-/// \param taps     of a kernel with modes: near taps and two for each mode, as `bench::length_of` parts them
-/// \param horizon  samples that a design with modes is for
-/// \param calls    outputs wanted
-/// \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, and for a design that the
+/// \param taps     of a kernel with modes: near taps and two for each mode, with blocks one for each, as
+/// `bench::length_of` parts them \param horizon  samples that a design with modes or blocks is for \param calls outputs
+/// wanted \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, and for a design
+/// that the
 ///         kernel refuses.
 [[nodiscard]] KernelData describe(const std::string& kernel, double order, std::size_t taps, std::size_t horizon,
                                   const std::vector<double>& inputs, std::size_t calls);

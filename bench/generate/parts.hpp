@@ -11,6 +11,7 @@
 
 #include "glsum/history/mirror.hpp"
 #include "glsum/history/modes.hpp"
+#include "glsum/history/nested.hpp"
 #include "glsum/history/ring.hpp"
 #include "glsum/history/shift.hpp"
 
@@ -68,6 +69,7 @@ struct FormatText {
 [[nodiscard]] HistoryText history_text(glsum::Ring);
 [[nodiscard]] HistoryText history_text(glsum::Mirror);
 [[nodiscard]] HistoryText history_text(glsum::Modes);
+[[nodiscard]] HistoryText history_text(glsum::Nested);
 /// Increments, kept as `kept` keeps samples.
 [[nodiscard]] HistoryText increments_text(const HistoryText& kept, bool fixed);
 /// A window of `past` samples and a guess of what it dropped; with `to_first` on the line to the first sample.
@@ -88,6 +90,9 @@ struct FormatText {
 /// Near taps and modes, which keep the past themselves.
 /// \param near_samples  K - 1; without modes at least 1
 [[nodiscard]] TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed);
+
+/// Near taps and blocks. \param near_samples  K - 1; without blocks at least 1
+[[nodiscard]] TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed);
 
 [[nodiscard]] FormatText floating_text(bool wide_data, bool wide_sum);
 /// The constants of a fixed-point kernel's scale.

@@ -31,10 +31,11 @@ std::vector<std::string> provenance(const choose::Answer& answer, const std::str
                               : " on " + text(answer.context, "cpu"))
             : fmt::format("Cost not measured: {}", chosen.cost.fault)};
     if (answer.choice.runner_up) {
-        lines.push_back(fmt::format("Runner-up of {} kernels: {} with {} taps, {}", answer.choice.kernels.size(),
-                                    answer.choice.runner_up->kernel,
-                                    choose::taps_text(*answer.choice.runner_up, question.conditions.order),
-                                    choose::cost_text(answer, *answer.choice.runner_up)));
+        lines.push_back(fmt::format(
+            "Runner-up of {} kernels: {} with {} taps, {}", answer.choice.kernels.size(),
+            answer.choice.runner_up->kernel,
+            choose::taps_text(*answer.choice.runner_up, question.conditions.order, question.conditions.samples),
+            choose::cost_text(answer, *answer.choice.runner_up)));
     }
     lines.push_back("");
     lines.push_back("Command: " + command);

@@ -227,6 +227,11 @@ TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts) {
     return {.summary = "newest first, the table in octaves, each scaled up by its own power of two", .sum = text};
 }
 
+namespace {
+const char* const unrolled =
+    "#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8\n#pragma GCC unroll 8\n#endif\n";
+}  // namespace
+
 // kernels/glsum/history/modes.hpp.
 TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed) {
     const char* const floating_step = "            average[0] = before + @name@_multiply(mode[0], leaving - before);\n";
@@ -246,8 +251,6 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
             "        sum = @name@_multiply_add(sum, @name@_table[i], S->past[i]);\n    }\n";
     }
     // As the kernel does: no mode waits for another.
-    const char* const unrolled =
-        "#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8\n#pragma GCC unroll 8\n#endif\n";
     const std::string step = fixed ? fixed_step : compensated ? compensated_step : floating_step;
     text += modes == 0 ? ""
                        : fmt::format(
@@ -273,6 +276,54 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
                        (compensated ? ", each with what its last step lost" : ""),
             .sum = text,
             .pushes = true};
+}
+
+// kernels/glsum/history/nested.hpp.
+TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed) {
+    std::string text = "    @accumulator@ sum = @name@_start(newest);\n";
+    if (near_samples > 0) {
+        text +=
+            "    {\n        const size_t newer = @NAME@_SAMPLES - head < @NAME@_PAST ? @NAME@_SAMPLES - head : "
+            "@NAME@_PAST;\n"
+            "        const @coefficient@ *a = @name@_table;\n"
+            "        const @sample@ *x = S->past + head;\n"
+            "        for (i = newer; i > 0U; --i) {\n"
+            "            sum = @name@_multiply_add(sum, *a++, *x++);\n        }\n"
+            "        x = S->past;\n"
+            "        for (i = @NAME@_PAST - newer; i > 0U; --i) {\n"
+            "            sum = @name@_multiply_add(sum, *a++, *x++);\n        }\n    }\n";
+    }
+    const auto on = [](const std::string& by, int indent) {
+        return fmt::format("{0:{1}}at += {2};\n{0:{1}}at = at >= @NAME@_SAMPLES ? at - @NAME@_SAMPLES : at;\n", "",
+                           indent, by);
+    };
+    if (blocks.count > 0) {
+        const std::string others =
+            blocks.per_level == 1
+                ? ""
+                : std::string(unrolled) +
+                      "            for (i = (left < @NAME@_PER_LEVEL ? left : @NAME@_PER_LEVEL) - 1U; i > 0U; --i) "
+                      "{\n" +
+                      on("width", 16) +
+                      "                sum = @name@_multiply_add(sum, *weight++, S->past[at]);\n            }\n";
+        text +=
+            "    {\n        const @coefficient@ *weight = @name@_table + @NAME@_PAST;\n"
+            "        size_t at = head;\n        size_t width = 1U;\n"
+            "        size_t left = @NAME@_BLOCKS;\n" +
+            (near_samples > 0 ? on("@NAME@_PAST", 8) : "") +
+            "        for (;;) {\n            const @sample@ younger = S->past[at];\n"
+            "            @sample@ block;\n" +
+            on("width", 12) + "            block = S->past[at];\n" +
+            (fixed ? "            block = (younger | block) - ((younger ^ block) >> 1);\n"
+                   : "            block = younger + block;\n") +
+            "            S->past[at] = block;\n"
+            "            sum = @name@_multiply_add(sum, *weight++, block);\n            width *= 2U;\n" +
+            others +
+            "            if (left <= @NAME@_PER_LEVEL) {\n                break;\n            }\n"
+            "            left -= @NAME@_PER_LEVEL;\n" +
+            on("width", 12) + "        }\n    }\n";
+    }
+    return {.summary = "newest first, one accumulator; the taps, then the blocks", .sum = text};
 }
 
 }  // namespace generate

@@ -165,15 +165,16 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
     for (std::size_t i = 0; i < specs.size(); ++i) {
         specs[i].prefix = fmt::format("k{}", i);
         write(scratch.file((specs[i].prefix + ".h").c_str()), make_header(specs[i]));
-        const glsum::Design design =
-            bench::design_of(specs[i].kernel, specs[i].order,
-                             bench::length_of(specs[i].kernel, specs[i].order, specs[i].taps), specs[i].horizon);
+        const glsum::Design design = bench::design_of(
+            specs[i].kernel, specs[i].order,
+            bench::length_of(specs[i].kernel, specs[i].order, specs[i].taps, specs[i].horizon), specs[i].horizon);
         plan.push_back({specs[i].kernel,
                         specs[i].order,
                         specs[i].taps,
                         0,
                         qemu::calls_to_measure(specs[i].kernel, specs[i].taps),
-                        {design.modes.begin(), design.modes.end()}});
+                        {design.modes.begin(), design.modes.end()},
+                        design.blocks});
     }
     const std::filesystem::path path = link(specs, board, scratch);
     bench::Progress progress("emulated Cortex-M7", 2 * specs.size());

@@ -14,7 +14,7 @@ namespace reference {
 
 /// What a history takes for the samples behind its window.
 enum class Dropped {
-    zero,        ///< 0, or the design's modes
+    zero,        ///< 0, or the design's modes or blocks
     increments,  ///< their increments as 0, or the modes of order v - 1 over these
     held,        ///< the oldest sample kept
     line,        ///< the line from that to the record's first

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "bench/reference/blocks.hpp"
+
 namespace reference {
 
 std::vector<Real> weights_of(std::span<const Real> near, std::span<const glsum::Mode> modes, std::size_t count) {
@@ -41,10 +43,16 @@ Sums sums_of(std::span<const Real> near, std::span<const glsum::Mode> modes, std
 }
 
 std::vector<Real> weights_of(const glsum::Design& design, std::size_t count) {
+    if (design.blocks.count > 0) {
+        return block_weights(design, count);
+    }
     return weights_of(weights(Real(design.order), design.taps - 2 * design.modes.size()), design.modes, count);
 }
 
 Sums sums_of(const glsum::Design& design, std::span<const double> record) {
+    if (design.blocks.count > 0) {
+        return block_sums(design, record);
+    }
     return sums_of(weights(Real(design.order), design.taps - 2 * design.modes.size()), design.modes, record);
 }
 

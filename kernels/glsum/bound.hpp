@@ -9,6 +9,7 @@
 #include "glsum/delta_bound.hpp"
 #include "glsum/kernel.hpp"
 #include "glsum/modes_bound.hpp"
+#include "glsum/nested_bound.hpp"
 #include "glsum/tail_bound.hpp"
 #include "glsum/weights.hpp"
 
@@ -42,11 +43,11 @@ inline constexpr std::size_t longest_record = 1'000'000;
 
 /// Bound of |S - exact|, where exact is the sum of the same length with exact coefficients over the real-valued
 /// input, |x| <= peak (in fixed point also peak < 1), so that the rounding of the input counts too.
-/// With modes the exact sum is that of the design's own taps and exponentials; of increments, and of a window with a
-/// guessed tail, it is the sum that their history states, with exact weights.
-/// Derivation: modes_bound.hpp, delta_bound.hpp, tail_bound.hpp, and the headers of the technique (floating point) and
-/// of format/fixed.hpp. Absolute, before h^-v.
-/// \param samples  of the record, for kernels whose weights are carried along it; others do not look at it
+/// With modes or blocks the exact sum is that of the design's own taps and exponentials or blocks; of increments, and
+/// of a window with a guessed tail, it is the sum that their history states, with exact weights. Derivation:
+/// modes_bound.hpp, nested_bound.hpp, delta_bound.hpp, tail_bound.hpp, and the headers of the technique (floating
+/// point) and of format/fixed.hpp. Absolute, before h^-v. \param samples  of the record, for kernels whose weights are
+/// carried along it; others do not look at it
 template <class K>
 [[nodiscard]] double error_bound(const Design& design, const typename K::State& state, double peak,
                                  std::size_t samples = longest_record) {
@@ -62,6 +63,8 @@ template <class K>
                peak * tail_error<K>(design, samples) + 8.0 * denormal;
     } else if constexpr (std::is_same_v<typename K::HistoryPart, Modes>) {
         return modes_error_bound<K>(design, state, peak);
+    } else if constexpr (keeps_blocks<typename K::HistoryPart>) {
+        return nested_error_bound<K>(design, state, peak);
     } else if constexpr (Format::fixed_point) {
         return Technique::template fixed_error<Format>(design, state.scale, peak) +
                std::ldexp(absolute_sum(design, design.taps), -Format::sample_bits - 1) +

@@ -19,10 +19,19 @@ struct Mode {
     double weight;  ///< w
 };
 
+/// Sums over blocks of samples that stand for far taps (history/nested.hpp): `per_level` blocks of 2, as many of 4, of
+/// 8
+/// ..., `count` in all.
+struct Blocks {
+    std::size_t count = 0;      ///< M
+    std::size_t per_level = 1;  ///< B >= 1
+    bool operator==(const Blocks&) const = default;
+};
+
 /// What a kernel is prepared for.
 struct Design {
     double order;      ///< v, in (-2, 2]
-    std::size_t taps;  ///< L >= 1: coefficients, a_0 included; a mode counts as two
+    std::size_t taps;  ///< L >= 1: coefficients, a_0 included; a mode counts as two, a block as one
     /// For a kernel whose history is `modes`: M exponentials behind the first K = L - 2M taps, K >= 1. Without any it
     /// ends where a window of L taps does. A kernel that keeps a window does not look at them. They are copied.
     std::span<const Mode> modes = {};
@@ -30,6 +39,10 @@ struct Design {
     /// kernel sums the merged table of a model of several orders, or weights of another discretisation. Empty: those of
     /// the order. The nested forms refuse a weight behind a zero. They are copied.
     std::span<const double> weights = {};
+    /// For a kernel whose history is `nested`: the blocks behind the first K = L - M taps, K >= 1. Named weights must
+    /// then be there for every lag that the blocks reach. Without any it ends where a window of L taps does. Others do
+    /// not look at them.
+    Blocks blocks = {};
 };
 
 /// Why `prepare` refused. Nothing else in a kernel can fail.
@@ -42,11 +55,13 @@ enum class Status {
     format_too_narrow,     ///< the coefficients of this order and length do not fit the format with any scale
     modes_out_of_range,    ///< no tap is left beside the modes, or one that does not decay or is not a number
     weights_out_of_range,  ///< fewer weights than taps, one that is not a number, or one that the technique cannot nest
+    blocks_out_of_range,   ///< no tap is left beside the blocks, a level has none, or they reach beyond 2^28 samples
 };
 
 /// A kernel is a type without objects; what changes lives in its State, which the caller owns together with two
 /// buffers: the coefficient table and the past. Their sizes follow from the largest length (the capacity);
-/// `prepare` may be called again for any order and any length that fits.
+/// `prepare` may be called again for any order and any length that fits. With blocks the capacity is one of the lags
+/// that they reach.
 ///
 /// `prepare` may be slow and computes in double; `step` is what is measured: one sample in, one sum out.
 /// Neither uses the heap, I/O, exceptions or RTTI. A State may be copied only together with its buffers.
@@ -68,7 +83,9 @@ concept Kernel = requires(typename K::State& state, const typename K::State& pre
 /// Coefficients and samples of the past that a kernel needs for this very design: no more than for any of its taps.
 template <Kernel K>
 [[nodiscard]] constexpr std::size_t table_needed(const Design& design) {
-    if constexpr (requires { K::table_count(design.taps, design.modes.size()); }) {
+    if constexpr (requires { K::table_count(design); }) {
+        return K::table_count(design);
+    } else if constexpr (requires { K::table_count(design.taps, design.modes.size()); }) {
         return K::table_count(design.taps, design.modes.size());
     } else {
         return K::table_count(design.taps);
@@ -76,7 +93,9 @@ template <Kernel K>
 }
 template <Kernel K>
 [[nodiscard]] constexpr std::size_t past_needed(const Design& design) {
-    if constexpr (requires { K::past_count(design.taps, design.modes.size()); }) {
+    if constexpr (requires { K::past_count(design); }) {
+        return K::past_count(design);
+    } else if constexpr (requires { K::past_count(design.taps, design.modes.size()); }) {
         return K::past_count(design.taps, design.modes.size());
     } else {
         return K::past_count(design.taps);

@@ -9,6 +9,7 @@
 #include "glsum/history/shift.hpp"
 #include "glsum/kernel.hpp"
 #include "glsum/modes_sum.hpp"
+#include "glsum/nested_sum.hpp"
 #include "glsum/null.hpp"
 #include "glsum/sum.hpp"
 #include "glsum/tail_sum.hpp"

@@ -1,7 +1,7 @@
 // The plan that the host writes and the firmware carries out, and the text that it answers with.
 //
-//   glsum-plan-2 <path of the signals> <samples of each signal>
-//   <kernel> <order, its 64 bits in hex> <taps> <signal> <calls> <modes> { <decay> <weight> } ...
+//   glsum-plan-3 <path of the signals> <samples of each signal>
+//   <kernel> <order, its 64 bits in hex> <taps> <signal> <calls> <blocks> <a level's> <modes> { <decay> <weight> } ...
 //   ...
 //
 // Signals: one binary file, float64 little-endian, one record after the other. Words are separated by one space; real
@@ -44,9 +44,10 @@ struct PlanRow {
     std::size_t taps;
     std::size_t signal;
     std::size_t calls;
+    glsum::Blocks blocks;
     std::size_t mode_count;
     glsum::Mode modes[most_modes];
-    [[nodiscard]] glsum::Design design() const { return {order, taps, {modes, mode_count}}; }
+    [[nodiscard]] glsum::Design design() const { return {order, taps, {modes, mode_count}, {}, blocks}; }
 };
 
 /// Reads a whole word as the bits of a real number. \return whether it is one.
@@ -62,6 +63,7 @@ inline bool take_row(std::string_view& plan, PlanRow& row) {
     row.kernel = take_word(plan);
     if (!to_real(take_word(plan), row.order) || !to_number(take_word(plan), row.taps) ||
         !to_number(take_word(plan), row.signal) || !to_number(take_word(plan), row.calls) ||
+        !to_number(take_word(plan), row.blocks.count) || !to_number(take_word(plan), row.blocks.per_level) ||
         !to_number(take_word(plan), row.mode_count) || row.mode_count > most_modes) {
         return false;
     }

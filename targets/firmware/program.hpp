@@ -47,8 +47,8 @@ int run_plan(RunRow run_row) {
     take_word(command);
     const auto plan_file = port::read_file(take_word(command), plan_bytes);
     std::string_view plan{reinterpret_cast<const char*>(plan_file.data()), plan_file.size()};
-    if (take_word(plan) != "glsum-plan-2") {
-        port::write("error: no plan of the form glsum-plan-2\n");
+    if (take_word(plan) != "glsum-plan-3") {
+        port::write("error: no plan of the form glsum-plan-3\n");
         return 2;
     }
     const auto signals = port::read_file(take_word(plan), signal_bytes);

@@ -12,6 +12,8 @@
 #include "bench/signals.hpp"
 #include "bench/target_plan.hpp"
 #include "bench/truncation_bound.hpp"
+#include "glsum/history/nested.hpp"
+#include "modes/blocks.hpp"
 #include "modes/design.hpp"
 
 namespace {
@@ -70,6 +72,37 @@ TEST(Designs, OfAKernelWithModesAreTheShortestForTheErrors) {
     EXPECT_EQ(bench::lengths_of(named, "ring_plain_f32", 0.5).front().text(), "50");
 }
 
+// A number is a length of so many coefficients; `full`, and lengths of modes, are none of theirs.
+TEST(Designs, OfAKernelWithBlocksAreTheBestForTheLengths) {
+    bench::Sweep sweep = sweep_of({"nested_plain_f32", "modes_plain_f32"});
+    sweep.lengths = {{16}, {50}, *bench::parse_length("2+7", 1000), {1000, true}};
+    for (const double order : {0.5, 1.9909, -0.5, -1.5, 1.0}) {
+        const auto lengths = bench::lengths_of(sweep, "nested_plain_f32", order);
+        ASSERT_EQ(lengths.size(), 2U) << order;
+        for (const bench::Length& length : lengths) {
+            const auto found = glsum::modes::design_blocks({order, sweep.samples}, length.taps);
+            ASSERT_TRUE(length.blocks);
+            EXPECT_FALSE(length.modes);
+            EXPECT_EQ(*length.blocks, found.blocks);
+            EXPECT_EQ(length.text(), std::to_string(found.near_taps) + '+' + std::to_string(found.blocks.count));
+            const auto design = bench::design_of("nested_plain_f32", order, length, sweep.samples);
+            EXPECT_EQ(design.taps, length.taps);
+            EXPECT_EQ(design.blocks, found.blocks);
+            EXPECT_TRUE(design.modes.empty());
+        }
+    }
+    EXPECT_EQ(bench::length_of("nested_plain_f32", 0.5, 24, 5000).text(), "13+11");
+    EXPECT_NE(bench::length_of("nested_plain_f32", 0.5, 24, 5000).text(),
+              bench::length_of("nested_plain_f32", 0.5, 24, 500).text());
+    // The same words are a length of either kind.
+    const bench::Length read = *bench::parse_length("13+11", 5000);
+    EXPECT_EQ(bench::as_counted("nested_plain_f32", read).taps, 24U);
+    EXPECT_EQ(bench::as_counted("nested_plain_f32", read).text(), "13+11");
+    EXPECT_EQ(bench::as_counted("modes_plain_f32", read).taps, 35U);
+    EXPECT_EQ(bench::as_counted("peer_eigen_f32", read).taps, 35U);
+    EXPECT_FALSE(bench::truncates("nested_plain_f32"));
+}
+
 // Over increments the weights, and so the designs, are of one order less; and not every order is taken.
 TEST(Designs, OfIncrementsAreThoseOfOneOrderLess) {
     const bench::Sweep sweep = sweep_of({"modesdelta_plain_f32"});
@@ -85,8 +118,8 @@ TEST(Designs, OfIncrementsAreThoseOfOneOrderLess) {
         ASSERT_EQ(design.modes.size(), less.modes.size());
         EXPECT_EQ(design.modes.data(), less.modes.data());  // made once
     }
-    EXPECT_EQ(bench::length_of("modesdelta_plain_f32", 0.5, 16).text(),
-              bench::length_of("modes_plain_f32", -0.5, 16).text());
+    EXPECT_EQ(bench::length_of("modesdelta_plain_f32", 0.5, 16, 1000).text(),
+              bench::length_of("modes_plain_f32", -0.5, 16, 1000).text());
     EXPECT_TRUE(bench::lengths_of(sweep, "modesdelta_plain_f32", -0.5).empty());  // weights of -1.5 have no tail
     EXPECT_FALSE(bench::lengths_of(sweep, "mirrordelta_plain_f32", -0.5).empty());
     EXPECT_TRUE(bench::lengths_of(sweep, "mirrordelta_plain_f32", -1.5).empty());
@@ -167,6 +200,53 @@ TEST(Accuracy, OfModesIsThatOfTheirDesign) {
         }
     }
     EXPECT_GE(measured, 2 * cases.size() * 3);
+}
+
+// The same of blocks: what a row says of its error is that of its layout.
+TEST(Accuracy, OfBlocksIsThatOfTheirDesign) {
+    bench::Sweep sweep = sweep_of({"nested_plain_f64", "nested_plain_f32"});
+    sweep.lengths = {{16}, {50}};
+    std::vector<std::size_t> cases(sweep.orders.size() * sweep.signals.size());
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        cases[i] = i;
+    }
+    const auto rows = bench::measure_accuracy(sweep, cases);
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const double order = sweep.orders[i / sweep.signals.size()];
+        const auto record = bench::make_signal(sweep.signals[i % sweep.signals.size()], sweep.samples, sweep.seed);
+        const double peak = bench::largest_sum(order, record);
+        ASSERT_EQ(rows[i].size(), 4U);
+        for (std::size_t r = 0; r < rows[i].size(); ++r) {
+            const bench::Json& row = rows[i][r];
+            const std::size_t taps = r % 2 == 0 ? 16 : 50;
+            ASSERT_FALSE(row.contains("error_occurred")) << row;
+            const auto found = glsum::modes::design_blocks({order, sweep.samples}, taps);
+            const double truncation = row["truncation_error_max"].get<double>();
+            const double rounding = row["rounding_error_max"].get<double>();
+            EXPECT_LE(truncation, bench::signal_peak * found.error / peak * (1 + 1e-6)) << row["name"];
+            EXPECT_LE(row["error_max"].get<double>(), (truncation + rounding) * (1 + 1e-9)) << row["name"];
+            EXPECT_LE(rounding, r < 2 ? 1e-12 : 1e-3) << row["name"];
+            EXPECT_EQ(row["macs_per_sample"], taps - 1);
+            EXPECT_FALSE(row.contains("effective_taps"));
+            EXPECT_EQ(row["horizon_samples"], std::min(glsum::reach_of(found.near_taps, found.blocks), sweep.samples));
+        }
+    }
+}
+
+TEST(TargetPlan, KernelsWithBlocksAreReplayedWithThem) {
+    bench::Sweep sweep = sweep_of({"nested_plain_f32", "nested_plain_q31"});
+    sweep.lengths = {{16}, {50}};
+    const bench::TargetPlan plan = bench::make_target_plan(sweep);
+    EXPECT_EQ(plan.rows.size(), 12U);
+    for (const auto& row : plan.rows) {
+        EXPECT_EQ(plan.counts.at(row.count).blocks,
+                  bench::length_of(row.kernel, plan.counts.at(row.count).order, row.length.taps, sweep.samples).blocks);
+        EXPECT_EQ(plan.counts.at(row.count).blocks, row.length.blocks);
+    }
+    for (const auto& replay : plan.replays) {
+        EXPECT_EQ(replay.planned.blocks, plan.rows.at(replay.row).length.blocks);
+        EXPECT_EQ(replay.planned.calls, sweep.samples);
+    }
 }
 
 TEST(TargetPlan, KernelsWithModesAreReplayedWithThemAndCountedOnce) {

@@ -42,7 +42,7 @@ TEST(Answers, RowsAreTakenInTheirOrder) {
 }
 
 TEST(Answers, RefusesRowsOutOfTurnOrDamaged) {
-    for (const char* line : {"row 1 0 ff", "row 0", "row 0 8", "row 0 0", "row 0 0 xyz", "row 0 0 ff 1", "row 0 -1 ff",
+    for (const char* line : {"row 1 0 ff", "row 0", "row 0 9", "row 0 0", "row 0 0 xyz", "row 0 0 ff 1", "row 0 -1 ff",
                              "row x 0 ff", "row 0 5 ff", "row 0 0 10000000000000000"}) {
         qemu::Answers answers(1);
         EXPECT_THROW((void)answers.take_replayed(line), glsum::Failure) << line;

@@ -64,6 +64,18 @@ TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) {
             }
         }
     });
+    for (const char* kernel : {"nested_plain_f64", "nested_plain_f32", "nested_plain_q31"}) {
+        for (const double order : {0.5, 1.9909, -0.5, -1.3}) {
+            // Several turns of the ring, all of a level or a part of the last.
+            for (const auto& [taps, blocks] : {std::pair<std::size_t, glsum::Blocks>{2, {1, 1}},
+                                               {8, {5, 1}},
+                                               {16, {9, 2}},
+                                               {40, {12, 3}},
+                                               {5, {4, 9}}}) {
+                plan.push_back({kernel, order, taps, taps % signals_.size(), 600, {}, blocks});
+            }
+        }
+    }
     // In parts that the firmware has room for.
     std::vector<qemu::ReplayedRow> rows;
     constexpr std::size_t at_once = 6000;
