@@ -336,7 +336,7 @@ Status Sum<Nested, Technique, Format>::prepare(State& state, const Design& desig
     if (design.taps == 0) {
         return Status::no_taps;
     }
-    if (design.blocks.count >= design.taps || (design.blocks.count > 0 && reach_of(design) > most_reach)) {
+    if (design.blocks.count > 0 && reach_of(design) > most_reach) {
         return Status::blocks_out_of_range;
     }
     if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design)) {
