@@ -15,6 +15,16 @@
 
 namespace glsum {
 
+/// Roundings that the term of a_j passes: as the kernel says, else as its technique does.
+template <class K>
+[[nodiscard]] constexpr std::size_t sum_roundings(std::size_t j, std::size_t taps) {
+    if constexpr (requires { K::sum_roundings(j, taps); }) {
+        return K::sum_roundings(j, taps);
+    } else {
+        return K::TechniquePart::template sum_roundings<typename K::FormatPart>(j, taps);
+    }
+}
+
 /// Floating point: of a window of the design's taps, each term of which passes so many further additions.
 template <class K>
 [[nodiscard]] double window_error_bound(const Design& design, double peak, std::size_t further = 0) {
@@ -23,7 +33,7 @@ template <class K>
     // (1 + data)^(coefficients + input) (1 + sum)^operations (1 + output) - 1
     const auto growth = [&](std::size_t j) {
         const auto data = static_cast<double>(Technique::coefficient_roundings(j) + 1);
-        const auto sum = static_cast<double>(Technique::template sum_roundings<Format>(j, design.taps) + further);
+        const auto sum = static_cast<double>(sum_roundings<K>(j, design.taps) + further);
         return std::expm1(data * std::log1p(Format::data_roundoff) + sum * std::log1p(Format::sum_roundoff) +
                           std::log1p(Format::output_roundoff));
     };

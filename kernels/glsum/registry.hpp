@@ -11,6 +11,7 @@
 #include "glsum/modes_sum.hpp"
 #include "glsum/nested_sum.hpp"
 #include "glsum/null.hpp"
+#include "glsum/simd_block_sum.hpp"
 #include "glsum/sum.hpp"
 #include "glsum/tail_sum.hpp"
 #include "glsum/technique/compensated.hpp"

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+#include "glsum/simd_architectures.hpp"
+#include "glsum/simd_block_arch.hpp"
 #include "glsum/simd_dot_arch.hpp"
 #include "tests/kernels/stated_simd_order.hpp"
 
@@ -45,6 +47,50 @@ void check() {
 TEST(Simd, AddsInTheStatedOrderOnEveryInstructionSet) {
     check<float>();
     check<double>();
+}
+
+// A whole record through each instruction set's own body, on a state that the kernel prepared.
+template <class K, bool fused, class... Architectures>
+void check_blocks_on_each(xsimd::arch_list<Architectures...>, std::size_t taps) {
+    using T = typename K::Sample;
+    std::vector<T> weights;
+    glsum::Weights walk(0.98319);
+    for (std::size_t j = 1; j < taps; ++j) {
+        walk.next();
+        weights.push_back(static_cast<T>(walk.weight()));
+    }
+    const auto check = [&]<class Architecture>(Architecture) {
+        if (xsimd::available_architectures().best < Architecture::version()) {
+            return;
+        }
+        std::vector<T> table(K::table_count(taps) + 1);
+        std::vector<T> past(K::past_count(taps) + 1);
+        typename K::State state;
+        ASSERT_EQ(K::prepare(state, {0.98319, taps}, table, past), glsum::Status::ok);
+        std::mt19937 generator(7);
+        std::vector<T> record;
+        for (std::size_t k = 0; k < 2 * taps + 20; ++k) {
+            record.push_back(static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5));
+            const T found = glsum::simd_block_on<T, fused, Architecture>(state, record.back());
+            ASSERT_EQ(found, (test::in_blocks_in_the_stated_order<fused>(weights, record)))
+                << Architecture::name() << ", taps " << taps << ", k " << k;
+        }
+    };
+    (check(Architectures{}), ...);
+}
+
+TEST(Simd, AddsBlocksInTheStatedOrderOnEveryInstructionSet) {
+    // 600 and 1100: with a table for each sum, and one for all.
+    for (const std::size_t taps : {1U, 2U, 5U, 8U, 9U, 10U, 16U, 17U, 18U, 50U, 600U, 1100U}) {
+        const auto each = [&]<class Technique, class Format>() {
+            check_blocks_on_each<glsum::Sum<glsum::Block, Technique, Format>,
+                                 std::is_same_v<Technique, glsum::SimdFma>>(glsum::SimdArchitectures{}, taps);
+        };
+        each.operator()<glsum::Simd, glsum::F32>();
+        each.operator()<glsum::SimdFma, glsum::F32>();
+        each.operator()<glsum::Simd, glsum::F64>();
+        each.operator()<glsum::SimdFma, glsum::F64>();
+    }
 }
 
 TEST(Simd, NamesItsInstructionSet) { EXPECT_FALSE(glsum::simd_instruction_set().empty()); }

@@ -1,0 +1,87 @@
+// Sum<Block, Simd, Format>: a window's sums on the host's vector unit, eight at a time (simd_block.hpp).
+//
+// Order, range, overflow: as a window's. A sample that is no number is in every sum until the block ends in which it
+// leaves the window, as it meets the zeros behind the last weight.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "glsum/history/block.hpp"
+#include "glsum/simd_block.hpp"
+#include "glsum/sum.hpp"
+#include "glsum/technique/simd.hpp"
+
+namespace glsum {
+
+template <class Technique, class Format>
+requires std::is_base_of_v<Simd, Technique>
+struct Sum<Block, Technique, Format> {
+    using Sample = typename Format::Sample;
+    using Coefficient = typename Format::Coefficient;
+    using Output = typename Format::Output;
+    using HistoryPart = Block;
+    using TechniquePart = Technique;
+    using FormatPart = Format;
+    static_assert(std::is_same_v<Sample, Coefficient>);
+
+    struct State : SimdBlock<Sample> {
+        [[no_unique_address]] typename Format::Scale scale;
+    };
+
+    static constexpr bool host_only = true;
+    static constexpr bool fused = std::is_same_v<Technique, SimdFma>;
+
+    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
+
+    static constexpr std::size_t table_count(std::size_t taps) {
+        return entering_count +
+               (has_tables(taps) ? simd_block_samples * padded(taps) : padded(taps) + simd_block_samples);
+    }
+    static constexpr std::size_t past_count(std::size_t taps) {
+        return taps == 1 ? 0 : lanes + 2 * ring_size(taps) + lanes;
+    }
+
+    /// Multiplications for one output; those with a zero, which fill vectors, besides.
+    static constexpr std::size_t multiplications(std::size_t taps) { return taps - 1; }
+
+    /// The product; the additions in a lane, of the lanes, in the block, and of x_k.
+    static constexpr std::size_t sum_roundings(std::size_t j, std::size_t taps) {
+        std::size_t tree = 0;
+        for (std::size_t width = lanes; width > 1; width /= 2) {
+            ++tree;
+        }
+        return j == 0 ? 1 : 1 + padded(taps) / lanes + tree + simd_block_samples - 1 + 1;
+    }
+
+    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
+
+    /// Makes the tables for the design and clears the past. On failure the state is as it was.
+    static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
+    /// Forgets the past: x = 0 before the next sample.
+    static void reset(State& state);
+    /// The sum S_k for the next sample x_k.
+    static Output step(State& state, Sample newest);
+
+    static Sample from_real(double real) { return Format::from_real(real); }
+    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
+
+private:
+    static constexpr const auto& name_ = kernel_name<Block, Technique, Format>;
+    static constexpr std::size_t lanes = 64 / sizeof(Sample);
+    static constexpr std::size_t entering_count = simd_block_samples - 1 + lanes;
+
+    static constexpr std::size_t up_to(std::size_t count, std::size_t unit) { return (count + unit - 1) / unit * unit; }
+    static constexpr std::size_t padded(std::size_t taps) { return up_to(taps - 1, lanes); }
+    static constexpr std::size_t ring_size(std::size_t taps) { return up_to(taps - 1, simd_block_samples); }
+    /// A table for each of the eight sums, so that no load straddles two cache lines, while they fit a first cache of
+    /// 32 KB; else one table for all, read at eight places.
+    static constexpr bool has_tables(std::size_t taps) {
+        return simd_block_samples * padded(taps) * sizeof(Coefficient) <= 32768;
+    }
+};
+
+}  // namespace glsum
