@@ -19,6 +19,8 @@ constexpr double parting_advantage = 6.0;
 constexpr double material_share = 0.04;
 // More than so much of the closable squared gap left, and foreseeable: something else is missing.
 constexpr double unexplained_share = 0.08;
+// What is left over what differs from sample to sample: sensors' noise is seldom so coloured.
+constexpr double usual_ratio = 7.0;
 
 std::vector<Remainder> remainders(const Study& study, const std::vector<std::vector<double>>& residuals) {
     std::vector<Remainder> all;
@@ -43,7 +45,9 @@ Flexible remainder_of(const Ranked& ranked, const Study& study, const Study& val
 }
 
 bool generalises(const Candidate& general, const Candidate& special) {
-    if (general.effects.size() != special.effects.size()) {
+    // Where the data hold a number of the wider one fast, it is not wider.
+    if (general.effects.size() != special.effects.size() ||
+        general.effect_parameters() <= special.effect_parameters()) {
         return false;
     }
     bool more = false;
@@ -118,14 +122,13 @@ public:
         if (decision_.outcome == Outcome::no_gap) {
             name_the_quantum(after);
         }
-        if (decision_.outcome == Outcome::no_gap && is_slow(validation_, after * output_deviation(validation_)) &&
-            after > 0.05) {
+        if (is_no_noise(after)) {
             decision_.outcome = Outcome::unknown;
-            decision_.confidence = 0.5;
+            decision_.effects.clear();
+            decision_.confidence = std::min(decision_.confidence, 0.7);
             decision_.notes.emplace_back(
                 "what is left is slow and many times what differs from sample to sample: no noise of a sensor, and "
-                "nothing "
-                "listed explains it");
+                "nothing listed explains it");
         }
         doubt_what_does_not_belong(after);
         return decision_;
@@ -146,11 +149,13 @@ private:
     [[nodiscard]] bool is_better(std::size_t wider, std::size_t chosen, double least) const {
         const double before = ranking_[chosen].gap_after;
         const double after = ranking_[wider].gap_after;
-        // Beside a gap as large as the output itself, a further effect may be small and still take most of what is
-        // left.
-        const double material = ranking_[chosen].trained.effects.empty()
-                                    ? 0.03 * before
-                                    : std::min(material_share * (decision_.base_gap - least), 0.25 * before);
+        // Beside a gap as large as the output itself, a second effect may be small and still take most of what is left.
+        // A third that is small makes up for what the first two are not quite.
+        const std::size_t so_far = ranking_[chosen].trained.effects.size();
+        const double of_closable = material_share * (decision_.base_gap - least);
+        const double material = so_far == 0   ? 0.03 * before
+                                : so_far == 1 ? std::min(of_closable, 0.25 * before)
+                                              : of_closable;
         return is_clear(advantage(ranking_[wider], ranking_[chosen])) && before - after > material;
     }
 
@@ -179,6 +184,23 @@ private:
         decision_.outcome = alone ? Outcome::attributed : Outcome::ambiguous;
         decision_.confidence = alone ? confidence_by(nearest)
                                      : 0.9 / static_cast<double>(std::min<std::size_t>(decision_.effects.size(), 6));
+    }
+
+    // Whether what is left can be no sensor's, so that something is missing whatever was found beside it.
+    [[nodiscard]] bool is_no_noise(double after) const {
+        const double ratio = over_noise(validation_, after * output_deviation(validation_));
+        if (decision_.outcome == Outcome::no_gap) {
+            return ratio > (after > 0.05 ? usual_ratio : 15.0);
+        }
+        if (ratio < usual_ratio || after < 0.1 * decision_.base_gap) {
+            return false;
+        }
+        // A cause whose size the training hardly tells may miss elsewhere; one that leaves much where it was fitted,
+        // too, is not the only one. Events are fitted to each record.
+        const Candidate& trained = ranking_[decision_.chosen].trained;
+        const bool events = std::any_of(trained.effects.begin(), trained.effects.end(),
+                                        [](const Effect* effect) { return effect->kind == Kind::event; });
+        return events || over_noise(study_, rms_of(study_, all_residuals(study_, trained))) > 4.0;
     }
 
     // That readings are multiples of a step is a fact of the log; here it is also most of what is left.

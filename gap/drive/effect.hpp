@@ -1,6 +1,7 @@
 // An effect that a simulation may lack: what it does to a scenario, with which parameters.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,9 +22,10 @@ struct Scales {
     double force;      ///< of the right-hand side: gain times the input
     double length_s;
     double interval_s;
-    double time_constant_s;  ///< of the model: how long it takes to most of its way
-    double quantum;          ///< readings are multiples of it; 0: of none
-    double held_share;       ///< of the readings that repeat the one before; 0 where a quantum explains them
+    double time_constant_s;    ///< of the model: how long it takes to most of its way
+    double quantum;            ///< readings are multiples of it; 0: of none
+    std::size_t input_levels;  ///< different ones, 0 among them where it occurs; counted up to 100
+    double held_share;         ///< of the readings that repeat the one before; 0 where a quantum explains them
     double deployed_step_s;  ///< of the simulation that ran, where one may have: fractional, given, not too long; or 0
     bool steady;             ///< the model rests somewhere for each input: it does not integrate
 };
@@ -36,6 +38,7 @@ struct EffectParameter {
     double none;                 ///< the value at which the effect is not there
     std::vector<double> starts;  ///< fits begin at each
     bool discrete = false;       ///< stays at its start: a variant, or a value that the audit found
+    std::size_t free_starts = std::numeric_limits<std::size_t>::max();  ///< behind so many starts it is discrete
 };
 
 /// What an effect is bound to.

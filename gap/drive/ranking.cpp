@@ -28,34 +28,55 @@ double penalty_of(const Candidate& candidate, const Study& validation) {
            2.0 * static_cast<double>(candidate.effect_parameters() + candidate.effects.size());
 }
 
-// Of readings that stand for all values within a step: the logarithm of the mass there, over the step, on the scale of
-// the whitener's, which leaves the constant of Student's density out. \param outside  by how much the simulation misses
-// them
-std::vector<double> log_mass(std::span<const double> outside, double step, const Whitener& whitener) {
-    constexpr double density_constant = 0.713;
-    const double variance = whitener.stationary_deviation * whitener.stationary_deviation - step * step / 12.0;
-    const double noise = std::sqrt(std::max(variance, 0.0025 * step * step));
-    std::vector<double> logs;
-    for (const double miss : outside) {
-        const double mass = miss == 0.0 ? std::max(0.5, 1.0 - 0.8 * noise / step)
-                                        : 0.5 * std::erfc(std::fabs(miss) / (noise * std::sqrt(2.0)));
-        logs.push_back(std::log(std::max(mass, 1e-9) / step) + density_constant);
+// The whitener leaves the constant of Student's density out.
+constexpr double density_constant = 0.713;
+
+// Of readings that stand for all values within a step: the logarithm of the mass there, over the step, for the noise
+// that suits them best. What is left of other candidates says nothing of it. \param outside  by how much the simulation
+// misses them
+std::vector<double> log_mass(std::span<const double> outside, double step) {
+    std::vector<double> best;
+    double best_sum = -std::numeric_limits<double>::infinity();
+    for (const double share : {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2.0, 4.0, 8.0}) {
+        const double noise = share * step;
+        std::vector<double> logs;
+        double sum = 0.0;
+        for (const double miss : outside) {
+            const double mass = miss == 0.0 ? std::max(0.5, 1.0 - 0.8 * share)
+                                            : 0.5 * std::erfc(std::fabs(miss) / (noise * std::sqrt(2.0)));
+            logs.push_back(std::log(std::max(mass, 1e-9) / step) + density_constant);
+            sum += logs.back();
+        }
+        if (sum > best_sum) {
+            best_sum = sum;
+            best = std::move(logs);
+        }
     }
-    return logs;
+    return best;
 }
 
 }  // namespace
 
 void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
-    const double step = ranked.candidate.has("encoder_quantisation") ? validation.scales.quantum : 0.0;
+    const double step = validation.scales.quantum;
+    const bool within_steps = step > 0.0 && ranked.candidate.has("encoder_quantisation");
     ranked.by_sample.clear();
     ranked.log_likelihood = 0.0;
     std::vector<std::vector<double>> left;
     for (std::size_t r = 0; r < ranked.residuals.size(); ++r) {
         const auto& residuals = ranked.residuals[r];
-        const auto logs = step > 0.0 ? log_mass(residuals, step, whitener)
-                                     : whitener.log_likelihood(
-                                           residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
+        // What lies within its step is not missed; noise far below a step leaves little else, which is coloured like
+        // any other remainder.
+        const bool fine = step > 0.0 && rms_of(validation, ranked.residuals) < 0.12 * step;
+        auto logs =
+            within_steps && !fine
+                ? log_mass(residuals, step)
+                : whitener.log_likelihood(residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
+        // No reading tells more than which step it fell on, however well the one before it foresees that it stays
+        // there.
+        for (double& one : logs) {
+            one = step > 0.0 ? std::min(one, density_constant - std::log(step)) : one;
+        }
         for (std::size_t i = 0; i < logs.size(); ++i) {
             if (validation.counts[r][i] != 0) {
                 ranked.by_sample.push_back(std::isfinite(logs[i]) ? logs[i] : -1e6);
@@ -68,7 +89,8 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     ranked.gap_after = std::isfinite(ranked.gap_after) ? ranked.gap_after : 1e6;  // it ran away
     // Whitened residuals hardly know of slow ones. Of those each block of the records counts once.
     constexpr double blocks = 24.0;
-    const double slow = std::max(rms_of(validation, ranked.residuals), 0.3 * step) / output_deviation(validation);
+    const double slow = std::max(rms_of(validation, ranked.residuals), (within_steps ? 0.05 : 0.29) * step) /
+                        output_deviation(validation);
     ranked.penalty = penalty_of(ranked.candidate, validation) + blocks * std::log(std::clamp(slow, 1e-9, 1e6));
 }
 

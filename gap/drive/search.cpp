@@ -62,14 +62,44 @@ public:
             renew_whitener();
             if (found_.ranking.front().candidate.effects.size() == 2 &&
                 advantage(found_.ranking.front(), best_of(1)).mean > 8.0) {
+                if (leaves_more_than_noise(found_.ranking.front())) {
+                    take(exchanged());
+                    renew_whitener();
+                }
                 take(widened(2, "triples"));
+                renew_whitener();
+                take(narrowed());
                 renew_whitener();
             }
         }
+        take(with_jitter());
+        std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
         return std::move(found_);
     }
 
 private:
+    // Jitter moves no reading, so it changes no other effect's fit: it is asked for once, beside the best of each size.
+    [[nodiscard]] std::vector<Candidate> with_jitter() const {
+        const auto jitter = std::find_if(of_.ground.list.begin(), of_.ground.list.end(),
+                                         [](const Effect* effect) { return effect->name == "sampling_jitter"; });
+        std::vector<Candidate> wide;
+        for (std::size_t size = 1; jitter != of_.ground.list.end() && size <= 2; ++size) {
+            const auto best = std::find_if(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
+                return ranked.trained.effects.size() == size && !ranked.trained.has("sampling_jitter") &&
+                       !ranked.trained.has("encoder_quantisation");
+            });
+            if (best == found_.ranking.end()) {
+                continue;
+            }
+            Candidate both = best->trained;
+            both.effects.push_back(*jitter);
+            both.lasting.push_back(parameters_of(**jitter, of_.ground.study.scales, 0));
+            fit_jitter(of_.ground.study, both, found_.whitener);
+            wide.push_back(std::move(both));
+        }
+        return wide;
+    }
+
     // A refitted base is to simulate well: it takes its numbers from the residuals as they are. Where they are coloured
     // because something is missing, whitened ones would tell little of what is slow.
     [[nodiscard]] const Whitener* fits_by() const { return of_.ground.study.base.refit ? nullptr : &found_.whitener; }
@@ -84,24 +114,59 @@ private:
         return result;
     }
 
-    // The best candidates of some size with one effect more: all of them quickly, the best to the end.
+    [[nodiscard]] bool leaves_more_than_noise(const Ranked& ranked) const {
+        const Study& validation = of_.ground.validation;
+        return over_noise(validation, ranked.gap_after * output_deviation(validation)) > 4.0;
+    }
+
+    // The best candidates of some size with one effect more.
     std::vector<Candidate> widened(std::size_t size, const char* what) const {
+        std::vector<const Candidate*> first;
+        for (const Ranked* lead : leads_of(size)) {
+            first.push_back(&lead->trained);
+        }
+        return with_one_more(first, what);
+    }
+
+    // Of the best pair each alone, as it is there, with any other: what leads alone may be a stand-in for both.
+    std::vector<Candidate> exchanged() const {
+        const Candidate& pair = found_.ranking.front().trained;
+        std::vector<Candidate> halves;
+        for (const Effect* effect : pair.effects) {
+            halves.push_back(fit(of_.ground.sketch, {effect}, pair, fits_by(), {0, 1, 0}));
+        }
+        return with_one_more({&halves[0], &halves[1]}, "exchanges");
+    }
+
+    // The best triple without one of its effects: what the third brought about was perhaps only a better start.
+    std::vector<Candidate> narrowed() const {
+        std::vector<Candidate> pairs;
+        const Candidate& triple = best_of(3).trained;
+        for (const Effect* left_out : triple.effects) {
+            Effects pair = triple.effects;
+            pair.erase(std::find(pair.begin(), pair.end(), left_out));
+            pairs.push_back(fit(of_.ground.study, pair, triple, fits_by()));
+        }
+        return pairs;
+    }
+
+    // All of them quickly, the best to the end.
+    std::vector<Candidate> with_one_more(const std::vector<const Candidate*>& first, const char* what) const {
         std::vector<Effects> all;
         std::vector<const Candidate*> starts;
         std::set<Effects> seen;
-        for (const Ranked* of_lead : leads_of(size)) {
-            const Ranked& lead = *of_lead;
+        for (const Candidate* lead : first) {
             for (const Effect* effect : of_.ground.list) {
-                Effects wider = lead.trained.effects;
+                Effects wider = lead->effects;
                 wider.push_back(effect);
                 Effects key = wider;
                 std::sort(key.begin(), key.end());
-                // Jitter spreads what any other effect leaves where it moves: beside another it is not to be trusted.
-                if (effect->name != "sampling_jitter" && !is_of_another_model(wider) &&
-                    !lead.trained.has("sampling_jitter") && !lead.trained.has(effect->name) &&
-                    !nested(lead.trained.effects, *effect) && seen.insert(key).second) {
+                if (effect->name != "sampling_jitter" &&
+                    !(effect->name == "encoder_quantisation" && !quantum_shows()) && !is_of_another_model(wider) &&
+                    !lead->has("sampling_jitter") && !lead->has(effect->name) && !nested(lead->effects, *effect) &&
+                    seen.insert(key).second) {
                     all.push_back(wider);
-                    starts.push_back(&lead.trained);
+                    starts.push_back(lead);
                 }
             }
         }
@@ -115,11 +180,18 @@ private:
         return wide;
     }
 
+    // Readings of most logs are multiples of a step: a cause of the gap only where it makes a tenth of its rms.
+    [[nodiscard]] bool quantum_shows() const {
+        const double rounding = of_.ground.study.scales.quantum / std::sqrt(12.0);
+        return rounding > 0.1 * ranked_of({}).gap_after * output_deviation(of_.ground.validation);
+    }
+
     // The best by what was not fitted, and those by what was.
     [[nodiscard]] std::vector<const Ranked*> leads_of(std::size_t size) const {
         std::vector<const Ranked*> sized;
+        const bool steps_count = quantum_shows();
         for (const Ranked& ranked : found_.ranking) {
-            if (ranked.trained.effects.size() == size) {
+            if (ranked.trained.effects.size() == size && (steps_count || !ranked.trained.has("encoder_quantisation"))) {
                 sized.push_back(&ranked);
             }
         }
@@ -175,6 +247,13 @@ private:
         });
         std::move(more.begin(), more.end(), std::back_inserter(found_.ranking));
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
+        // Of the same effects, reached from several starts, the best.
+        std::set<Effects> seen;
+        std::erase_if(found_.ranking, [&](const Ranked& ranked) {
+            Effects key = ranked.trained.effects;
+            std::sort(key.begin(), key.end());
+            return !seen.insert(key).second;
+        });
     }
 
     // The whitener of the best one's training residuals; likelihoods follow.

@@ -54,6 +54,7 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     scales.force = std::fabs(model.gain) * scales.input_max;
     scales.quantum = found.quantum;
     scales.held_share = found.held_share;
+    scales.input_levels = found.levels;
     scales.deployed_step_s = deployed_step_of(model, scales);
     scales.steady = drive::constant_coefficient(model.denominator) != 0.0;
     return scales;
@@ -91,10 +92,11 @@ std::vector<std::vector<char>> part_counts(const std::vector<Record>& records, s
     return counts;
 }
 
+double over_noise(const Study& study, double rms) { return rms / std::max(study.noise, study.least_deviation); }
+
 bool is_slow(const Study& study, double rms) {
-    // Noise whose neighbours correlate by 0.9 is 3.8 times what its second differences say, by 0.97 7 times.
     constexpr double usual_ratio = 8.0;
-    return rms > usual_ratio * std::max(study.noise, study.least_deviation);
+    return over_noise(study, rms) > usual_ratio;
 }
 
 double rms_of(const Study& study, const std::vector<std::vector<double>>& values) {

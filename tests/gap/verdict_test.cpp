@@ -107,6 +107,30 @@ TEST(Verdict, OfTwoEffectsIsTheirPair) {
     EXPECT_THAT(names(answer), ElementsAre(testing::AllOf(HasSubstr("input_dead_zone"), HasSubstr("sensor_drift"))));
 }
 
+TEST(Verdict, NamesJitterBesideAnotherEffect) {
+    const gap::Answer answer =
+        ask({{"input_saturation.limit", 0.08}, {"sampling_jitter.half_width_s", 0.015}},
+            {.experiment = "prbs", .low_duty = 0.02, .seed = 61}, {.experiment = "prbs", .low_duty = 0.04, .seed = 62});
+    ASSERT_EQ(answer.decision.outcome, Outcome::attributed) << text_of(answer);
+    EXPECT_THAT(names(answer), ElementsAre("input_saturation + sampling_jitter"));
+}
+
+// A step of a tenth of the output's span hides what moves less, and says exactly which values a reading stands for.
+TEST(Verdict, NamesACoarseEncoderAloneAndBesideAnotherEffect) {
+    const gap::Answer alone = ask({{"encoder_quantisation.step", 0.1}}, 7);
+    EXPECT_THAT(names(alone), ElementsAre("encoder_quantisation")) << text_of(alone);
+    const gap::Answer pair = ask({{"encoder_quantisation.step", 0.1}, {"gain_error.gain", 0.85}}, 8);
+    ASSERT_EQ(pair.decision.outcome, Outcome::attributed) << text_of(pair);
+    EXPECT_THAT(names(pair), ElementsAre(testing::AllOf(HasSubstr("encoder_quantisation"), HasSubstr("gain_error"))));
+}
+
+// Nearly every log is one of an encoder: its step is no cause of a gap that is many times larger.
+TEST(Verdict, DoesNotNameAFineEncoder) {
+    const gap::Answer answer = ask({{"encoder_quantisation.step", 0.00628}, {"input_saturation.limit", 0.08}}, 9);
+    ASSERT_EQ(answer.decision.outcome, Outcome::attributed) << text_of(answer);
+    EXPECT_THAT(names(answer), ElementsAre("input_saturation"));
+}
+
 TEST(Verdict, OnOneLevelCannotPartWhatEqualsAGain) {
     const gap::Answer answer =
         ask({{"input_dead_zone.width", 0.02}}, {.experiment = "step", .seed = 5}, {.experiment = "pulse", .seed = 6});

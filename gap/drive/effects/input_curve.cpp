@@ -10,14 +10,18 @@ const Effect& input_curve();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
-    // At one level a bend with a reference below it is any gain.
+std::vector<EffectParameter> parameters(const Scales& scales) {
     const double top = scales.input_max;
-    return {{"curvature", "1", -0.9, 1.0, 0.0, {-0.3, 0.3, 0.8, -0.3, 0.3}},
-            {"reference", "u", 0.5 * top, top, top, {top, top, top, 0.5 * top, 0.5 * top}, true}};
+    // At one level a bend is any gain, and a reference is told by none.
+    if (scales.input_levels <= 2) {
+        return {{"curvature", "1", -0.9, 1.0, 0.0, {-0.3, 0.3, 0.8, -0.3, 0.3}},
+                {"reference", "u", 0.5 * top, top, top, {top, top, top, 0.5 * top, 0.5 * top}, true}};
+    }
+    return {{"curvature", "1", -0.9, 1.0, 0.0, {-0.3, 0.3, 0.8}},
+            {"reference", "u", 0.3 * top, 4.0 * top, top, {top, top, top}}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
+void add(Scenario& scenario, std::span<const double> values) {
     scenario.levels.emplace_back([c = values[0], reference = values[1]](std::span<double> levels) {
         for (double& u : levels) {
             u *= (1.0 - c) + c * std::fabs(u) / reference;
@@ -28,7 +32,7 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& input_curve() {
-    static const Effect effect{"input_curve", Kind::lasting, parameters, add};
+    static const Effect effect{"input_curve", Kind::lasting, parameters, add, {"gain_error"}};
     return effect;
 }
 

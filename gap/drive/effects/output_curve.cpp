@@ -1,5 +1,5 @@
-// A memoryless bend of the output, z = y ((1 - c) + c |y| / reference), the reference being the largest reading. In its
-// other variant the same bend is that of the restoring term: an outflow.
+// A memoryless bend of the output, z = y ((1 - c) + c |y| / reference), about a reference that stays where it is. In
+// its other variant the same bend, about the largest reading, is that of the restoring term: an outflow.
 #include <algorithm>
 #include <cmath>
 
@@ -13,13 +13,14 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
     const double reference = std::max(std::fabs(scales.output_high), std::fabs(scales.output_low));
+    // Which one it is is not known: free, it lets the slope at 0 be any. Of an outflow that is another model's force.
+    const EffectParameter about{"reference", "y", 0.3 * reference, 3.0 * reference, reference, {reference}, false, 2};
     if (!scales.steady) {
-        return {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25}},
-                {"reference", "y", reference, reference, reference, {reference}, true},
-                {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0}, true}};
+        return {
+            {"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25}}, about, {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0}, true}};
     }
     return {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25, -0.25, 0.25}},
-            {"reference", "y", reference, reference, reference, {reference}, true},
+            about,
             {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0, 0.0, 1.0, 1.0}, true}};
 }
 
@@ -38,7 +39,7 @@ void add(Scenario& scenario, std::span<const double> values) {
 }  // namespace
 
 const Effect& output_curve() {
-    static const Effect effect{"output_curve", Kind::lasting, parameters, add};
+    static const Effect effect{"output_curve", Kind::lasting, parameters, add, {"gain_error"}};
     return effect;
 }
 
