@@ -72,7 +72,8 @@ struct Sum<Block, Technique, Format> {
 private:
     static constexpr const auto& name_ = kernel_name<Block, Technique, Format>;
     static constexpr std::size_t lanes = 64 / sizeof(Sample);
-    static constexpr std::size_t entering_count = simd_block_samples - 1 + lanes;
+    /// Up to whole vectors, so that the tables behind begin with one.
+    static constexpr std::size_t entering_count = (simd_block_samples - 1 + lanes + lanes - 1) / lanes * lanes;
 
     static constexpr std::size_t up_to(std::size_t count, std::size_t unit) { return (count + unit - 1) / unit * unit; }
     static constexpr std::size_t padded(std::size_t taps) { return up_to(taps - 1, lanes); }
