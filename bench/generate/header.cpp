@@ -296,6 +296,9 @@ std::string constants(const Spec& spec, const KernelData& data) {
         text += fmt::format("#define @NAME@_MODES {}U              /* decaying averages of what lies behind these */\n",
                             data.modes);
     }
+    if (data.groups) {
+        text += fmt::format("#define @NAME@_GROUPS {}U             /* of four samples */\n", *data.groups);
+    }
     if (data.blocks.count > 0) {
         text += fmt::format(
             "#define @NAME@_BLOCKS {}U             /* of samples that lie behind these */\n"

@@ -65,6 +65,23 @@ HistoryText history_text(glsum::Modes) {
             .push = {}};
 }
 
+// kernels/glsum/history/block.hpp.
+HistoryText history_text(glsum::Block) {
+    return {.summary = "in groups of four as they come; summed for the next four outputs at once",
+            .fields =
+                "    size_t phase; /* samples of the newest group that are there */\n"
+                "    size_t own; /* where it lies */\n"
+                "    size_t left; /* groups that the next outputs lack */\n"
+                "    @accumulator@ ready[4]; /* of this group's outputs: all products with older groups */\n"
+                "    @accumulator@ coming[4]; /* of the next group's, as far as they are */\n"
+                "    @sample@ past[@NAME@_SAMPLES];\n",
+            .reset = std::string(clear) +
+                     "    for (i = 0U; i < 4U; ++i) {\n        S->ready[i] = 0;\n        S->coming[i] = 0;\n    }\n"
+                     "    S->phase = 0U;\n    S->own = 0U;\n    S->left = @NAME@_GROUPS;\n",
+            .pieces = {},
+            .push = {}};
+}
+
 // kernels/glsum/history/nested.hpp.
 HistoryText history_text(glsum::Nested) {
     return {.summary = "the newest samples as they are, all older ones as sliding sums over blocks of 2, 4, 8, ...",

@@ -33,7 +33,7 @@ template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Nested, glsum::MirrorDelta,
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Nested, glsum::Block, glsum::MirrorDelta,
            glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
     (is_paired<T> ||
      one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
@@ -171,6 +171,9 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
             data.modes == 0
                 ? 0.0
                 : largest * glsum::modes::approximate({of_weights, horizon}, data.past + 1, data.modes).error;
+    } else if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Block>) {
+        data.groups = glsum::Block::groups(past);
+        data.technique_text = block_text(K::fused, Format::fixed_point);
     } else if constexpr (glsum::keeps_blocks<typename K::HistoryPart>) {
         data.has_blocks = true;
         data.technique_text = nested_text(data.past, data.blocks, Format::fixed_point);

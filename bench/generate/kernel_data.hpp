@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,7 @@ struct KernelData {
     bool has_blocks = false;  ///< whether the kernel keeps them, if only none
     glsum::Blocks blocks = {};
     double design_error = 0.0;  ///< with modes or blocks: against full memory over the horizon, for |x| <= 1
+    std::optional<std::size_t> groups = {};  ///< of samples, in a window summed for several outputs at once
     bool increments = false;
     bool guesses = false;      ///< what its window dropped
     double in_window = 0.0;    ///< then: a_0 + ... + a_(L-1), as the kernel has it

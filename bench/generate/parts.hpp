@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "glsum/history/block.hpp"
 #include "glsum/history/mirror.hpp"
 #include "glsum/history/modes.hpp"
 #include "glsum/history/nested.hpp"
@@ -69,6 +70,7 @@ struct FormatText {
 [[nodiscard]] HistoryText history_text(glsum::Ring);
 [[nodiscard]] HistoryText history_text(glsum::Mirror);
 [[nodiscard]] HistoryText history_text(glsum::Modes);
+[[nodiscard]] HistoryText history_text(glsum::Block);
 [[nodiscard]] HistoryText history_text(glsum::Nested);
 /// Increments, kept as `kept` keeps samples.
 [[nodiscard]] HistoryText increments_text(const HistoryText& kept, bool fixed);
@@ -90,6 +92,9 @@ struct FormatText {
 /// Near taps and modes, which keep the past themselves.
 /// \param near_samples  K - 1; without modes at least 1
 [[nodiscard]] TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed);
+
+/// A window summed for four coming outputs at once.
+[[nodiscard]] TechniqueText block_text(bool fused, bool fixed);
 
 /// Near taps and blocks. \param near_samples  K - 1; without blocks at least 1
 [[nodiscard]] TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed);

@@ -1,6 +1,7 @@
 // The registry as types. See registry.def for the list itself.
 #pragma once
 
+#include "glsum/block_sum.hpp"
 #include "glsum/delta_sum.hpp"
 #include "glsum/format/fixed.hpp"
 #include "glsum/format/floating.hpp"

@@ -17,8 +17,7 @@
 
 namespace glsum {
 
-template <class Technique, class Format>
-requires std::is_base_of_v<Simd, Technique>
+template <HostVector Technique, class Format>
 struct Sum<Block, Technique, Format> {
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;

@@ -1,0 +1,88 @@
+// Sum<Block, Technique, Format>: a window summed for four coming outputs at once (history/block.hpp).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "glsum/history/block.hpp"
+#include "glsum/sum.hpp"
+#include "glsum/technique/oldest.hpp"
+#include "glsum/technique/plain.hpp"
+
+namespace glsum {
+
+template <class Technique, class Format>
+struct Sum<Block, Technique, Format> {
+    static constexpr bool fused = std::is_same_v<Technique, OldestFma>;
+    static_assert(std::is_same_v<Technique, Oldest> || fused ||
+                      (std::is_same_v<Technique, Plain> && Format::fixed_point),
+                  "what waits is oldest first; in fixed point no order shows");
+
+    using Sample = typename Format::Sample;
+    using Coefficient = typename Format::Coefficient;
+    using Output = typename Format::Output;
+    using Accumulator = typename Format::Accumulator;
+    using HistoryPart = Block;
+    using TechniquePart = Technique;
+    using FormatPart = Format;
+    static constexpr std::size_t phases = Block::phases;
+
+    struct State {
+        const Coefficient* table;    // a_1 ... a_(L-1), and 0s up to 4 G + 3 of them
+        Sample* past;                // groups of four samples as they came: a ring of G groups
+        std::uint32_t past_samples;  // L - 1
+        std::uint32_t groups;        // G
+        std::uint32_t own;           // place of the group that x_k belongs to
+        std::uint32_t phase;         // how many samples of it are there
+        std::uint32_t left;          // groups that the coming outputs still lack
+        Accumulator ready[phases];   // of the outputs of this group, all products with older groups
+        Accumulator coming[phases];  // of the next group's, as far as they are
+        typename Format::Scale scale;
+    };
+
+    static constexpr bool host_only = false;
+
+    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
+
+    /// Coefficients, and samples of the past, that a length of at most `taps` needs.
+    static constexpr std::size_t table_count(std::size_t taps) {
+        return taps == 1 ? 0 : phases * Block::groups(taps - 1) + phases - 1;
+    }
+    static constexpr std::size_t past_count(std::size_t taps) { return phases * Block::groups(taps - 1); }
+
+    /// Multiplications for one output, in the mean of a group, rounded up.
+    static constexpr std::size_t multiplications(std::size_t taps) {
+        return taps == 1 ? 0 : phases * Block::groups(taps - 1) + 2;
+    }
+
+    /// The orders that `prepare` takes.
+    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
+
+    /// Makes the table for the design and clears the past. On failure the state is as it was.
+    static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
+    /// Forgets the past and the count of saturations: x = 0 before the next sample.
+    static void reset(State& state);
+    /// The sum S_k for the next sample x_k.
+    static Output step(State& state, Sample newest);
+
+    static Sample from_real(double real) { return Format::from_real(real); }
+    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
+
+private:
+    template <std::size_t outputs, std::size_t groups, std::size_t kept>
+    [[gnu::always_inline]] static inline void add_groups(Accumulator (&s)[outputs],
+                                                         Coefficient (&c)[phases * groups - 1 + outputs],
+                                                         const Coefficient* a, const Sample* samples);
+    template <std::size_t outputs>
+    [[gnu::always_inline]] static inline void add_share(Accumulator* sums, const Coefficient* a, const Sample* samples,
+                                                        std::size_t count);
+    [[gnu::always_inline]] static inline Output advance(State& state, Sample newest);
+    static Output advance_fused(State& state, Sample newest);
+
+    static constexpr const auto& name_ = kernel_name<Block, Technique, Format>;
+};
+
+}  // namespace glsum
