@@ -56,7 +56,7 @@ public:
         const Ranked& none = ranked_of({});
         const Ranked& best = found_.ranking.front();
         const bool slow = is_slow(of_.ground.validation, none.gap_after * output_deviation(of_.ground.validation));
-        if ((&best != &none && advantage(best, none).mean > 4.0) || slow) {
+        if ((&best != &none && advantage(best, none).mean > 4.0) || slow || quantum_shows()) {
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();

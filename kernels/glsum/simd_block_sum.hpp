@@ -1,4 +1,4 @@
-// Sum<Block, Simd, Format>: a window's sums on the host's vector unit, eight at a time (simd_block.hpp).
+// Sum<HostBlock, Simd, Format>: a window's sums on the host's vector unit, eight at a time (simd_block.hpp).
 //
 // Order, range, overflow: as a window's. A sample that is no number is in every sum until the block ends in which it
 // leaves the window, as it meets the zeros behind the last weight.
@@ -17,12 +17,12 @@
 
 namespace glsum {
 
-template <HostVector Technique, class Format>
-struct Sum<Block, Technique, Format> {
+template <class Technique, class Format>
+struct Sum<HostBlock, Technique, Format> {
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
-    using HistoryPart = Block;
+    using HistoryPart = HostBlock;
     using TechniquePart = Technique;
     using FormatPart = Format;
     static_assert(std::is_same_v<Sample, Coefficient>);
@@ -69,7 +69,7 @@ struct Sum<Block, Technique, Format> {
     static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
 
 private:
-    static constexpr const auto& name_ = kernel_name<Block, Technique, Format>;
+    static constexpr const auto& name_ = kernel_name<HostBlock, Technique, Format>;
     static constexpr std::size_t lanes = 64 / sizeof(Sample);
     /// Up to whole vectors, so that the tables behind begin with one.
     static constexpr std::size_t entering_count = (simd_block_samples - 1 + lanes + lanes - 1) / lanes * lanes;

@@ -524,9 +524,9 @@ auto Sum<Guess<to_first>, Technique, Format>::step(State& state, Sample newest) 
 }
 
 #if defined(GLSUM_SIMD)
-template <HostVector Technique, class Format>
-Status Sum<Block, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
-                                              std::span<Sample> past) {
+template <class Technique, class Format>
+Status Sum<HostBlock, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
+                                                  std::span<Sample> past) {
     if (!order_in_range(design.order)) {
         return Status::order_out_of_range;
     }
@@ -573,8 +573,8 @@ Status Sum<Block, Technique, Format>::prepare(State& state, const Design& design
     return Status::ok;
 }
 
-template <HostVector Technique, class Format>
-void Sum<Block, Technique, Format>::reset(State& state) {
+template <class Technique, class Format>
+void Sum<HostBlock, Technique, Format>::reset(State& state) {
     if (state.size != 0) {
         Sample* const end = state.past + 2 * std::size_t{state.size} + lanes;
         for (Sample* sample = state.pending; sample != end; ++sample) {
@@ -584,8 +584,8 @@ void Sum<Block, Technique, Format>::reset(State& state) {
     state.head = 0;
 }
 
-template <HostVector Technique, class Format>
-auto Sum<Block, Technique, Format>::step(State& state, Sample newest) -> Output {
+template <class Technique, class Format>
+auto Sum<HostBlock, Technique, Format>::step(State& state, Sample newest) -> Output {
     if constexpr (fused) {
         return simd_block_step_fused(state, newest);
     } else {

@@ -7,9 +7,8 @@
 
 namespace {
 
-/// The vector kernels have an order of their own: simd_test.cpp.
 template <class K>
-using IsBlock = std::bool_constant<std::is_same_v<typename K::HistoryPart, glsum::Block> && !K::host_only>;
+using IsBlock = std::is_same<typename K::HistoryPart, glsum::Block>;
 using BlockKernels = test::Filter<IsBlock, test::Kernels>::Types;
 
 template <class K>

@@ -27,7 +27,7 @@ int wrong_sums() {
 
 template <class Technique, class Format>
 int wrong_in_blocks() {
-    using K = glsum::Sum<glsum::Block, Technique, Format>;
+    using K = glsum::Sum<glsum::HostBlock, Technique, Format>;
     using T = typename K::Sample;
     constexpr std::size_t taps = 50;
     int wrong = 0;

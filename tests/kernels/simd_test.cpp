@@ -83,7 +83,7 @@ TEST(Simd, AddsBlocksInTheStatedOrderOnEveryInstructionSet) {
     // 600 and 1100: with a table for each sum, and one for all.
     for (const std::size_t taps : {1U, 2U, 5U, 8U, 9U, 10U, 16U, 17U, 18U, 50U, 600U, 1100U}) {
         const auto each = [&]<class Technique, class Format>() {
-            check_blocks_on_each<glsum::Sum<glsum::Block, Technique, Format>,
+            check_blocks_on_each<glsum::Sum<glsum::HostBlock, Technique, Format>,
                                  std::is_same_v<Technique, glsum::SimdFma>>(glsum::SimdArchitectures{}, taps);
         };
         each.operator()<glsum::Simd, glsum::F32>();

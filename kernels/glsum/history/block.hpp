@@ -36,4 +36,10 @@ struct Block {
     static constexpr std::size_t groups(std::size_t past) { return (past + phases - 1) / phases; }
 };
 
+/// The same idea on the host's vector unit, eight outputs at a time: simd_block.hpp.
+struct HostBlock {
+    static constexpr std::string_view word = "block";
+    static constexpr bool contiguous = true;
+};
+
 }  // namespace glsum

@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <string_view>
-#include <type_traits>
 
 #include "glsum/history/window.hpp"
 #include "glsum/technique/technique.hpp"
@@ -78,8 +77,5 @@ struct SimdFma : Simd {
         return newest + simd_dot_fused(table, window.newer, table_count<Format>(window.newer_count) / block<Format>);
     }
 };
-
-template <class Technique>
-concept HostVector = std::is_base_of_v<Simd, Technique>;
 
 }  // namespace glsum
