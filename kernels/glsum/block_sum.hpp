@@ -17,8 +17,7 @@ namespace glsum {
 template <class Technique, class Format>
 struct Sum<Block, Technique, Format> {
     static constexpr bool fused = std::is_same_v<Technique, OldestFma>;
-    static_assert(std::is_same_v<Technique, Oldest> || fused ||
-                      (std::is_same_v<Technique, Plain> && Format::fixed_point),
+    static_assert(fused || (std::is_same_v<Technique, Plain> && Format::fixed_point),
                   "what waits is oldest first; in fixed point no order shows");
 
     using Sample = typename Format::Sample;

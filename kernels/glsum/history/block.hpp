@@ -14,8 +14,8 @@
 // technique. Up to six coefficients beyond the last are 0: they add nothing to finite samples, but an infinity or a NaN
 // stays up to six samples longer in the sums than it must.
 //
-//   oldest, oldestfma   the products as in these techniques, rounded or fused
-//   plain               q31, where no order shows
+//   oldestfma   each product and its addition rounded once
+//   plain       q31, where no order shows
 //
 // Upkeep: one store a sample, and a group's accumulators, loaded and stored at each call. Memory: 4 G samples, in the
 // order in which they came, and eight accumulators in the state. Multiplications: 4 G + 1.5 in the mean of four calls.
