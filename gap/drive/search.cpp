@@ -16,6 +16,7 @@ using Effects = std::vector<const Effect*>;
 
 constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
 constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
+constexpr std::size_t more_leads = 5;    // where none of them leaves noise alone
 constexpr std::size_t finalists = 8;     // pairs, and triples, that are fitted to the end
 constexpr Effort quick{3, 1, 6};
 constexpr double hopeless = 0.9995;  // of the cost without an effect: a unit of likelihood of 4000 samples
@@ -60,12 +61,12 @@ public:
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();
+            if (leaves_more_than_noise(found_.ranking.front()) && has_pairs()) {
+                take(exchanged());
+                renew_whitener();
+            }
             if (found_.ranking.front().candidate.effects.size() == 2 &&
                 advantage(found_.ranking.front(), best_of(1)).mean > 8.0) {
-                if (leaves_more_than_noise(found_.ranking.front())) {
-                    take(exchanged());
-                    renew_whitener();
-                }
                 take(widened(2, "triples"));
                 renew_whitener();
                 take(narrowed());
@@ -114,6 +115,11 @@ private:
         return result;
     }
 
+    [[nodiscard]] bool has_pairs() const {
+        return std::any_of(found_.ranking.begin(), found_.ranking.end(),
+                           [](const Ranked& ranked) { return ranked.trained.effects.size() == 2; });
+    }
+
     [[nodiscard]] bool leaves_more_than_noise(const Ranked& ranked) const {
         const Study& validation = of_.ground.validation;
         return over_noise(validation, ranked.gap_after * output_deviation(validation)) > 4.0;
@@ -130,7 +136,7 @@ private:
 
     // Of the best pair each alone, as it is there, with any other: what leads alone may be a stand-in for both.
     std::vector<Candidate> exchanged() const {
-        const Candidate& pair = found_.ranking.front().trained;
+        const Candidate& pair = best_of(2).trained;
         std::vector<Candidate> halves;
         for (const Effect* effect : pair.effects) {
             halves.push_back(fit(of_.ground.sketch, {effect}, pair, fits_by(), {0, 1, 0}));
@@ -198,9 +204,10 @@ private:
         std::vector<const Ranked*> by_training = sized;
         std::stable_sort(by_training.begin(), by_training.end(),
                          [](const Ranked* a, const Ranked* b) { return a->trained.cost < b->trained.cost; });
+        const std::size_t wanted = size == 1 && leaves_more_than_noise(found_.ranking.front()) ? more_leads : leads;
         std::vector<const Ranked*> first;
         for (const auto* list : {&sized, &by_training}) {
-            for (std::size_t i = 0; i < std::min(leads, list->size()); ++i) {
+            for (std::size_t i = 0; i < std::min(wanted, list->size()); ++i) {
                 if (std::find(first.begin(), first.end(), (*list)[i]) == first.end()) {
                     first.push_back((*list)[i]);
                 }

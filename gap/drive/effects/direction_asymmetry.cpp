@@ -50,7 +50,7 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& direction_asymmetry() {
-    static const Effect effect{"direction_asymmetry", Kind::lasting, parameters, add, {"sensor_lag"}};
+    static const Effect effect{"direction_asymmetry", Kind::lasting, parameters, add, {"sensor_lag", "actuator_lag"}};
     return effect;
 }
 
