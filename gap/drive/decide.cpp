@@ -171,7 +171,7 @@ private:
             }
             const Interval over = advantage(ranking_[chosen], ranking_[i]);
             if (over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage)) {
-                if (generalises(ranking_[chosen].trained, other)) {
+                if (generalises(ranking_[chosen].trained, other) && decision_.effects.front() == chosen) {
                     decision_.effects.front() = decision_.chosen = i;  // the simpler one says as much
                 } else {
                     decision_.effects.push_back(i);
