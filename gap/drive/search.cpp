@@ -61,7 +61,7 @@ public:
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();
-            if (leaves_more_than_noise(found_.ranking.front()) && has_pairs()) {
+            if (worth_more(found_.ranking.front()) && has_pairs()) {
                 take(exchanged());
                 renew_whitener();
             }
@@ -120,9 +120,11 @@ private:
                            [](const Ranked& ranked) { return ranked.trained.effects.size() == 2; });
     }
 
-    [[nodiscard]] bool leaves_more_than_noise(const Ranked& ranked) const {
+    // Whether the best so far leaves more than noise, and further fits are cheap: a refitted base makes each several
+    // times as long.
+    [[nodiscard]] bool worth_more(const Ranked& best) const {
         const Study& validation = of_.ground.validation;
-        return over_noise(validation, ranked.gap_after * output_deviation(validation)) > 4.0;
+        return !validation.base.refit && over_noise(validation, best.gap_after * output_deviation(validation)) > 4.0;
     }
 
     // The best candidates of some size with one effect more.
@@ -204,7 +206,7 @@ private:
         std::vector<const Ranked*> by_training = sized;
         std::stable_sort(by_training.begin(), by_training.end(),
                          [](const Ranked* a, const Ranked* b) { return a->trained.cost < b->trained.cost; });
-        const std::size_t wanted = size == 1 && leaves_more_than_noise(found_.ranking.front()) ? more_leads : leads;
+        const std::size_t wanted = size == 1 && worth_more(found_.ranking.front()) ? more_leads : leads;
         std::vector<const Ranked*> first;
         for (const auto* list : {&sized, &by_training}) {
             for (std::size_t i = 0; i < std::min(wanted, list->size()); ++i) {
