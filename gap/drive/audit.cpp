@@ -91,12 +91,19 @@ double held_share_of(const std::vector<Record>& records, double quantum) {
     return held > 0.002 * count ? held / count : 0.0;
 }
 
-double noise_of(const std::vector<Record>& records) {
+// Where no step rounds them, readings that stay the same are held or at a stop: they show no noise, and there is some.
+double noise_of(const std::vector<Record>& records, double quantum) {
     std::vector<double> seconds;
     for (const Record& record : records) {
+        const std::vector<double>& z = record.output;
         for (std::size_t i = 2; i < record.size(); ++i) {
-            seconds.push_back(std::fabs(record.output[i] - 2.0 * record.output[i - 1] + record.output[i - 2]));
+            if (quantum > 0.0 || z[i] != z[i - 1] || z[i - 1] != z[i - 2]) {
+                seconds.push_back(std::fabs(z[i] - 2.0 * z[i - 1] + z[i - 2]));
+            }
         }
+    }
+    if (seconds.empty()) {
+        return 0.0;
     }
     const auto middle = seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2);
     std::nth_element(seconds.begin(), middle, seconds.end());
@@ -129,7 +136,7 @@ Audit audit(const std::vector<Record>& records) {
     Audit found;
     found.quantum = quantum_of(records);
     found.held_share = held_share_of(records, found.quantum);
-    found.noise = std::max(noise_of(records), 0.29 * found.quantum);
+    found.noise = std::max(noise_of(records, found.quantum), 0.29 * found.quantum);
     found.levels = levels_of(records);
     if (found.quantum > 0.0) {
         found.notes.push_back(fmt::format("readings are multiples of {:.6g}", found.quantum));
