@@ -198,6 +198,25 @@ Json encode_numbers(const std::vector<double>& column) {
     return with_indices(std::move(values), at);
 }
 
+Json encode_errors(const std::vector<double>& column) {
+    constexpr std::size_t few = 4096;
+    Json encoded = encode_numbers(column);
+    if (!encoded.contains("float32") && encoded["values"].size() <= few) {
+        return encoded;
+    }
+    std::string bytes;
+    for (const double number : column) {
+        constexpr double most = 0x1p127;
+        const float held = std::isnan(number) ? std::numeric_limits<float>::quiet_NaN()
+                                              : static_cast<float>(std::fmin(std::fmax(number, -most), most));
+        const std::uint32_t bits = std::bit_cast<std::uint32_t>(held) + (std::isnan(held) ? 0U : 0x80U);
+        for (int shift = 8; shift < 32; shift += 8) {
+            bytes.push_back(static_cast<char>(bits >> shift & 0xFFU));
+        }
+    }
+    return {{"float24", to_base64(std::vector<char>(bytes.begin(), bytes.end()))}};
+}
+
 Json to_tables(const std::vector<Json>& rows) {
     std::map<std::string, Table> tables;
     for (const Json& row : rows) {
@@ -229,7 +248,9 @@ Json to_tables(const std::vector<Json>& rows) {
         const auto encode = [&](const std::string& name) {
             if (const auto found = table.numbers.find(name); found != table.numbers.end()) {
                 found->second.resize(table.rows, std::numeric_limits<double>::quiet_NaN());
-                encoded["numbers"][name] = encode_numbers(found->second);
+                encoded["numbers"][name] = name.ends_with("error_max") || name.ends_with("error_rms")
+                                               ? encode_errors(found->second)
+                                               : encode_numbers(found->second);
             }
         };
         for (const std::string_view name : counters) {  // in this order they are read

@@ -16,6 +16,10 @@ namespace bench::report {
 /// {"float32": base64 of little-endian floats, NaN for no value}.
 [[nodiscard]] Json encode_numbers(const std::vector<double>& column);
 
+/// The same of errors, which are many, all different, and of no use beyond four digits: beyond 4096 different ones
+/// {"float24": base64 of the upper three bytes, little-endian, of rounded floats}, good to 2e-5.
+[[nodiscard]] Json encode_errors(const std::vector<double>& column);
+
 /// The rows in one table for each aspect (accuracy, host, m7:<core>; "other" for names of another kind):
 /// {"aspect", "rows": n, "texts": {kernel, order, taps, signal, name, label, fault: column}, "numbers": {counter:
 /// column}}. Rows other than single measurements (means and the like) are left out. `signal` is "<s>" or "<s>,

@@ -7,11 +7,22 @@ function decodeBytes(text) {
   return bytes.buffer;
 }
 
+// The upper three bytes of each float: four digits and a half.
+function decodeFloats24(text) {
+  const upper = new Uint8Array(decodeBytes(text)), whole = new Uint8Array(upper.length / 3 * 4);
+  for (let i = 0; i < upper.length; ++i) whole[Math.floor(i / 3) * 4 + 1 + i % 3] = upper[i];
+  return Array.from(new Float32Array(whole.buffer), value => Number(value.toPrecision(5)));
+}
+
 // A column as a function of the row, decoded when it is first asked: a text, a number or NaN.
 function decodeColumn(column) {
   const values = (column.values || []).map(value => value === null ? NaN : value);
-  if (!column.float32 && !column.at) {
+  if (!column.float32 && !column.float24 && !column.at) {
     return () => values[0];
+  }
+  if (column.float24) {
+    let numbers = null;
+    return row => (numbers = numbers || decodeFloats24(column.float24))[row];
   }
   const Cells = column.float32 ? Float32Array : {8: Uint8Array, 16: Uint16Array, 32: Uint32Array}[column.bits];
   let cells = null;

@@ -57,6 +57,17 @@ TEST(Columns, ManyDifferentNumbersAreFloats) {
     EXPECT_EQ(text.substr(0, 16), "AAAAAAAAgD8AAABA");  // 0, 1, 2: 00000000 0000803f 00000040
 }
 
+TEST(Columns, ManyDifferentErrorsAreShortFloats) {
+    std::vector<double> errors = {1.0, std::nan(""), 0.0, 1.0 + 0x1p-16};
+    EXPECT_EQ(encode_errors(errors), encode_numbers(errors));
+    for (int i = 0; i < 5000; ++i) {
+        errors.push_back(1e-3 * (1.0 + 1e-4 * i));
+    }
+    const std::string text = encode_errors(errors)["float24"];
+    EXPECT_EQ(text.size(), 5004U * 4U);
+    EXPECT_EQ(text.substr(0, 16), "AIA/AMB/AAAAAYA/");  // 00803f, 00c07f, 000000, 01803f: half a unit goes up
+}
+
 TEST(Columns, OneTableForEachAspectAndMeansLeftOut) {
     std::vector<bench::Json> rows = {
         bench::make_row("gl/a_b_c/order:0.5/taps:2+7/accuracy/signal:sine5/amplitude:0.0625", 1),
