@@ -51,33 +51,40 @@ struct Case {
     double order;
     std::string signal;
     std::vector<double> record;
-    std::vector<reference::Sums> exact;  // of each length, full memory last
+    std::vector<std::size_t> windows;    // lengths, full memory last
+    std::vector<reference::Sums> exact;  // of each of them
     double peak = 0.0;                   // max_k |E_k|
     std::optional<double> discretisation;
-    // Of those that do not end with their window.
+    // Of those that do not end with their window: of each length with a window, of each design without one.
+    std::map<reference::Dropped, std::vector<reference::Sums>> of_windows;
     std::map<std::pair<reference::Dropped, std::string>, reference::Sums> of_designs;
 
     Case(const Sweep& sweep, double v, const std::string& name)
         : order(v), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
-        std::vector<std::size_t> lengths;
         for (const Length& length : sweep.lengths) {
             if (length.window()) {
-                lengths.push_back(length.taps);
+                windows.push_back(length.taps);
             }
         }
-        lengths.push_back(sweep.samples);
-        exact = reference::sums(reference::weights(reference::Real(order), sweep.samples), record, lengths);
+        windows.push_back(sweep.samples);
+        exact = reference::sums(reference::weights(reference::Real(order), sweep.samples), record, windows);
         for (const auto& sum : exact.back()) {
             peak = std::max(peak, std::fabs(sum.high));
         }
         discretisation = discretisation_error(exact.back(), order, derivative_of_signal(name, sweep.samples));
     }
 
-    /// The exact sums of what a kernel's design stands for; where that is a window, those of entry `i` of its lengths.
-    const reference::Sums& exact_of(reference::Dropped dropped, const Length& length, std::size_t i,
-                                    const glsum::Design& design) {
-        if (length.window() && (dropped == reference::Dropped::zero || length.taps >= record.size())) {
-            return exact[i];
+    /// The exact sums of what a kernel's design stands for.
+    const reference::Sums& exact_of(reference::Dropped dropped, const Length& length, const glsum::Design& design) {
+        if (length.window() && length.taps >= record.size()) {
+            return exact.back();
+        }
+        if (length.window()) {
+            auto& sums = dropped == reference::Dropped::zero ? exact : of_windows[dropped];
+            if (sums.empty()) {
+                sums = reference::sums_of_windows(dropped, order, record, windows, exact);
+            }
+            return sums.at(static_cast<std::size_t>(std::ranges::find(windows, length.taps) - windows.begin()));
         }
         auto& sums = of_designs[{dropped, (length.blocks ? "blocks " : "") + length.text()}];
         if (sums.empty()) {
@@ -159,11 +166,9 @@ std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::v
                 if (std::find(sweep.kernels.begin(), sweep.kernels.end(), kernel) == sweep.kernels.end()) {
                     return;
                 }
-                const std::vector<Length> lengths = lengths_of(sweep, kernel, test.order);
-                for (std::size_t l = 0; l < lengths.size(); ++l) {
-                    const Length& length = lengths[l];
+                for (const Length& length : lengths_of(sweep, kernel, test.order)) {
                     const reference::Sums& exact =
-                        test.exact_of(reference::dropped_by<typename K::HistoryPart>(), length, l,
+                        test.exact_of(reference::dropped_by<typename K::HistoryPart>(), length,
                                       design_of(kernel, test.order, length, test.record.size()));
                     rows[i].push_back(measure<K>(test, length, exact, 1.0));
                     if (length.taps == amplitude_taps && length.window() &&

@@ -53,23 +53,25 @@ std::vector<Real> block_weights(const glsum::Design& design, std::size_t count) 
 
 Sums block_sums(const glsum::Design& design, std::span<const double> record) {
     const Parts parts = parts_of(design);
+    const std::vector<Real> x(record.begin(), record.end());
     std::vector<Real> before = {Real(0)};  // x_0 + ... + x_(i-1)
-    for (const double x : record) {
-        before.push_back(before.back() + Real(x));
+    for (const Real& sample : x) {
+        before.push_back(before.back() + sample);
     }
     Sums result;
     result.reserve(record.size());
     for (std::size_t k = 0; k < record.size(); ++k) {
         Real total = 0;
         for (std::size_t j = 0; j < std::min(parts.near.size(), k + 1); ++j) {
-            total += parts.near[j] * Real(record[k - j]);
+            add_product(total, parts.near[j], x[k - j]);
         }
         for (const Block& block : parts.blocks) {
             if (block.from > k) {
                 break;
             }
             const std::size_t newest = k - block.from;
-            total += block.mean * (before[newest + 1] - before[newest + 1 - std::min(block.width, newest + 1)]);
+            const Real in_block = before[newest + 1] - before[newest + 1 - std::min(block.width, newest + 1)];
+            add_product(total, block.mean, in_block);
         }
         result.emplace_back(total);
     }

@@ -1,6 +1,7 @@
 #include "bench/reference/dropped.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace reference {
 namespace {
@@ -12,6 +13,38 @@ std::vector<Real> increment_weights(const glsum::Design& design) {
         near[j] = design.weights[j - 1];
     }
     return near;
+}
+
+Real value_of(const Exact& sum) { return Real(sum.high) + sum.low; }
+
+// The sum of order v - 1 over increments is that over x, less that of a sample before.
+Sums less_the_one_before(const Sums& inner) {
+    Sums result;
+    result.reserve(inner.size());
+    for (std::size_t k = 0; k < inner.size(); ++k) {
+        result.emplace_back(k == 0 ? value_of(inner[k]) : Real(value_of(inner[k]) - value_of(inner[k - 1])));
+    }
+    return result;
+}
+
+Sums with_guess(Dropped dropped, const Sums& window, std::span<const Real> a, std::size_t taps,
+                std::span<const double> record) {
+    Sums result;
+    result.reserve(record.size());
+    Real tail = 0;     // sum_{j=L..k} a_j
+    Real moments = 0;  // sum_{j=L..k} a_j (j-L+1)
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        Real sum = value_of(window[k]);
+        if (k >= taps) {
+            const Real guessed = k - taps + 1;
+            tail += a[k];
+            moments += a[k] * guessed;
+            const Real first = dropped == Dropped::line ? Real(moments / guessed) : Real(0);
+            sum += (tail - first) * Real(record[k - taps + 1]) + first * Real(record[0]);
+        }
+        result.emplace_back(sum);
+    }
+    return result;
 }
 
 }  // namespace
@@ -52,36 +85,28 @@ Sums sums_of(Dropped dropped, const glsum::Design& design, std::span<const doubl
     if (dropped == Dropped::zero) {
         return sums_of(design, record);
     }
-    Sums result;
-    result.reserve(record.size());
     if (dropped == Dropped::increments) {
-        // The sum of order v - 1 over x, less that of a sample before.
-        const Sums inner = sums_of(increment_weights(design), design.modes, record);
-        for (std::size_t k = 0; k < inner.size(); ++k) {
-            Real sum = Real(inner[k].high) + inner[k].low;
-            if (k > 0) {
-                sum -= Real(inner[k - 1].high) + inner[k - 1].low;
-            }
-            result.emplace_back(sum);
-        }
-        return result;
+        return less_the_one_before(sums_of(increment_weights(design), design.modes, record));
     }
-    const std::size_t taps = design.taps;
-    const std::vector<Real> a = weights(Real(design.order), record.size());
-    const std::size_t reach[] = {taps};
-    const Sums window = sums(a, record, reach).front();
-    Real tail = 0;     // sum_{j=L..k} a_j
-    Real moments = 0;  // sum_{j=L..k} a_j (j-L+1)
-    for (std::size_t k = 0; k < record.size(); ++k) {
-        Real sum = Real(window[k].high) + window[k].low;
-        if (k >= taps) {
-            const Real guessed = k - taps + 1;
-            tail += a[k];
-            moments += a[k] * guessed;
-            const Real first = dropped == Dropped::line ? Real(moments / guessed) : Real(0);
-            sum += (tail - first) * Real(record[k - taps + 1]) + first * Real(record[0]);
+    const std::size_t taps[] = {design.taps};
+    const std::vector<Sums> ended = sums(weights(Real(design.order), record.size()), record, taps);
+    return std::move(sums_of_windows(dropped, design.order, record, taps, ended).front());
+}
+
+std::vector<Sums> sums_of_windows(Dropped dropped, double order, std::span<const double> record,
+                                  std::span<const std::size_t> lengths, std::span<const Sums> ended) {
+    std::vector<Sums> result;
+    if (dropped == Dropped::zero) {
+        result.assign(ended.begin(), ended.end());
+    } else if (dropped == Dropped::increments) {
+        for (const Sums& inner : sums(weights(Real(order) - 1, record.size()), record, lengths)) {
+            result.push_back(less_the_one_before(inner));
         }
-        result.emplace_back(sum);
+    } else {
+        const std::vector<Real> a = weights(Real(order), record.size());
+        for (std::size_t i = 0; i < lengths.size(); ++i) {
+            result.push_back(with_guess(dropped, ended[i], a, lengths[i], record));
+        }
     }
     return result;
 }

@@ -37,4 +37,9 @@ template <class History>
 /// S_k for all k of a record.
 [[nodiscard]] Sums sums_of(Dropped dropped, const glsum::Design& design, std::span<const double> record);
 
+/// The same for windows of several lengths (rising; without modes or blocks), in one pass over the record at most.
+/// \param ended  the sums of windows that end: `Dropped::zero`, of the same lengths
+[[nodiscard]] std::vector<Sums> sums_of_windows(Dropped dropped, double order, std::span<const double> record,
+                                                std::span<const std::size_t> lengths, std::span<const Sums> ended);
+
 }  // namespace reference

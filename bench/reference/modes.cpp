@@ -21,19 +21,25 @@ std::vector<Real> weights_of(std::span<const Real> near, std::span<const glsum::
 
 Sums sums_of(std::span<const Real> near, std::span<const glsum::Mode> modes, std::span<const double> record) {
     const std::size_t near_taps = near.size();
+    const std::vector<Real> x(record.begin(), record.end());
+    std::vector<Real> ratios;
+    std::vector<Real> first_weights;
+    for (const glsum::Mode& mode : modes) {
+        ratios.push_back(1 - Real(mode.decay));
+        first_weights.emplace_back(mode.weight);
+    }
     std::vector<Real> tails(modes.size(), Real(0));
     Sums result;
     result.reserve(record.size());
     for (std::size_t k = 0; k < record.size(); ++k) {
         Real total = 0;
         for (std::size_t j = 0; j < std::min(near_taps, k + 1); ++j) {
-            total += near[j] * Real(record[k - j]);
+            add_product(total, near[j], x[k - j]);
         }
         for (std::size_t m = 0; m < tails.size(); ++m) {
-            const glsum::Mode& mode = modes[m];
-            tails[m] *= 1 - Real(mode.decay);
+            tails[m] *= ratios[m];
             if (k >= near_taps) {
-                tails[m] += Real(mode.weight) * Real(record[k - near_taps]);
+                add_product(tails[m], first_weights[m], x[k - near_taps]);
             }
             total += tails[m];
         }

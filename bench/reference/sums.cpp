@@ -3,15 +3,6 @@
 #include <algorithm>
 
 namespace reference {
-namespace {
-
-// total += a x with one rounding and no temporary: by far the most frequent operation of a run.
-void add_product(Real& total, const Real& a, const Real& x) {
-    mpfr_fma(total.backend().data(), a.backend().data(), x.backend().data(), total.backend().data(), MPFR_RNDN);
-}
-
-}  // namespace
-
 std::vector<Real> weights(const Real& order, std::size_t count) {
     std::vector<Real> a;
     a.reserve(count);

@@ -85,6 +85,33 @@ TEST(Reference, SumsOfWhatIsDroppedAreThoseOfItsWeights) {
     }
 }
 
+// In one pass for all lengths, or one at a time.
+TEST(Reference, SumsOfWindowsAreThoseOfEachLength) {
+    using reference::Dropped;
+    const std::vector<std::size_t> lengths = {1, 5, 17, 60};
+    std::vector<double> record(60);
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        record[k] = (static_cast<double>(k * k * 7 % 31) - 15.0) / 16.0;
+    }
+    for (const double order : {0.5, 1.5}) {
+        const auto ended = reference::sums(reference::weights(Real(order), record.size()), record, lengths);
+        for (const Dropped dropped : {Dropped::zero, Dropped::increments, Dropped::held, Dropped::line}) {
+            const auto windows = reference::sums_of_windows(dropped, order, record, lengths, ended);
+            for (std::size_t i = 0; i < lengths.size(); ++i) {
+                for (std::size_t k = 0; k < record.size(); ++k) {
+                    const auto weights = reference::weights_of(dropped, {order, lengths[i]}, k + 1);
+                    Real sum = 0;
+                    for (std::size_t j = 0; j <= k; ++j) {
+                        sum += weights[j] * Real(record[k - j]);
+                    }
+                    EXPECT_NEAR(static_cast<double>(Real(sum - to_real(windows.at(i).at(k)))), 0.0, 1e-29)
+                        << static_cast<int>(dropped) << " order " << order << ", taps " << lengths[i] << ", k " << k;
+                }
+            }
+        }
+    }
+}
+
 TEST(Reference, StepRampAndBinomialsHaveTheirClosedForms) {
     std::vector<double> ones(samples, 1.0);
     std::vector<double> ramp(samples);
