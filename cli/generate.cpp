@@ -13,6 +13,7 @@
 #include "bench/generate/header.hpp"
 #include "bench/generate/provenance.hpp"
 #include "bench/generate/verify.hpp"
+#include "bench/target_rows.hpp"
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/commands.hpp"
@@ -150,8 +151,10 @@ void run(const Options& options, Budget budget, const std::string& command) {
                    bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(), options.out);
     }
     if (options.verify) {
-        const auto verified = generate::verify_on_target(specs, built_board());
-        fmt::print("{}", generate::to_table(verified));
+        const std::string core = budget.core.empty() ? default_core : budget.core;
+        const auto verified =
+            generate::verify_on_target(specs, built_board(), bench::timing_request(cores_folder(), {core}));
+        fmt::print("{}", generate::to_table(verified, core));
         const auto failed =
             std::count_if(verified.begin(), verified.end(), [](const auto& one) { return !one.good(); });
         if (failed > 0) {
@@ -175,7 +178,7 @@ void add_generate(CLI::App& app, const std::string& command_line) {
     command->add_option("--out", options->out, "The header");
     command->add_flag("--verify", options->verify,
                       "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
-                      "the kernel's");
+                      "modelled cycles and the kernel's");
     command->footer(
         "Takes the budget of `choose` (see there) and writes what that chooses, among the kernels that can be "
         "generated\n"

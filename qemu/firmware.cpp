@@ -183,9 +183,11 @@ Board find_board(const std::filesystem::path& build, const std::filesystem::path
     return board;
 }
 
-std::size_t calls_to_measure(const std::string& kernel, std::size_t taps) {
-    return firmware::TimedCalls{taps, computes_in_double(kernel)}.calls();
+firmware::TimedCalls timed_calls(const std::string& kernel, std::size_t taps) {
+    return {taps, computes_in_double(kernel)};
 }
+
+std::size_t calls_to_measure(const std::string& kernel, std::size_t taps) { return timed_calls(kernel, taps).calls(); }
 
 ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
     const auto& signal = signals.at(row.signal);
@@ -279,7 +281,7 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (rows[i].status == glsum::Status::ok) {
             const std::uint32_t entry = watch.kernels.at(plan[i].kernel);
-            const firmware::TimedCalls made{plan[i].taps, computes_in_double(plan[i].kernel)};
+            const firmware::TimedCalls made = timed_calls(plan[i].kernel, plan[i].taps);
             summarise(rows[i], calls, entry, made);
             const auto reached = log.reached.find(entry);
             if (reached == log.reached.end()) {
@@ -288,9 +290,9 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
             rows[i].code_bytes = code_bytes(elf, reached->second);
             if (!timing.cores.empty()) {
                 const timing::TimingLog log_of_row = timing::read_timing_log(times);
-                rows[i].cores = modelled_calls(log_of_row, {plan[i].taps, computes_in_double(plan[i].kernel)},
-                                               plan[i].calls, timing.cores.size(), rows[i].first.instructions,
-                                               fmt::format("{} with {} taps", plan[i].kernel, plan[i].taps));
+                rows[i].cores =
+                    modelled_calls(log_of_row, made, plan[i].calls, timing.cores.size(), rows[i].first.instructions,
+                                   fmt::format("{} with {} taps", plan[i].kernel, plan[i].taps));
                 for (const auto& [address, times_met] : log_of_row.unknown) {
                     rows[i].unknown_encodings.push_back(address);
                 }

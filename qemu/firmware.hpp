@@ -69,8 +69,11 @@ struct MeasuredRow {
     bool operator==(const MeasuredRow&) const = default;
 };
 
-/// How many calls `measure` needs of a kernel at this length: `firmware::TimedCalls::calls`.
+/// Which calls `measure` makes of a kernel at this length, and which of them it times.
 /// \param kernel  of any name; none that the registry does not have computes in double
+[[nodiscard]] firmware::TimedCalls timed_calls(const std::string& kernel, std::size_t taps);
+
+/// How many calls `measure` needs of a kernel at this length: `timed_calls(kernel, taps).calls()`.
 [[nodiscard]] std::size_t calls_to_measure(const std::string& kernel, std::size_t taps);
 
 /// The hash of the same calls on this machine. `status` as `prepare` gave it; no calls unless ok.

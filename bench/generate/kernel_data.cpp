@@ -59,7 +59,7 @@ TechniqueText text_of(const HistoryText& history, std::size_t past, const std::v
     } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {
         return horner_split_text(history, past, std::is_same_v<Technique, HornerSplitFma>);
     } else if constexpr (one_of<Technique, Fir, FirFma>) {
-        return fir_text(std::is_same_v<Technique, FirFma>);
+        return fir_text(std::is_same_v<Technique, FirFma>, !f32);
     } else if constexpr (std::is_same_v<Technique, Compensated>) {
         return compensated_text(history);
     } else if constexpr (std::is_same_v<Technique, Scaled>) {
@@ -163,8 +163,8 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.history_text.pieces.front().may_be_empty = true;
     }
     if constexpr (has_modes) {
-        data.technique_text =
-            modes_text(data.past, data.modes, std::is_same_v<Technique, glsum::Compensated>, Format::fixed_point);
+        data.technique_text = modes_text(data.past, data.modes, std::is_same_v<Technique, glsum::Compensated>,
+                                         Format::fixed_point, std::is_same_v<Format, glsum::F64>);
         const double of_weights = increments ? order - 1.0 : order;
         const double largest = increments ? 2.0 : 1.0;  // of what is kept
         data.design_error =

@@ -83,7 +83,7 @@ struct FormatText {
 [[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, const std::string& m7);
 [[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused);
-[[nodiscard]] TechniqueText fir_text(bool fused);
+[[nodiscard]] TechniqueText fir_text(bool fused, bool fixed);
 [[nodiscard]] TechniqueText compensated_text(const HistoryText& history);
 [[nodiscard]] TechniqueText paired_text(bool wide);
 /// \param table  as `prepare` filled it: `past` coefficients, then the octaves' shifts
@@ -91,7 +91,8 @@ struct FormatText {
 
 /// Near taps and modes, which keep the past themselves.
 /// \param near_samples  K - 1; without modes at least 1
-[[nodiscard]] TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed);
+[[nodiscard]] TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed,
+                                       bool in_software);
 
 /// A window summed for four coming outputs at once.
 [[nodiscard]] TechniqueText block_text(bool fused, bool fixed);

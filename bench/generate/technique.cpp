@@ -171,18 +171,22 @@ TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bo
         .m7 = on_m7 ? "nest_floats" : ""};
 }
 
-TechniqueText fir_text(bool fused) {
+// Where the coefficient is loaded decides what GCC 12 puts between load, store and product: in fixed point behind the
+// store, in floating point before it, is what takes the fewest cycles on a Cortex-M7.
+TechniqueText fir_text(bool fused, bool fixed) {
+    const std::string load = "        const @coefficient@ a = @name@_table[i];\n";
     return {.summary = "newest first, storing each sample one place on in the same pass" + rounded_once(fused),
             .sum =
                 "    @accumulator@ sum = @name@_start(newest);\n"
                 "    @moved@ moving = newest;\n"
                 "    for (i = 0; i < @NAME@_PAST; ++i) {\n"
-                "        @moved@ kept = S->past[i];\n"
-                "        sum = " +
-                accumulate(fused) +
-                "(sum, @name@_table[i], (@sample@)kept);\n"
+                "        @moved@ kept = S->past[i];\n" +
+                (fixed ? "" : load) +
                 "        @NAME@_KEEP(moving);\n"
                 "        S->past[i] = (@sample@)moving;\n"
+                "        sum = " +
+                accumulate(fused) +
+                (fixed ? "(sum, @name@_table[i], (@sample@)kept);\n" : "(sum, a, (@sample@)kept);\n") +
                 "        moving = kept;\n"
                 "    }\n",
             .pushes = true,
@@ -228,18 +232,64 @@ TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts) {
 }
 
 namespace {
-const char* const unrolled =
-    "#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8\n#pragma GCC unroll 8\n#endif\n";
+std::string unrolled(int turns) {
+    return fmt::format("#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8\n#pragma GCC unroll {}\n#endif\n",
+                       turns);
+}
+}  // namespace
+
+namespace {
+
+// A step of `count` modes side by side, as the kernel orders it: all are moved on before any is stored, so that the
+// core finds something to do between the additions of one.
+std::string modes_at_once(int count, bool compensated) {
+    const int words = compensated ? 2 : 1;
+    std::string text;
+    std::string sums;
+    std::string stores;
+    for (int m = 0; m < count; ++m) {
+        text += fmt::format("            const @sample@ before{0} = average[{1}];\n", m, words * m);
+        sums += fmt::format("            sum = @name@_multiply_add(sum, mode[{1}], before{0});\n", m, 2 * m + 1);
+        stores += fmt::format("            average[{1}] = after{0};\n", m, words * m);
+        if (compensated) {
+            stores += fmt::format("            average[{1}] = step{0} - (after{0} - before{0});\n", m, words * m + 1);
+        }
+    }
+    for (int m = 0; m < count; ++m) {
+        text +=
+            fmt::format("            const @sample@ step{0} = @name@_multiply(mode[{1}], leaving - before{0}){2};\n", m,
+                        2 * m, compensated ? fmt::format(" + average[{}]", words * m + 1) : "");
+        text += fmt::format("            const @sample@ after{0} = before{0} + step{0};\n", m);
+    }
+    return text + sums + stores;
+}
+
+// In software nothing can be done meanwhile: one at a time.
+std::string floating_modes(std::size_t modes, bool compensated, bool in_software) {
+    const auto on = [&](int count) {
+        return fmt::format("            mode += {};\n            average += {};\n", 2 * count,
+                           (compensated ? 2 : 1) * count);
+    };
+    std::string text;
+    if (in_software) {
+        return "        for (i = @NAME@_MODES; i > 0U; --i) {\n" + modes_at_once(1, compensated) + on(1) +
+               "        }\n";
+    }
+    if (modes % 2 != 0) {
+        text += "        {\n" + modes_at_once(1, compensated) + (modes > 1 ? on(1) : "") + "        }\n";
+    }
+    if (modes > 1) {
+        // Whole, as long as that is short; of many each turn saves less than its instructions cost to fetch.
+        text += unrolled(modes < 18 ? 8 : 2) + "        for (i = @NAME@_MODES / 2U; i > 0U; --i) {\n" +
+                modes_at_once(2, compensated) + on(2) + "        }\n";
+    }
+    return text;
+}
+
 }  // namespace
 
 // kernels/glsum/history/modes.hpp.
-TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed) {
-    const char* const floating_step = "            average[0] = before + @name@_multiply(mode[0], leaving - before);\n";
-    const char* const compensated_step =
-        "            const @sample@ step = @name@_multiply(mode[0], leaving - before) + average[1];\n"
-        "            const @sample@ after = before + step;\n"
-        "            average[0] = after;\n"
-        "            average[1] = step - (after - before);\n";
+TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed, bool in_software) {
     const char* const fixed_step =
         "            const int64_t step = (int64_t)mode[0] * leaving - (int64_t)mode[0] * before;\n"
         "            const int32_t shift = mode[1];\n"
@@ -250,19 +300,21 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
             "    for (i = 0U; i < @NAME@_PAST; ++i) {\n"
             "        sum = @name@_multiply_add(sum, @name@_table[i], S->past[i]);\n    }\n";
     }
-    // As the kernel does: no mode waits for another.
-    const std::string step = fixed ? fixed_step : compensated ? compensated_step : floating_step;
-    text += modes == 0 ? ""
-                       : fmt::format(
-                             "    {{\n        const @sample@ leaving = {};\n"
-                             "        const @coefficient@ *mode = @name@_table + @NAME@_PAST;\n"
-                             "        @sample@ *average = S->past + @NAME@_PAST;\n"
-                             "{}        for (i = @NAME@_MODES; i > 0U; --i) {{\n"
-                             "            const @sample@ before = average[0];\n{}"
-                             "            sum = @name@_multiply_add(sum, mode[{}], before);\n"
-                             "            mode += {};\n            average += {};\n        }}\n    }}\n",
-                             near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest", fixed ? "" : unrolled, step,
-                             fixed ? 2 : 1, fixed ? 3 : 2, compensated ? 2 : 1);
+    if (modes > 0) {
+        text += fmt::format(
+            "    {{\n        const @sample@ leaving = {};\n"
+            "        const @coefficient@ *mode = @name@_table + @NAME@_PAST;\n"
+            "        @sample@ *average = S->past + @NAME@_PAST;\n",
+            near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest");
+        text += fixed ? std::string(
+                            "        for (i = @NAME@_MODES; i > 0U; --i) {\n"
+                            "            const @sample@ before = average[0];\n") +
+                            fixed_step +
+                            "            sum = @name@_multiply_add(sum, mode[2], before);\n"
+                            "            mode += 3;\n            average += 1;\n        }\n"
+                      : floating_modes(modes, compensated, in_software);
+        text += "    }\n";
+    }
     if (near_samples > 1) {
         text += R"(    for (i = @NAME@_PAST - 1U; i > 0U; --i) {
         @moved@ moved = S->past[i - 1U];
@@ -301,7 +353,7 @@ TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks,
         const std::string others =
             blocks.per_level == 1
                 ? ""
-                : std::string(unrolled) +
+                : unrolled(8) +
                       "            for (i = (left < @NAME@_PER_LEVEL ? left : @NAME@_PER_LEVEL) - 1U; i > 0U; --i) "
                       "{\n" +
                       on("width", 16) +

@@ -18,6 +18,7 @@
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
+#include "qemu/watched.hpp"
 
 namespace generate {
 namespace {
@@ -58,14 +59,23 @@ std::string target_flags(const qemu::Board& board) {
     return flags;
 }
 
+std::string upper(std::string word) {
+    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::toupper(c); });
+    return word;
+}
+
 // One C file of all headers: for each a function to be counted and the calls of it.
 std::string counted_source(const std::vector<Spec>& specs) {
-    std::string text = "#include <stdint.h>\n";
+    std::string text =
+        "#include <stdint.h>\nvoid glsum_make_calls(unsigned taps, unsigned software_double, void (*make)(unsigned "
+        "call));\n";
     std::string entries;
     for (std::size_t i = 0; i < specs.size(); ++i) {
         const std::string format = format_word(specs[i].kernel);
         const std::string name = specs[i].prefix + "_" + format;
-        text += fmt::format(R"(#include "{0}.h"
+        const firmware::TimedCalls calls = qemu::timed_calls(specs[i].kernel, specs[i].taps);
+        text += fmt::format(R"(#define {7}_TABLE_ATTRIBUTES __attribute__((section(".data.tables"), aligned(8)))
+#include "{0}.h"
 typedef {4} sample_{0};
 typedef {5} output_{0};
 output_{0} count_{0}({1}_instance *S, sample_{0} x);
@@ -73,25 +83,28 @@ __attribute__((noipa, flatten)) output_{0} count_{0}({1}_instance *S, sample_{0}
 {{
     return {0}_step_{2}(S, x);
 }}
+static {1}_instance line_{0};
+static void call_{0}(unsigned k)
+{{
+    (void)count_{0}(&line_{0}, {1}_check_input[k % (sizeof {1}_check_input / sizeof {1}_check_input[0])]);
+    __asm__ volatile(""); /* or the call would become a jump, which is no call to the plugin */
+}}
 static uint32_t verify_{0}(void)
 {{
-    static {1}_instance line;
-    const uint32_t wrong = {0}_self_check_{2}(&line);
-    uint32_t k;
-    for (k = 0U; k < {3}U; ++k) {{
-        (void)count_{0}(&line, {1}_check_input[k % (sizeof {1}_check_input / sizeof {1}_check_input[0])]);
-    }}
+    const uint32_t wrong = {0}_self_check_{2}(&line_{0});
+    glsum_make_calls({3}U, {6}U, call_{0});
     return wrong;
 }}
 )",
-                            specs[i].prefix, name, format, qemu::calls_to_measure(specs[i].kernel, specs[i].taps),
+                            specs[i].prefix, name, format, specs[i].taps,
                             format == "f64"             ? "double"
                             : format.starts_with("f32") ? "float"
                             : format == "q31"           ? "int32_t"
                                                         : "int16_t",
                             format == "f64"             ? "double"
                             : format.starts_with("f32") ? "float"
-                                                        : "int32_t");
+                                                        : "int32_t",
+                            calls.software_double ? 1 : 0, upper(name));
         entries += fmt::format("    verify_{},\n", specs[i].prefix);
     }
     return text + "static uint32_t (*const entries[])(void) = {\n" + entries +
@@ -122,19 +135,23 @@ std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& bo
         fmt::format("arm-none-eabi-gcc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -ffunction-sections{} -c "
                     "'{}' -o '{}'",
                     flags, c_file.string(), scratch.file("counted.o").string()));
-    run(
-        fmt::format("arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti{} -I'{}' -nostartfiles -Wl,--gc-sections "
-                    "-T '{}' -T '{}' '{}' '{}' '{}' -lm -o '{}'",
-                    flags, source.string() + "' -I'" + targets.string() + "' -I'" + (source / "kernels").string(),
-                    (targets / "mps2-an500" / "memory.ld").string(), (targets / "cortex-m7" / "sections.ld").string(),
-                    (targets / "firmware" / "verify.cpp").string(), scratch.file("counted.o").string(),
-                    (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
+    run(fmt::format(
+        "arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti{} -I'{}' -nostartfiles -Wl,--gc-sections "
+        "-T '{}' -T '{}' '{}' '{}' '{}' '{}' '{}' -lm -o '{}'",
+        flags,
+        source.string() + "' -I'" + targets.string() + "' -I'" + (targets / "firmware").string() + "' -I'" +
+            (source / "kernels").string(),
+        (targets / "mps2-an500" / "memory.ld").string(), (targets / "cortex-m7" / "sections.ld").string(),
+        (targets / "firmware" / "verify.cpp").string(), (targets / "firmware" / "verify_calls.cpp").string(),
+        (targets / "firmware" / "marks.S").string(), scratch.file("counted.o").string(),
+        (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
     return elf;
 }
 
 struct Mean {
     double instructions = 0.0;
     double stores = 0.0;
+    std::uint64_t first_instructions = 0;  // of the first call
 };
 
 // Of 32 calls once the past is full: the calls that `qemu::measure` takes the kernel's mean of.
@@ -144,6 +161,9 @@ std::map<std::uint32_t, Mean> means(const qemu::CallLog& log, const std::map<std
     for (const qemu::CallRun& run : log.runs) {
         const std::uint64_t from = 1 + taps.at(run.entry);
         const std::uint64_t before = seen[run.entry];
+        if (before == 0) {
+            result[run.entry].first_instructions = run.counts.instructions;
+        }
         seen[run.entry] += run.calls;
         const std::uint64_t begin = std::max(before, from);
         const std::uint64_t end = std::min(before + run.calls, from + steady_calls);
@@ -158,7 +178,8 @@ std::map<std::uint32_t, Mean> means(const qemu::CallLog& log, const std::map<std
 
 }  // namespace
 
-std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qemu::Board& board) {
+std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qemu::Board& board,
+                                       const timing::TimingRequest& timing) {
     const qemu::Scratch scratch;
     std::vector<Spec> specs = wanted;
     std::vector<qemu::PlannedRow> plan;
@@ -178,7 +199,8 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
     }
     const std::filesystem::path path = link(specs, board, scratch);
     bench::Progress progress("emulated Cortex-M7", 2 * specs.size());
-    const auto kernels = qemu::measure(board, plan, {check_signal()}, [&] { progress.advance(); });
+    const auto kernels = qemu::measure(
+        board, plan, {check_signal()}, [&] { progress.advance(); }, qemu::Counting::blocks, timing);
 
     const qemu::Elf elf(path);
     std::map<std::uint32_t, std::size_t> taps;
@@ -190,18 +212,24 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
         watch += fmt::format("{}\n", entries.back());
     }
     write(scratch.file("watch"), watch);
+    const qemu::Marks marks = qemu::marks_of(elf);
+    write(scratch.file("marks"), fmt::format("{} {} {}\n", marks.row, marks.on, marks.off));
+    std::ostringstream request;
+    timing::write_timing_request(request, timing);
+    write(scratch.file("request"), request.str());
     std::vector<Verified> all;
     qemu::emulate(
         board.emulator, path, {},
-        fmt::format("{},watch={},out={},stream=off", board.plugin.string(), scratch.file("watch").string(),
-                    scratch.file("calls").string()),
+        fmt::format("{},watch={},out={},stream=off,marks={},timing={},times={}", board.plugin.string(),
+                    scratch.file("watch").string(), scratch.file("calls").string(), scratch.file("marks").string(),
+                    scratch.file("request").string(), scratch.file("times").string()),
         [&](const std::string& line) {
             std::istringstream words(line);
             std::string kind;
             std::size_t number = 0;
             std::uint32_t wrong = 0;
             if (words >> kind >> number >> wrong && kind == "row" && number == all.size() && number < specs.size()) {
-                all.push_back({specs[number].kernel, specs[number].taps, wrong, 0.0, 0.0, 0.0, 0.0});
+                all.push_back({specs[number].kernel, specs[number].taps, wrong, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
                 progress.advance();
             }
         });
@@ -211,27 +239,41 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
     }
     std::ifstream log_file(scratch.file("calls"));
     const auto counted = means(qemu::read_call_log(log_file), taps);
+    std::ifstream times(scratch.file("times"));
     for (std::size_t i = 0; i < all.size(); ++i) {
+        const Mean& header = counted.at(entries[i]);
+        const firmware::TimedCalls calls = qemu::timed_calls(specs[i].kernel, specs[i].taps);
+        all[i].kernel_cycles = kernels[i].cores.at(0).cycles;
+        all[i].header_cycles =
+            qemu::modelled_calls(timing::read_timing_log(times), calls, calls.calls(), timing.cores.size(),
+                                 header.first_instructions, "the header of " + specs[i].kernel)
+                .at(0)
+                .cycles;
         all[i].kernel_instructions = kernels[i].instructions;
         all[i].kernel_stores = kernels[i].stores;
-        all[i].header_instructions = counted.at(entries[i]).instructions;
-        all[i].header_stores = counted.at(entries[i]).stores;
+        all[i].header_instructions = header.instructions;
+        all[i].header_stores = header.stores;
     }
     return all;
 }
 
-std::string to_table(const std::vector<Verified>& all) {
-    std::string text = fmt::format("  {:<26} {:>5}  {:<14} {:>11} {:>11} {:>8}\n", "kernel", "taps", "bits", "kernel",
-                                   "header", "ratio");
+std::string to_table(const std::vector<Verified>& all, const std::string& core) {
+    std::string text =
+        fmt::format("  {:<26} {:>5}  {:<14} {:^32}  {:^30}\n", "", "", "", "instructions", "modelled cycles");
+    text += fmt::format("  {:<26} {:>5}  {:<14} {:>11} {:>11} {:>8}  {:>10} {:>10} {:>8}\n", "kernel", "taps", "bits",
+                        "kernel", "header", "ratio", "kernel", "header", "ratio");
     for (const Verified& one : all) {
-        text += fmt::format("  {:<26} {:>5}  {:<14} {:>11.1f} {:>11.1f} {:>8.4f}{}\n", one.kernel, one.taps,
-                            one.first_wrong == 0 ? "the kernel's" : fmt::format("differ at {}", one.first_wrong),
-                            one.kernel_instructions, one.header_instructions,
-                            one.header_instructions / one.kernel_instructions, one.good() ? "" : "  FAILED");
+        text += fmt::format(
+            "  {:<26} {:>5}  {:<14} {:>11.1f} {:>11.1f} {:>8.4f}  {:>10.1f} {:>10.1f} {:>8.4f}{}\n", one.kernel,
+            one.taps, one.first_wrong == 0 ? "the kernel's" : fmt::format("differ at {}", one.first_wrong),
+            one.kernel_instructions, one.header_instructions, one.header_instructions / one.kernel_instructions,
+            one.kernel_cycles, one.header_cycles, one.header_cycles / one.kernel_cycles, one.good() ? "" : "  FAILED");
     }
-    return text +
-           "\n  instructions a sample on the emulated Cortex-M7, of the registered kernel and of the generated "
-           "header\n";
+    return text + fmt::format(
+                      "\n  a sample on the emulated Cortex-M7, of the registered kernel and of the generated header; "
+                      "cycles of "
+                      "the timing model for {}\n",
+                      core);
 }
 
 }  // namespace generate
