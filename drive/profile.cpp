@@ -13,6 +13,8 @@
 namespace drive {
 namespace {
 
+constexpr double close = 2e-3;  // an interval's end is as good as this, in quantiles
+
 // Where a parameter's interval ends: the least sum of squares over all others has grown by quantile^2 variances.
 class Profile {
 public:
@@ -40,7 +42,7 @@ public:
         double by = std::min(quantile, farthest);
         for (int turn = 0; turn < 12; ++turn) {
             const double now = height(by);
-            if (std::fabs(now) < 2e-3 * quantile) {
+            if (std::fabs(now) < close * quantile) {
                 return values[index] + side * by * straight;
             }
             if (now < 0.0) {
@@ -96,8 +98,10 @@ private:
                 return std::numeric_limits<double>::infinity();
             }
         }
-        // A part of the sum of squares, which is as many variances as there are samples: 10^-4 of one at 1000 samples.
-        return descend(fixed, predictor, start, noise_model_, {0.0, iterations_, 1e-7}).sum_of_squares;
+        // As a part of the sum of squares, which is as many variances as there are samples: a height is wanted to
+        // within `close` quantiles, 0.015 variances of the sum at its 95 %.
+        const double tolerance = 2e-3 / static_cast<double>(samples_of(records_));
+        return descend(fixed, predictor, start, noise_model_, {0.0, iterations_, tolerance}).sum_of_squares;
     }
 
     const Form& form_;

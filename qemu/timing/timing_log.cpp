@@ -175,8 +175,23 @@ Effects effects_named(const std::vector<std::string>& names) {
             for (const std::string_view one : effect_names) {
                 known += " " + std::string(one);
             }
-            throw glsum::Failure(glsum::Exit::bad_input,
-                                 name + ": no such effect of the model; expected one of" + known);
+            // What a measurement has and the core alone has not: nothing to switch off in a model without it.
+            constexpr std::string_view outside[] = {"double_precision_in_software",
+                                                    "cache_maintenance",
+                                                    "call_overhead",
+                                                    "clock_ratio",
+                                                    "interrupt_load",
+                                                    "bus_contention",
+                                                    "different_binary"};
+            const bool is_outside = std::find(std::begin(outside), std::end(outside), name) != std::end(outside);
+            throw glsum::Failure(
+                glsum::Exit::bad_input,
+                name +
+                    (is_outside
+                         ? ": an effect outside the core, nothing of the model to switch off (diagnose cycles looks "
+                           "for it in measured cycles); expected one of"
+                         : ": no such effect of the model; expected one of") +
+                    known);
         }
         effects.set(index(*effect));
     }

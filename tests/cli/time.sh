@@ -147,6 +147,7 @@ expect 1 "never called" time --elf "$folder/own.elf" --function uncalled
 expect 2 "--place" time --elf "$folder/own.elf" --function dot --place stack=dtcm
 expect 2 "code" time --elf "$folder/own.elf" --function dot --place code=sram
 expect 2 "no such effect" time --elf "$folder/own.elf" --function dot --without magic
+expect 2 "outside the core" time --elf "$folder/own.elf" --function dot --without interrupt_load
 expect 2 "no such core" time --elf "$folder/own.elf" --function dot --core no-such-core
 expect 2 "$folder/none.elf" time --elf "$folder/none.elf" --function dot
 expect 2 "$folder/start.c" time --elf "$folder/start.c" --function dot
