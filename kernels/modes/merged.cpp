@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "glsum/weights.hpp"
+#include "modes/bdf.hpp"
 #include "modes/projection.hpp"
 
 namespace glsum::modes {
@@ -19,21 +20,6 @@ std::vector<double> increment_weights(double order, std::size_t horizon) {
         weights.push_back(walk.weight());
     }
     return weights;
-}
-
-// (3 - 4z + z^2)/2 = (1 - z) (3 - z)/2, and ((3 - z)/2)^v falls as 3^-j: its first terms are all that a double holds.
-std::vector<double> with_bdf2_factor(const std::vector<double>& weights, double order) {
-    std::vector<double> factor = {std::pow(1.5, order)};
-    for (std::size_t j = 1; j < 40; ++j) {
-        factor.push_back(factor.back() * (1.0 - (1.0 + order) / static_cast<double>(j)) / 3.0);
-    }
-    std::vector<double> product(weights.size(), 0.0);
-    for (std::size_t k = 0; k < product.size(); ++k) {
-        for (std::size_t j = std::min(k + 1, factor.size()); j-- > 0;) {  // the small ones first
-            product[k] += factor[j] * weights[k - j];
-        }
-    }
-    return product;
 }
 
 // Indices from K to N, dense at first, then 60 a decade.
@@ -76,11 +62,11 @@ std::vector<double> merged_weights(std::span<const Term> terms, double step_s, D
                                    std::size_t horizon) {
     std::vector<double> merged(horizon + 1, 0.0);
     for (const Term& term : terms) {
-        std::vector<double> weights = increment_weights(term.order, horizon);
-        if (discretisation == Discretisation::bdf2) {
-            weights = with_bdf2_factor(weights, term.order);
-        }
-        const double scale = term.coefficient * std::pow(step_s, -term.order);
+        const bool bdf2 = discretisation == Discretisation::bdf2;
+        const std::vector<double> weights =
+            bdf2 ? bdf_increment_weights(2, term.order, horizon + 1) : increment_weights(term.order, horizon);
+        const double scale =
+            term.coefficient * (bdf2 ? bdf_first_weight(2, term.order) : 1.0) * std::pow(step_s, -term.order);
         for (std::size_t j = 0; j <= horizon; ++j) {
             merged[j] += scale * weights[j];
         }
