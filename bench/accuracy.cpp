@@ -24,23 +24,29 @@ namespace {
 constexpr std::size_t amplitude_taps = 600;
 constexpr std::string_view amplitude_signals[] = {"sine5", "drive"};
 
-// max |E_k - h^v D^v x(t_k)| over some k > 0, dense where the start of the signal still shows.
-std::optional<double> discretisation_error(const reference::Sums& exact, double order, const Derivative& derivative) {
+// max |E_k - h^v / w_0 D^v x(t_k - lag)| over some k > 0, dense where the start of the signal still shows.
+std::optional<double> discretisation_error(const reference::Sums& exact, double order, Discretisation weights,
+                                           const Derivative& derivative) {
     if (!derivative || exact.size() < 2) {
         return std::nullopt;
     }
     constexpr int points = 200;  // within 1 % of the maximum over all k; 24 can miss a tenth of it
     const reference::Real v = order;
-    const reference::Real scale = pow(reference::Real(step_s), v);
+    const reference::Real scale = pow(reference::Real(step_s), v) / first_weight(weights, v);
+    const reference::Real lag = lag_steps(weights, v);
     const auto last = static_cast<double>(exact.size() - 1);
     double largest = 0.0;
     std::size_t before = 0;
     for (int i = 0; i < points; ++i) {
         const auto k = static_cast<std::size_t>(std::lround(std::pow(last, i / (points - 1.0))));
         if (k != before) {
-            const reference::Real limit = scale * derivative(v, k * reference::Real(step_s));
-            largest = std::max(largest, std::fabs(exact[k].error_of(static_cast<double>(limit))));
             before = k;
+            const reference::Real steps = k - lag;
+            if (steps <= 0) {
+                continue;  // at t = 0 there is no derivative
+            }
+            const reference::Real limit = scale * derivative(v, steps * reference::Real(step_s));
+            largest = std::max(largest, std::fabs(exact[k].error_of(static_cast<double>(limit))));
         }
     }
     return largest;
@@ -49,6 +55,7 @@ std::optional<double> discretisation_error(const reference::Sums& exact, double 
 // One order and one signal: the reference is made once and every kernel and length is held against it.
 struct Case {
     double order;
+    Discretisation weights;
     std::string signal;
     std::vector<double> record;
     std::vector<reference::Sums> exact;  // of each length, full memory last
@@ -58,7 +65,7 @@ struct Case {
     std::map<std::pair<reference::Dropped, std::string>, reference::Sums> of_designs;
 
     Case(const Sweep& sweep, double v, const std::string& name)
-        : order(v), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
+        : order(v), weights(sweep.weights), signal(name), record(make_signal(name, sweep.samples, sweep.seed)) {
         std::vector<std::size_t> lengths;
         for (const Length& length : sweep.lengths) {
             if (length.window()) {
@@ -66,11 +73,11 @@ struct Case {
             }
         }
         lengths.push_back(sweep.samples);
-        exact = reference::sums(reference::weights(reference::Real(order), sweep.samples), record, lengths);
+        exact = reference::sums(exact_weights(weights, reference::Real(order), sweep.samples), record, lengths);
         for (const auto& sum : exact.back()) {
             peak = std::max(peak, std::fabs(sum.high));
         }
-        discretisation = discretisation_error(exact.back(), order, derivative_of_signal(name, sweep.samples));
+        discretisation = discretisation_error(exact.back(), order, weights, derivative_of_signal(name, sweep.samples));
     }
 
     /// The exact sums of what a kernel's design stands for; where that is a window, those of entry `i` of its lengths.
@@ -102,7 +109,8 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
         aspect += fmt::format("/amplitude:{}", amplitude);
     }
     Json row = make_row(row_name(std::string(K::name()), test.order, length, aspect), test.record.size());
-    const glsum::Design design = design_of(std::string(K::name()), test.order, length, test.record.size());
+    const glsum::Design design =
+        design_of(std::string(K::name()), test.order, length, test.record.size(), test.weights);
     HostLine<K> line(design);
     if (line.status() != glsum::Status::ok) {
         mark_error(row, to_text(line.status()));
@@ -164,7 +172,7 @@ std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::v
                     const Length& length = lengths[l];
                     const reference::Sums& exact =
                         test.exact_of(reference::dropped_by<typename K::HistoryPart>(), length, l,
-                                      design_of(kernel, test.order, length, test.record.size()));
+                                      design_of(kernel, test.order, length, test.record.size(), test.weights));
                     rows[i].push_back(measure<K>(test, length, exact, 1.0));
                     if (length.taps == amplitude_taps && length.window() &&
                         std::find(std::begin(amplitude_signals), std::end(amplitude_signals), test.signal) !=

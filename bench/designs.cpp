@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include "bench/reference/dropped.hpp"
+#include "glsum/history/nested.hpp"
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
@@ -111,7 +112,8 @@ Length as_counted(const std::string& kernel, const Length& read) {
     return blocks && read.modes ? Length{read.taps - *read.modes, false, {}, glsum::Blocks{*read.modes, 1}} : read;
 }
 
-glsum::Design design_of(const std::string& kernel, double order, const Length& length, std::size_t samples) {
+glsum::Design design_of(const std::string& kernel, double order, const Length& length, std::size_t samples,
+                        Discretisation weights) {
     glsum::Design design{order, length.taps};
     design.blocks = length.blocks.value_or(glsum::Blocks{});
     if (const std::size_t modes = length.modes.value_or(0); modes > 0) {
@@ -120,11 +122,17 @@ glsum::Design design_of(const std::string& kernel, double order, const Length& l
             return glsum::modes::approximate({of_weights, samples}, length.taps - 2 * modes, modes).modes;
         });
     }
+    if (names_weights(weights)) {
+        const bool of_increments = order_of_weights(kernel, order) != order;
+        const std::size_t count = glsum::reach_of(design) - 1;
+        design.weights = remembered(std::tuple(weights, order, of_increments, count),
+                                    [&] { return named_weights(weights, order, of_increments, count); });
+    }
     return design;
 }
 
 std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order) {
-    if (!serves(kernel, order)) {
+    if (!serves(kernel, order) || !why_not_served(kernel, sweep.weights).empty()) {
         return {};
     }
     const bool with_modes = has_modes(kernel);
