@@ -16,14 +16,12 @@ void add_new(std::vector<std::string>& texts, const std::string& text) {
     }
 }
 
-}  // namespace
-
-std::string discretisation_table(const Json& context, const std::vector<Json>& rows) {
+std::string of_counter(const std::vector<Json>& rows, const char* counter, const std::string& title) {
     std::vector<std::string> orders;  // as they come
     std::vector<std::string> signals;
     std::map<std::pair<std::string, std::string>, double> errors;
     for (const Json& row : rows) {
-        const auto found = row.find("discretisation_error_max");
+        const auto found = row.find(counter);
         const auto key = parse_key(row.value("name", ""));
         if (found != row.end() && found->is_number() && key && key->amplitude.empty()) {
             add_new(orders, key->order);
@@ -34,12 +32,7 @@ std::string discretisation_table(const Json& context, const std::vector<Json>& r
     if (errors.empty()) {
         return "";
     }
-    // From a file a field may be anything; older files have none.
-    const auto named = context.find("weights");
-    const std::string weights = named == context.end() ? "gl"
-                                : named->is_string()   ? named->get<std::string>()
-                                                       : named->dump();
-    std::string text = fmt::format("\ndiscretisation error max, weights {}\n  {:<8}", weights, "order");
+    std::string text = fmt::format("\n{}\n  {:<8}", title, "order");
     for (const std::string& signal : signals) {
         text += fmt::format(" {:>9}", signal);
     }
@@ -52,8 +45,20 @@ std::string discretisation_table(const Json& context, const std::vector<Json>& r
         }
         text += '\n';
     }
-    return text +
-           "  of the exact sum with full memory, relative to its largest value: h's doing, whatever the kernel.\n";
+    return text;
+}
+
+}  // namespace
+
+std::string discretisation_table(const Json& context, const std::vector<Json>& rows) {
+    // From a file a field may be anything; older files have none.
+    const auto named = context.find("weights");
+    const std::string weights = named == context.end() ? "gl"
+                                : named->is_string()   ? named->get<std::string>()
+                                                       : named->dump();
+    return of_counter(rows, "discretisation_error_max",
+                      fmt::format("discretisation error max, weights {}: of the exact sum, by h alone", weights)) +
+           of_counter(rows, "discretisation_error_late_max", "the same in the second half of the record");
 }
 
 }  // namespace bench
