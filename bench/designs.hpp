@@ -42,8 +42,9 @@ namespace bench {
 
 /// The design of a kernel at a length: its blocks, or its modes, if any, for a record of `samples`, and the weights of
 /// a discretisation that names them, over increments their sums. They stay where they are to the end of the program,
-/// and each is made once. Thread-safe. \pre the kernel serves the discretisation. Blocks are laid out for the order's
-/// own weights, from which the others differ little but at the first.
+/// and each is made once. Thread-safe. Modes are made for the weights that are named. \pre the kernel serves the
+/// discretisation. Blocks are laid out for the order's own weights, from which the others differ little but at the
+/// first.
 [[nodiscard]] glsum::Design design_of(const std::string& kernel, double order, const Length& length,
                                       std::size_t samples, Discretisation weights = Discretisation::gl);
 

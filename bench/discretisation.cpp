@@ -37,15 +37,11 @@ bool refuses_named_weights() {
 
 template <class K>
 std::string why_not_named() {
-    using History = typename K::HistoryPart;
-    if (glsum::keeps_modes<History>) {
-        return "no modes are designed for them";
-    }
     if (!refuses_named_weights<K>()) {
         return "";
     }
-    return glsum::guesses_tail<History> ? "the guessed tail's weights have a closed form for gl alone"
-                                        : "nested in fixed point it takes those of an order alone";
+    return glsum::guesses_tail<typename K::HistoryPart> ? "the guessed tail's weights have a closed form for gl alone"
+                                                        : "nested in fixed point it takes those of an order alone";
 }
 
 }  // namespace

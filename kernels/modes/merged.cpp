@@ -1,11 +1,11 @@
 #include "modes/merged.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "glsum/weights.hpp"
 #include "modes/bdf.hpp"
+#include "modes/fitted.hpp"
 #include "modes/projection.hpp"
 
 namespace glsum::modes {
@@ -20,40 +20,6 @@ std::vector<double> increment_weights(double order, std::size_t horizon) {
         weights.push_back(walk.weight());
     }
     return weights;
-}
-
-// Indices from K to N, dense at first, then 60 a decade.
-std::vector<std::size_t> log_spaced(std::size_t first, std::size_t last) {
-    std::vector<std::size_t> indices;
-    for (double at = static_cast<double>(first); at <= static_cast<double>(last); at = std::max(at + 1.0, at * 1.04)) {
-        indices.push_back(static_cast<std::size_t>(std::lround(at)));
-    }
-    return indices;
-}
-
-// Weights of given poles, by least squares on weights[j] j sqrt(d log j).
-void fit(std::vector<Mode>& modes, const std::vector<double>& weights, std::size_t near_taps) {
-    const std::vector<std::size_t> indices = log_spaced(near_taps, weights.size() - 1);
-    const auto rows = static_cast<Eigen::Index>(indices.size());
-    const auto columns = static_cast<Eigen::Index>(modes.size());
-    Eigen::MatrixXd matrix(rows, columns);
-    Eigen::VectorXd right(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-        const std::size_t j = indices[static_cast<std::size_t>(i)];
-        const std::size_t here =
-            static_cast<std::size_t>(i) + 1 < indices.size() ? static_cast<std::size_t>(i) : indices.size() - 2;
-        const double width = indices.size() < 2 ? 1.0 : static_cast<double>(indices[here + 1] - indices[here]);
-        const double weight = std::sqrt(static_cast<double>(j) * width);
-        for (Eigen::Index m = 0; m < columns; ++m) {
-            const double decay = modes[static_cast<std::size_t>(m)].decay;
-            matrix(i, m) = weight * std::exp(static_cast<double>(j - near_taps) * std::log1p(-decay));
-        }
-        right(i) = weight * weights[j];
-    }
-    const Eigen::VectorXd solution = matrix.colPivHouseholderQr().solve(right);
-    for (Eigen::Index m = 0; m < columns; ++m) {
-        modes[static_cast<std::size_t>(m)].weight = solution(m);
-    }
 }
 
 }  // namespace
@@ -97,7 +63,7 @@ Approximation approximate_merged(std::span<const Term> terms, double step_s, Dis
     if (!nodes.empty()) {
         const Projection projection(std::move(nodes), horizon);
         found.modes = projection.modes(std::min(modes, projection.size()));
-        fit(found.modes, weights, near_taps);
+        fit_weights(found.modes, weights, near_taps);
     }
     found.error = error_of(weights, near_taps, found.modes, INFINITY);
     return found;

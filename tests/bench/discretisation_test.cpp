@@ -167,14 +167,45 @@ TEST(Discretisation, KernelsInDoubleSumTheWeights) {
     }
 }
 
+// Modes are made for the weights themselves: what their rows truncate is within the error of the design.
+TEST(Discretisation, ModesKeepTheErrorsThatTheyAreDesignedFor) {
+    for (const Discretisation one : of_higher_order) {
+        for (const bool increments : {false, true}) {
+            const std::string kernel = increments ? "modesdelta_plain_f64" : "modes_plain_f64";
+            const double order = 0.5;
+            const auto sweep = sweep_of(one, {kernel}, {order}, {"step", "sine5", "noise"});
+            const auto lengths = bench::lengths_of(sweep, kernel, order);
+            ASSERT_EQ(lengths.size(), sweep.design_errors.size());
+            const auto rows = rows_of(sweep);
+            ASSERT_EQ(rows.size(), sweep.signals.size() * lengths.size());
+            for (std::size_t i = 0; i < rows.size(); ++i) {
+                ASSERT_FALSE(rows[i].contains("error_occurred")) << rows[i];
+                const auto record = bench::make_signal(sweep.signals[i / lengths.size()], sweep.samples, sweep.seed);
+                const std::size_t reach[] = {record.size()};
+                const auto weights = bench::exact_weights(one, order, record.size());
+                double peak = 0.0;
+                const auto exact = reference::sums(weights, record, reach).front();
+                for (const auto& sum : exact) {
+                    peak = std::max(peak, std::fabs(sum.high));
+                }
+                // Of |x| <= 0.9, of increments twice that.
+                const double largest = bench::signal_peak * (increments ? 2.0 : 1.0);
+                EXPECT_LE(rows[i]["truncation_error_max"].get<double>() * peak,
+                          largest * sweep.design_errors[i % lengths.size()] * (1.0 + 1e-6))
+                    << rows[i]["name"];
+                EXPECT_LE(rows[i]["rounding_error_max"].get<double>(), 1e-11) << rows[i]["name"];
+            }
+        }
+    }
+}
+
 TEST(Discretisation, KernelsThatCannotSumNamedWeightsSayWhy) {
-    for (const char* kernel :
-         {"ring_plain_f32", "mirror_smlaldshaped_q15", "mirror_scaled_q15", "ring_horner_f32", "nested_plain_q31",
-          "block_oldestfma_f32", "mirrordelta_plain_f32", "null", "peer_std_f32"}) {
+    for (const char* kernel : {"ring_plain_f32", "mirror_smlaldshaped_q15", "mirror_scaled_q15", "ring_horner_f32",
+                               "nested_plain_q31", "block_oldestfma_f32", "modes_plain_q31", "modesdelta_plain_f32",
+                               "mirrordelta_plain_f32", "null", "peer_std_f32"}) {
         EXPECT_EQ(bench::why_not_served(kernel, Discretisation::bdf2), "") << kernel;
     }
-    for (const char* kernel : {"modes_plain_f32", "modesdelta_plain_f32", "mirrorhold_plain_f32",
-                               "mirrorlinear_plain_f32", "ring_horner_q31"}) {
+    for (const char* kernel : {"mirrorhold_plain_f32", "mirrorlinear_plain_f32", "ring_horner_q31"}) {
         EXPECT_NE(bench::why_not_served(kernel, Discretisation::bdf3), "") << kernel;
         EXPECT_EQ(bench::why_not_served(kernel, Discretisation::gl), "") << kernel;
         EXPECT_EQ(bench::why_not_served(kernel, Discretisation::shifted), "") << kernel;
