@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 #include "modes/bdf.hpp"
 #include "modes/design.hpp"
