@@ -96,6 +96,12 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
         context["target_count_order"] = fmt::format("{}", count_order(sweep));
         context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
     }
+    context["weights"] = to_text(sweep.weights);
+    Json first_weights = Json::object();
+    for (const double order : sweep.orders) {
+        first_weights[fmt::format("{}", order)] = static_cast<double>(first_weight(sweep.weights, order));
+    }
+    context["first_weights"] = std::move(first_weights);  // w_0: the derivative is w_0 h^-v S
     std::vector<std::string> taps;
     for (const Length& length : sweep.lengths) {
         taps.push_back(length.text());

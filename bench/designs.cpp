@@ -9,9 +9,11 @@
 #include <type_traits>
 
 #include "bench/reference/dropped.hpp"
+#include "glsum/history/nested.hpp"
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
+#include "modes/fitted.hpp"
 
 namespace bench {
 namespace {
@@ -26,10 +28,33 @@ const auto& remembered(const Key& key, Make make) {
     return found != known.end() ? found->second : known.emplace(key, make()).first->second;
 }
 
+// Which weights, as a kernel sums them.
+struct Named {
+    Discretisation weights;
+    double order;        // v
+    bool of_increments;  // then they are of order v - 1
+    [[nodiscard]] double of_weights() const { return of_increments ? order - 1.0 : order; }
+    // a_0 ... a_last.
+    [[nodiscard]] std::vector<double> to(std::size_t last) const {
+        std::vector<double> all = named_weights(weights, order, of_increments, last);
+        all.insert(all.begin(), 1.0);
+        return all;
+    }
+    auto operator<=>(const Named&) const = default;
+};
+
+// An order's own weights are those of v - 1 over increments: the same whoever sums them.
+Named named_of(double order, double of_weights, Discretisation weights) {
+    return names_weights(weights) ? Named{weights, order, of_weights != order}
+                                  : Named{Discretisation::gl, of_weights, false};
+}
+
 // The shortest design for an error; empty if there is none.
-std::optional<Length> shortest(double order, std::size_t samples, double error) {
-    return remembered(std::tuple(order, samples, error), [&]() -> std::optional<Length> {
-        const auto found = glsum::modes::design({order, samples}, error);
+std::optional<Length> shortest(const Named& named, std::size_t samples, double error) {
+    return remembered(std::tuple(named, samples, error), [&]() -> std::optional<Length> {
+        const auto found = names_weights(named.weights)
+                               ? glsum::modes::design_fitted(named.to(samples), named.of_weights(), error)
+                               : glsum::modes::design({named.of_weights(), samples}, error);
         return found ? std::optional(Length{found->cost(), false, found->modes.size()}) : std::nullopt;
     });
 }
@@ -111,20 +136,30 @@ Length as_counted(const std::string& kernel, const Length& read) {
     return blocks && read.modes ? Length{read.taps - *read.modes, false, {}, glsum::Blocks{*read.modes, 1}} : read;
 }
 
-glsum::Design design_of(const std::string& kernel, double order, const Length& length, std::size_t samples) {
+glsum::Design design_of(const std::string& kernel, double order, const Length& length, std::size_t samples,
+                        Discretisation weights) {
     glsum::Design design{order, length.taps};
     design.blocks = length.blocks.value_or(glsum::Blocks{});
+    const double of_weights = order_of_weights(kernel, order);
+    const Named named = named_of(order, of_weights, weights);
     if (const std::size_t modes = length.modes.value_or(0); modes > 0) {
-        const double of_weights = order_of_weights(kernel, order);
-        design.modes = remembered(std::tuple(of_weights, samples, length.taps, modes), [&] {
-            return glsum::modes::approximate({of_weights, samples}, length.taps - 2 * modes, modes).modes;
+        const std::size_t near_taps = length.taps - 2 * modes;
+        design.modes = remembered(std::tuple(named, samples, length.taps, modes), [&] {
+            return names_weights(weights)
+                       ? glsum::modes::approximate_fitted(named.to(samples), of_weights, near_taps, modes).modes
+                       : glsum::modes::approximate({of_weights, samples}, near_taps, modes).modes;
         });
+    }
+    if (names_weights(weights)) {
+        const std::size_t count = glsum::reach_of(design) - 1;
+        design.weights = remembered(std::tuple(named, count),
+                                    [&] { return named_weights(weights, order, named.of_increments, count); });
     }
     return design;
 }
 
 std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order) {
-    if (!serves(kernel, order)) {
+    if (!serves(kernel, order) || !why_not_served(kernel, sweep.weights).empty()) {
         return {};
     }
     const bool with_modes = has_modes(kernel);
@@ -148,7 +183,7 @@ std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, do
     }
     if (lengths.empty()) {
         for (const double error : sweep.design_errors) {
-            if (const auto found = shortest(of_weights, sweep.samples, error)) {
+            if (const auto found = shortest(named_of(order, of_weights, sweep.weights), sweep.samples, error)) {
                 lengths.push_back(*found);
             }
         }

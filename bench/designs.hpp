@@ -40,16 +40,20 @@ namespace bench {
 /// how many a level has is not written. Of any other name as it is.
 [[nodiscard]] Length as_counted(const std::string& kernel, const Length& read);
 
-/// The design of a kernel at a length: its blocks, or its modes, if any, for a record of `samples`. They stay where
-/// they are to the end of the program, and each is made once. Thread-safe.
+/// The design of a kernel at a length: its blocks, or its modes, if any, for a record of `samples`, and the weights of
+/// a discretisation that names them, over increments their sums. They stay where they are to the end of the program,
+/// and each is made once. Thread-safe. Modes are made for the weights that are named. \pre the kernel serves the
+/// discretisation. Blocks are laid out for the order's own weights, from which the others differ little but at the
+/// first.
 [[nodiscard]] glsum::Design design_of(const std::string& kernel, double order, const Length& length,
-                                      std::size_t samples);
+                                      std::size_t samples, Discretisation weights = Discretisation::gl);
 
 /// The lengths at which a sweep measures a kernel. With a window: those without modes. With
 /// blocks: one for each of these but `full`, of as many coefficients. With modes: those with modes, or
 /// where the sweep names none, for each of its `design_errors` the shortest design that keeps it over the record.
 /// Over increments that is the error for |x_k - x_(k-1)| <= 1. Orders that the kernel does not take, and with modes
-/// those whose weights have no tail of exponentials (whole orders, and weights of order <= -1), have none. Rising.
+/// those whose weights have no tail of exponentials (whole orders, and weights of order <= -1), have none; nor has a
+/// kernel that cannot sum the sweep's weights. Rising.
 [[nodiscard]] std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order);
 
 }  // namespace bench

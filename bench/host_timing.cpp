@@ -191,50 +191,72 @@ double time_kernel(benchmark::State* state, const glsum::Design& design, const s
     }
 }
 
+// A peer's coefficients, a_0 = 1 included.
+struct PeerTable {
+    std::vector<double> coefficients;
+    double largest = 0.0;
+    double absolute_sum = 0.0;
+    explicit PeerTable(const std::vector<reference::Real>& weights) {
+        for (const reference::Real& weight : weights) {
+            coefficients.push_back(static_cast<double>(weight));
+            largest = std::max(largest, std::fabs(coefficients.back()));
+            absolute_sum += std::fabs(coefficients.back());
+        }
+    }
+};
+
 // How a peer's numbers stand for real ones.
 template <class Dot>
 struct PeerNumbers {
+    explicit PeerNumbers(const PeerTable&) {}
     static float coefficient(double a) { return static_cast<float>(a); }
     static float sample(double x) { return static_cast<float>(x); }
     static double real(float sum) { return sum; }
     // Any order of summation: every term may pass every addition.
-    static double bound(double order, std::size_t taps) {
-        return 1.01 * static_cast<double>(taps + 2) * glsum::F32::sum_roundoff * signal_peak *
-               glsum::absolute_sum(order, taps);
+    static double bound(const PeerTable& table) {
+        return 1.01 * static_cast<double>(table.coefficients.size() + 2) * glsum::F32::sum_roundoff * signal_peak *
+               table.absolute_sum;
     }
 };
 template <>
 struct PeerNumbers<Q31Dot> {
-    static std::int32_t coefficient(double a) {
-        return static_cast<std::int32_t>(std::lround(std::ldexp(a, q31_coefficient_bits)));
+    int bits = q31_coefficient_bits;  // of fraction: fewer where a coefficient needs 33 bits, or a sum 65
+    explicit PeerNumbers(const PeerTable& table) {
+        while (table.largest >= std::ldexp(1.0, 31 - bits) || table.absolute_sum >= std::ldexp(1.0, 32 - bits)) {
+            --bits;
+        }
+    }
+    [[nodiscard]] std::int32_t coefficient(double a) const {
+        return static_cast<std::int32_t>(std::lround(std::ldexp(a, bits)));
     }
     static std::int32_t sample(double x) { return static_cast<std::int32_t>(std::lround(std::ldexp(x, 31))); }
-    static double real(std::int64_t sum) { return std::ldexp(static_cast<double>(sum), -31 - q31_coefficient_bits); }
+    [[nodiscard]] double real(std::int64_t sum) const { return std::ldexp(static_cast<double>(sum), -31 - bits); }
     // Sums are exact; each coefficient and each sample is rounded once.
-    static double bound(double order, std::size_t taps) {
-        return std::ldexp(static_cast<double>(taps), -q31_coefficient_bits - 1) +
-               std::ldexp(1.01 * glsum::absolute_sum(order, taps), -32);
+    [[nodiscard]] double bound(const PeerTable& table) const {
+        return std::ldexp(static_cast<double>(table.coefficients.size()), -bits - 1) +
+               std::ldexp(1.01 * table.absolute_sum, -32);
     }
 };
 
 template <class Dot>
-double time_peer(benchmark::State* state, MakeDot<Dot> make, double order, std::size_t taps,
-                 const std::vector<reference::Real>& weights) {
-    using Numbers = PeerNumbers<Dot>;
+double time_peer(benchmark::State* state, MakeDot<Dot> make, const std::vector<reference::Real>& weights) {
+    const PeerTable table(weights);
+    const PeerNumbers<Dot> numbers(table);
+    const std::size_t taps = weights.size();
     std::vector<typename Dot::Sample> coefficients;
-    for (const auto& weight : weights) {
-        coefficients.push_back(Numbers::coefficient(static_cast<double>(weight)));
+    for (const double coefficient : table.coefficients) {
+        coefficients.push_back(numbers.coefficient(coefficient));
     }
     Placed<PeerLine<Dot>> placed(make, coefficients,
                                  places().next() * Placement::line_bytes / sizeof(typename Dot::Sample));
     PeerLine<Dot>& line = *placed;
     std::vector<typename Dot::Sample> samples;
     for (const double x : stream()) {
-        samples.push_back(Numbers::sample(x));
+        samples.push_back(numbers.sample(x));
     }
     const double ns = time_line(
-        state, samples, weights, Numbers::bound(order, taps), [&](auto x) { return line.step(x); },
-        [](auto sum) { return Numbers::real(sum); });
+        state, samples, weights, numbers.bound(table), [&](auto x) { return line.step(x); },
+        [&](auto sum) { return numbers.real(sum); });
     set_sizes(state, taps, taps * sizeof(typename Dot::Sample), 2 * taps * sizeof(typename Dot::Sample));
     return ns;
 }
@@ -321,13 +343,14 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
         }
     };
     using Weights = std::shared_ptr<const std::vector<reference::Real>>;
-    std::map<std::tuple<double, std::string, reference::Dropped>, Weights> known;
+    std::map<std::tuple<double, std::string, reference::Dropped, Discretisation>, Weights> known;
     const auto weights_of = [&](const Timed& timed, reference::Dropped dropped, const glsum::Design& design,
                                 bool ends) {
-        auto& weights = known[{timed.order, (timed.length.blocks ? "blocks " : "") + timed.length.text(), dropped}];
+        auto& weights =
+            known[{timed.order, (timed.length.blocks ? "blocks " : "") + timed.length.text(), dropped, timed.weights}];
         if (!weights) {
             weights = std::make_shared<const std::vector<reference::Real>>(
-                ends ? reference::weights(reference::Real(timed.order), design.taps)
+                ends ? exact_weights(timed.weights, reference::Real(timed.order), design.taps)
                      : reference::weights_of(dropped, design, design.taps + record_from_rest));
         }
         return weights;
@@ -335,7 +358,7 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
     for (const Timed& timed : cases) {
         glsum::Registry::for_each([&]<class K>() {
             if (K::name() == timed.name) {
-                const glsum::Design design = design_of(timed.name, timed.order, timed.length, samples);
+                const glsum::Design design = design_of(timed.name, timed.order, timed.length, samples, timed.weights);
                 reference::Dropped dropped{};
                 if constexpr (requires { typename K::HistoryPart; }) {
                     dropped = reference::dropped_by<typename K::HistoryPart>();
@@ -347,12 +370,10 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
         });
         for (const Peer& peer : peers()) {
             if (peer.name == timed.name) {
-                const std::size_t taps = timed.length.taps;
-                const double order = timed.order;
-                const Weights weights = weights_of(timed, reference::Dropped::zero, {order, taps}, true);
-                add(timed, [&peer, order, taps, weights](benchmark::State* state) {
-                    return std::visit([&](auto make) { return time_peer(state, make, order, taps, *weights); },
-                                      peer.make);
+                const Weights weights =
+                    weights_of(timed, reference::Dropped::zero, {timed.order, timed.length.taps}, true);
+                add(timed, [&peer, weights](benchmark::State* state) {
+                    return std::visit([&](auto make) { return time_peer(state, make, *weights); }, peer.make);
                 });
             }
         }
@@ -392,12 +413,13 @@ HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flag
         for (const std::string& name : sweep.kernels) {
             const auto order =
                 std::find_if(sweep.orders.begin(), sweep.orders.end(), [&](double v) { return serves(name, v); });
-            if (!has_modes(name) && !has_blocks(name) && order != sweep.orders.end()) {
-                cases.push_back({name, length, *order});
+            if (!has_modes(name) && !has_blocks(name) && order != sweep.orders.end() &&
+                why_not_served(name, sweep.weights).empty()) {
+                cases.push_back({name, length, *order, sweep.weights});
             }
         }
         for (const std::string& name : sweep.peers) {
-            cases.push_back({name, length, sweep.orders.front()});
+            cases.push_back({name, length, sweep.orders.front(), sweep.weights});
         }
     }
     for (const std::string& kernel : sweep.kernels) {
@@ -408,7 +430,7 @@ HostTiming time_on_host(const Sweep& sweep, const std::vector<std::string>& flag
         for (const double order : sweep.orders) {
             for (const Length& length : lengths_of(sweep, kernel, order)) {
                 if (seen.insert(length.text()).second) {
-                    cases.push_back({kernel, length, order});
+                    cases.push_back({kernel, length, order, sweep.weights});
                 }
             }
         }

@@ -20,6 +20,7 @@ struct Timed {
     std::string name;
     Length length;
     double order;
+    Discretisation weights = Discretisation::gl;
 };
 
 /// Times one sample at a time, with a sliding window in steady state and its upkeep inside, for every kernel, peer and

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/discretisation.hpp"
 #include "glsum/kernel.hpp"
 
 namespace bench {
@@ -52,7 +53,8 @@ struct Sweep {
     std::vector<std::string> cores{count_only};
     std::size_t samples = 5000;
     std::uint64_t seed = 2020;
-    unsigned repetitions = 1;  ///< of each host timing
+    Discretisation weights = Discretisation::gl;  ///< which every kernel and peer sums
+    unsigned repetitions = 1;                     ///< of each host timing
     unsigned jobs = 1;
     /// Those of `cores` that are modelled.
     [[nodiscard]] std::vector<std::string> modelled_cores() const {

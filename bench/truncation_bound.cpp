@@ -106,6 +106,11 @@ std::vector<double> truncation_bounds(double order, std::string_view signal, std
 
 TruncationBounds truncation_bounds(const Json& context, const std::vector<Json>& rows, unsigned jobs) {
     TruncationBounds bounds;
+    const auto weights = context.find("weights");
+    if (weights != context.end() && *weights != "gl" && *weights != "shifted") {
+        bounds.missing = fmt::format("bounds are of Grünwald-Letnikov's weights, not of {}", weights->dump());
+        return bounds;
+    }
     const auto samples = context.find("n_samples");
     const auto seed = context.find("seed");
     // From memory an integer may be signed, from a file it is not.

@@ -28,7 +28,8 @@ namespace bench {
                                                     std::span<const std::size_t> lengths, std::size_t samples,
                                                     std::uint64_t seed);
 
-/// The bounds of the accuracy rows of a file: of[order][signal][taps]. `missing` says why there are none: they need the
+/// The bounds of the accuracy rows of a file: of[order][signal][taps]. `missing` says why there are none: they are of
+/// Grünwald-Letnikov's weights (context `weights` absent, gl or shifted), and need the
 /// records made again, so `n_samples` and `seed` in the context, and samples^2 steps for each order and signal (at most
 /// 20 000 samples, 1000 pairs of order and signal).
 struct TruncationBounds {

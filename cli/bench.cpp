@@ -3,6 +3,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -38,6 +39,7 @@ struct Options {
     std::vector<std::string> signals;
     std::vector<std::string> targets = bench::Sweep().targets;
     std::vector<std::string> cores{bench::count_only, default_core};
+    std::string weights{bench::discretisation_names.front()};
     std::optional<std::string> shard;
     unsigned repetitions = 1;
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -70,8 +72,49 @@ std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std
     return lengths;
 }
 
+bench::Discretisation to_weights(const Options& options) {
+    const auto weights = bench::parse_discretisation(options.weights);
+    if (!weights) {
+        throw Failure(Exit::bad_input, fmt::format("--weights: expected one of {}, found {}",
+                                                   fmt::join(bench::discretisation_names, ", "), options.weights));
+    }
+    const bool on_m7 = std::find(options.targets.begin(), options.targets.end(), "m7") != options.targets.end();
+    if (bench::names_weights(*weights) && on_m7) {
+        throw Failure(Exit::bad_input,
+                      fmt::format("--weights {}: only with --targets host; what the emulated target is told to run "
+                                  "names an order, no weights",
+                                  options.weights));
+    }
+    return *weights;
+}
+
+// Takes those off the sweep that cannot sum its weights, and says so.
+void leave_out(bench::Sweep& sweep) {
+    std::map<std::string, std::vector<std::string>> by_reason;
+    for (const std::string& kernel : sweep.kernels) {
+        if (const std::string reason = bench::why_not_served(kernel, sweep.weights); !reason.empty()) {
+            by_reason[reason].push_back(kernel);
+        }
+    }
+    if (by_reason.empty()) {
+        return;
+    }
+    std::string text;
+    for (const auto& [reason, kernels] : by_reason) {
+        text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", fmt::join(kernels, ", "), reason);
+    }
+    fmt::print(stderr, "glsum bench: --weights {} leaves out {}\n", to_text(sweep.weights), text);
+    std::erase_if(sweep.kernels,
+                  [&](const std::string& kernel) { return !bench::why_not_served(kernel, sweep.weights).empty(); });
+    if (sweep.kernels.empty() && sweep.peers.empty()) {
+        throw Failure(Exit::bad_input,
+                      fmt::format("--weights {}: none of the kernels can sum them", to_text(sweep.weights)));
+    }
+}
+
 bench::Sweep to_sweep(const Options& options) {
     bench::Sweep sweep;
+    sweep.weights = to_weights(options);
     sweep.jobs = options.jobs;
     sweep.repetitions = options.repetitions;
     sweep.samples = options.quick ? 1000 : 5000;
@@ -139,6 +182,7 @@ bench::Sweep to_sweep(const Options& options) {
         throw Failure(Exit::bad_input,
                       fmt::format("--kernels: no kernel is called {}", fmt::join(options.kernels, ", ")));
     }
+    leave_out(sweep);
     return sweep;
 }
 
@@ -150,6 +194,9 @@ std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
 
 void run(const Options& options, const PassedOn& flags) {
     if (options.drive) {
+        if (options.weights != Options().weights) {
+            throw Failure(Exit::bad_input, "--weights: only without --drive, whose models have writings of their own");
+        }
         const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
         std::vector<std::string> cores = options.cores;
         std::erase(cores, bench::count_only);
@@ -205,6 +252,11 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
                      "Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation serves "
                      "all")
         ->delimiter(',')
+        ->capture_default_str();
+    command
+        ->add_option("--weights", options->weights,
+                     "Which weights the kernels sum: gl, bdf2, bdf3, bdf4 (of that order for signals that start "
+                     "smoothly), or shifted: those of gl, for the derivative v h / 2 earlier")
         ->capture_default_str();
     command->add_option("--shard", options->shard,
                         "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "

@@ -448,7 +448,9 @@ void run_drive_bench(const DriveBench& options) {
         stepped_on->measure_elf = qemu::model_elf(*board);
     }
     Json context = bench::make_context(Json(), sweep, board ? &*stepped_on : nullptr);
-    context.erase("target_count_order");
+    for (const char* of_sums : {"target_count_order", "weights", "first_weights"}) {
+        context.erase(of_sums);
+    }
     context["sweep"]["orders"] = Json::array();
     bench::write_results(options.out, context, rows);
     fmt::print("\n{} rows in {}\n", rows.size(), options.out.string());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "bench/discretisation_table.hpp"
 #include "bench/plot.hpp"
 #include "bench/results.hpp"
 #include "bench/table.hpp"
@@ -28,7 +29,8 @@ void finish_run(const std::filesystem::path& out, const bench::Results& results,
     std::filesystem::path csv = stem;
     csv += ".csv";
     bench::write_csv(csv, results.rows);
-    fmt::print("{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1));
+    fmt::print("{}{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1),
+               bench::discretisation_table(results.context, results.rows));
     bench::plot_error(groups, worst_of_signals(bench::truncation_bounds(results.context, results.rows, jobs)), stem);
     fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", results.rows.size(), out.string());
     check_rows(results);

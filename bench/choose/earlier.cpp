@@ -23,6 +23,11 @@ std::string difference(const bench::Json& there, const bench::Json& here, std::i
     return "";
 }
 
+// Which weights a file is of; those of Grünwald-Letnikov where it is older than the field.
+std::string weights_of(const bench::Json& context) {
+    return context.contains("weights") ? text(context, "weights") : "gl";
+}
+
 // visit(key, taps, row) for the rows of the question's order without a fault.
 template <class Visit>
 void for_each_row(const Earlier& earlier, const Question& question, Visit visit) {
@@ -69,6 +74,11 @@ Earlier read_earlier(const Question& question, const bench::Json& context) {
         return earlier;
     }
     bench::Results results = bench::read_results(question.results);
+    if (const std::string weights = weights_of(results.context); weights != "gl") {
+        earlier.note =
+            fmt::format("everything is measured afresh, not of {}: its weights are {}, not gl", name, weights);
+        return earlier;
+    }
     const std::string firmware = difference(results.context, context, {"elf_sha256"});
     earlier.instructions = firmware.empty();
     std::string build = difference(results.context, context, {"glsum_version", "compiler", "flags", "contraction"});

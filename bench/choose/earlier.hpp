@@ -14,7 +14,7 @@ namespace choose {
 /// What of a result file may be used, and why the rest may not.
 struct Earlier {
     std::vector<bench::Json> rows;
-    bool errors = false;        ///< accuracy rows: same build, record and seed, at h = 1 ms
+    bool errors = false;        ///< accuracy rows: same build, weights, record and seed, at h = 1 ms
     bool instructions = false;  ///< m7:count rows: the same firmware, by its hash
     std::string note;           ///< one sentence
 };

@@ -26,7 +26,8 @@ public:
 
 using F32Dot = PeerDot<float, float>;
 using Q31Dot = PeerDot<std::int32_t, std::int64_t>;
-/// Coefficients of a q31 peer have so many fraction bits: |a_j| stays below 4, and a sum within 64 bits.
+/// Coefficients of a q31 peer have so many fraction bits, where |a_j| stays below 4 and a sum within 64 bits; else
+/// fewer.
 inline constexpr int q31_coefficient_bits = 29;
 
 template <class Dot>

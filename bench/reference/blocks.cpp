@@ -25,10 +25,7 @@ Parts parts_of(const glsum::Design& design) {
         blocks.push_back({end, width, Real(0)});
         end += width;
     }
-    std::vector<Real> all = weights(Real(design.order), end);
-    for (std::size_t j = 1; j < all.size() && j <= design.weights.size(); ++j) {
-        all[j] = design.weights[j - 1];
-    }
+    std::vector<Real> all = weights(design, end);
     for (Block& block : blocks) {
         for (std::size_t j = block.from; j < block.from + block.width; ++j) {
             block.mean += all[j];

@@ -8,11 +8,7 @@ namespace {
 
 // The near weights of order v - 1 over increments: v - 1 exactly, which a design cannot always hold.
 std::vector<Real> increment_weights(const glsum::Design& design) {
-    std::vector<Real> near = weights(Real(design.order) - 1, design.taps - 2 * design.modes.size());
-    for (std::size_t j = 1; j < near.size() && j <= design.weights.size(); ++j) {
-        near[j] = design.weights[j - 1];
-    }
-    return near;
+    return weights(design, Real(design.order) - 1, design.taps - 2 * design.modes.size());
 }
 
 Real value_of(const Exact& sum) { return Real(sum.high) + sum.low; }

@@ -52,14 +52,14 @@ std::vector<Real> weights_of(const glsum::Design& design, std::size_t count) {
     if (design.blocks.count > 0) {
         return block_weights(design, count);
     }
-    return weights_of(weights(Real(design.order), design.taps - 2 * design.modes.size()), design.modes, count);
+    return weights_of(weights(design, design.taps - 2 * design.modes.size()), design.modes, count);
 }
 
 Sums sums_of(const glsum::Design& design, std::span<const double> record) {
     if (design.blocks.count > 0) {
         return block_sums(design, record);
     }
-    return sums_of(weights(Real(design.order), design.taps - 2 * design.modes.size()), design.modes, record);
+    return sums_of(weights(design, design.taps - 2 * design.modes.size()), design.modes, record);
 }
 
 }  // namespace reference

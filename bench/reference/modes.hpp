@@ -10,8 +10,8 @@
 
 namespace reference {
 
-/// The weights of a design, by definition: a_0 ... a_(K-1) of its order, and sum_m w_m (1 - d_m)^(j-K) from j = K on,
-/// its decays and weights taken as exact. Of a design with blocks those of blocks.hpp.
+/// The weights of a design, by definition: a_0 ... a_(K-1) of its order or as it names them, and sum_m w_m (1 -
+/// d_m)^(j-K) from j = K on, its decays and weights taken as exact. Of a design with blocks those of blocks.hpp.
 [[nodiscard]] std::vector<Real> weights_of(const glsum::Design& design, std::size_t count);
 
 /// S_k of these weights for all k of a record, each exponential by its recursion: a few products a sample. A design

@@ -12,6 +12,18 @@ std::vector<Real> weights(const Real& order, std::size_t count) {
     return a;
 }
 
+std::vector<Real> weights(const glsum::Design& design, std::size_t count) {
+    return weights(design, Real(design.order), count);
+}
+
+std::vector<Real> weights(const glsum::Design& design, const Real& order, std::size_t count) {
+    std::vector<Real> a = weights(order, count);
+    for (std::size_t j = 1; j < a.size() && j <= design.weights.size(); ++j) {
+        a[j] = design.weights[j - 1];
+    }
+    return a;
+}
+
 std::vector<Sums> sums(std::span<const Real> a, std::span<const double> record, std::span<const std::size_t> lengths) {
     const std::vector<Real> x(record.begin(), record.end());
     std::vector<Sums> result(lengths.size());

@@ -6,11 +6,16 @@
 #include <vector>
 
 #include "bench/reference/real.hpp"
+#include "glsum/kernel.hpp"
 
 namespace reference {
 
 /// a_0 ... a_(count-1) of the order, by the recurrence of [Matusiak2020] (3).
 [[nodiscard]] std::vector<Real> weights(const Real& order, std::size_t count);
+
+/// a_0 ... a_(count-1) of a design: those that it names, taken as exact, else those of its order, or of another one.
+[[nodiscard]] std::vector<Real> weights(const glsum::Design& design, std::size_t count);
+[[nodiscard]] std::vector<Real> weights(const glsum::Design& design, const Real& order, std::size_t count);
 
 /// S_k of one length for all k of a record.
 using Sums = std::vector<Exact>;

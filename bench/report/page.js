@@ -516,7 +516,7 @@ const contextText = value => value === undefined ? "" : typeof value === "string
 
 function drawContext() {
   const names = union(files.map(file => Object.keys(file.context)));
-  const rows = names.map(name => ({name, values: files.map(file => contextText(file.context[name]))}))
+  const rows = names.map(name => ({name, values: files.map(file => contextText(name === "weights" ? file.context[name] ?? "gl" : file.context[name]))}))
     .map(row => ({...row, mark: row.values.length > 1 && row.values[0] !== row.values[1] ? "differs" : ""}));
   const columns = [{title: "condition", text: row => row.name},
     ...files.map((file, index) => ({title: files.length > 1 ? "AB"[index] + ": " + file.name : file.name, text: row => row.values[index]}))];
@@ -526,7 +526,7 @@ function drawContext() {
   byId("files").textContent = files.length > 1 ? `A: ${files[0].name}   B: ${files[1].name}` : files[0].name;
   byId("run").textContent = [["", first.date], ["", first.cpu], ["compiler ", first.compiler], ["samples ", first.n_samples], ["commit ", first.commit && String(first.commit).slice(0, 10)]]
     .filter(([, value]) => value !== undefined).map(([name, value]) => name + contextText(value)).join(" · ");
-  const important = ["compiler", "flags", "contraction", "cpu", "cycle_counter", "core_file", "n_samples", "seed", "qemu_version"];
+  const important = ["compiler", "flags", "contraction", "cpu", "cycle_counter", "core_file", "n_samples", "seed", "weights", "qemu_version"];
   const differing = rows.filter(row => row.mark && important.includes(row.name)).map(row => row.name);
   if (differing.length > 0) {
     byId("notices").textContent = "";

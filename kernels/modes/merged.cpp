@@ -1,10 +1,11 @@
 #include "modes/merged.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
 #include "glsum/weights.hpp"
+#include "modes/bdf.hpp"
+#include "modes/fitted.hpp"
 #include "modes/projection.hpp"
 
 namespace glsum::modes {
@@ -21,66 +22,17 @@ std::vector<double> increment_weights(double order, std::size_t horizon) {
     return weights;
 }
 
-// (3 - 4z + z^2)/2 = (1 - z) (3 - z)/2, and ((3 - z)/2)^v falls as 3^-j: its first terms are all that a double holds.
-std::vector<double> with_bdf2_factor(const std::vector<double>& weights, double order) {
-    std::vector<double> factor = {std::pow(1.5, order)};
-    for (std::size_t j = 1; j < 40; ++j) {
-        factor.push_back(factor.back() * (1.0 - (1.0 + order) / static_cast<double>(j)) / 3.0);
-    }
-    std::vector<double> product(weights.size(), 0.0);
-    for (std::size_t k = 0; k < product.size(); ++k) {
-        for (std::size_t j = std::min(k + 1, factor.size()); j-- > 0;) {  // the small ones first
-            product[k] += factor[j] * weights[k - j];
-        }
-    }
-    return product;
-}
-
-// Indices from K to N, dense at first, then 60 a decade.
-std::vector<std::size_t> log_spaced(std::size_t first, std::size_t last) {
-    std::vector<std::size_t> indices;
-    for (double at = static_cast<double>(first); at <= static_cast<double>(last); at = std::max(at + 1.0, at * 1.04)) {
-        indices.push_back(static_cast<std::size_t>(std::lround(at)));
-    }
-    return indices;
-}
-
-// Weights of given poles, by least squares on weights[j] j sqrt(d log j).
-void fit(std::vector<Mode>& modes, const std::vector<double>& weights, std::size_t near_taps) {
-    const std::vector<std::size_t> indices = log_spaced(near_taps, weights.size() - 1);
-    const auto rows = static_cast<Eigen::Index>(indices.size());
-    const auto columns = static_cast<Eigen::Index>(modes.size());
-    Eigen::MatrixXd matrix(rows, columns);
-    Eigen::VectorXd right(rows);
-    for (Eigen::Index i = 0; i < rows; ++i) {
-        const std::size_t j = indices[static_cast<std::size_t>(i)];
-        const std::size_t here =
-            static_cast<std::size_t>(i) + 1 < indices.size() ? static_cast<std::size_t>(i) : indices.size() - 2;
-        const double width = indices.size() < 2 ? 1.0 : static_cast<double>(indices[here + 1] - indices[here]);
-        const double weight = std::sqrt(static_cast<double>(j) * width);
-        for (Eigen::Index m = 0; m < columns; ++m) {
-            const double decay = modes[static_cast<std::size_t>(m)].decay;
-            matrix(i, m) = weight * std::exp(static_cast<double>(j - near_taps) * std::log1p(-decay));
-        }
-        right(i) = weight * weights[j];
-    }
-    const Eigen::VectorXd solution = matrix.colPivHouseholderQr().solve(right);
-    for (Eigen::Index m = 0; m < columns; ++m) {
-        modes[static_cast<std::size_t>(m)].weight = solution(m);
-    }
-}
-
 }  // namespace
 
 std::vector<double> merged_weights(std::span<const Term> terms, double step_s, Discretisation discretisation,
                                    std::size_t horizon) {
     std::vector<double> merged(horizon + 1, 0.0);
     for (const Term& term : terms) {
-        std::vector<double> weights = increment_weights(term.order, horizon);
-        if (discretisation == Discretisation::bdf2) {
-            weights = with_bdf2_factor(weights, term.order);
-        }
-        const double scale = term.coefficient * std::pow(step_s, -term.order);
+        const bool bdf2 = discretisation == Discretisation::bdf2;
+        const std::vector<double> weights =
+            bdf2 ? bdf_increment_weights(2, term.order, horizon + 1) : increment_weights(term.order, horizon);
+        const double scale =
+            term.coefficient * (bdf2 ? bdf_first_weight(2, term.order) : 1.0) * std::pow(step_s, -term.order);
         for (std::size_t j = 0; j <= horizon; ++j) {
             merged[j] += scale * weights[j];
         }
@@ -111,7 +63,7 @@ Approximation approximate_merged(std::span<const Term> terms, double step_s, Dis
     if (!nodes.empty()) {
         const Projection projection(std::move(nodes), horizon);
         found.modes = projection.modes(std::min(modes, projection.size()));
-        fit(found.modes, weights, near_taps);
+        fit_weights(found.modes, weights, near_taps);
     }
     found.error = error_of(weights, near_taps, found.modes, INFINITY);
     return found;

@@ -292,7 +292,7 @@ TEST(Gate, AWrongAnswerMakesTheLaterLayersOfItsKernelMoot) {
 
 TEST(Gate, OtherConditionsAreNotComparable) {
     for (const char* field :
-         {"compiler", "flags", "contraction", "n_samples", "seed", "target_compiler", "target_flags",
+         {"compiler", "flags", "contraction", "n_samples", "seed", "weights", "target_compiler", "target_flags",
           "target_count_order", "placement", "core_file", "core_file_sha256", "schema"}) {
         Results current = run();
         current.context[field] = "another";
@@ -304,6 +304,12 @@ TEST(Gate, OtherConditionsAreNotComparable) {
         EXPECT_TRUE(verdict.findings.empty());
     }
     Results current = run();
+    current.context["weights"] = "gl";  // what files are of that do not say
+    EXPECT_EQ(judge(run(), current, rules()).status, Exit::good);
+    EXPECT_EQ(judge(current, run(), rules()).status, Exit::good);
+    current.context["weights"] = "bdf2";
+    EXPECT_EQ(judge(run(), current, rules()).headline(), "weights: gl in the baseline, bdf2 now");
+    current = run();
     current.context.erase("compiler");
     EXPECT_EQ(judge(run(), current, rules()).headline(), "compiler: GNU 12.2.0 in the baseline, (absent) now");
 }

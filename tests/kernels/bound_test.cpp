@@ -1,8 +1,12 @@
 // The error bound that each kernel promises holds on every signal, order and length; and it is not an empty promise.
 #include "glsum/bound.hpp"
 
+#include <numeric>
+
+#include "bench/reference/bdf.hpp"
 #include "bench/reference/dropped.hpp"
 #include "bench/signals.hpp"
+#include "modes/bdf.hpp"
 #include "tests/kernels/registered.hpp"
 
 namespace {
@@ -62,6 +66,71 @@ TYPED_TEST(BoundTest, HoldsOnEverySignalOrderAndLength) {
     // Some case must use a fair part of it: a bound a thousand times too wide would let every fault pass.
     EXPECT_GE(largest_share, 0.01);
     this->RecordProperty("largest share of the bound", std::to_string(largest_share));
+}
+
+// Weights that no order has: those of higher order, as a kernel gets them and in 50 digits.
+struct HigherOrder {
+    unsigned steps;
+    double order;
+    std::size_t taps;
+    std::vector<double> named;
+    std::vector<double> record;
+    reference::Sums exact;
+};
+
+template <bool increments>
+const std::vector<HigherOrder>& higher_order() {
+    static const std::vector<HigherOrder> all = [] {
+        std::vector<HigherOrder> made;
+        constexpr std::size_t samples = 300;
+        for (unsigned steps = 2; steps <= 4; ++steps) {
+            for (const double order : {0.2, 0.5, 0.98319, 1.5, 1.9909, -0.5}) {
+                auto named = increments ? glsum::modes::bdf_increment_weights(steps, order, samples)
+                                        : glsum::modes::bdf_weights(steps, order, samples);
+                named.erase(named.begin());
+                const auto weights = reference::bdf_weights(steps, reference::Real(order), samples);
+                for (const std::size_t taps : {7U, 50U, 150U}) {
+                    // Of increments the differences of the weights' sums, which end with the taps.
+                    std::vector<reference::Real> near(weights.begin(),
+                                                      weights.begin() + static_cast<std::ptrdiff_t>(taps));
+                    if (increments) {
+                        near.push_back(-std::accumulate(near.begin(), near.end(), reference::Real(0)));
+                    }
+                    const std::size_t reach[] = {near.size()};
+                    for (const std::string_view signal : {"step", "sine50", "noise"}) {
+                        const auto record = bench::make_signal(signal, samples, 1);
+                        made.push_back(
+                            {steps, order, taps, named, record, reference::sums(near, record, reach).front()});
+                    }
+                }
+            }
+        }
+        return made;
+    }();
+    return all;
+}
+
+TYPED_TEST(BoundTest, HoldsForWeightsOfHigherOrder) {
+    const auto& cases = higher_order<glsum::keeps_increments<typename TypeParam::HistoryPart>>();
+    std::size_t held = 0;
+    for (const HigherOrder& test : cases) {
+        const glsum::Design design{test.order, test.taps, {}, test.named};
+        test::Line<TypeParam> line(design);
+        if (line.status() == glsum::Status::weights_out_of_range) {
+            continue;
+        }
+        ASSERT_EQ(line.status(), glsum::Status::ok);
+        const double bound =
+            glsum::error_bound<TypeParam>(design, line.state(), bench::signal_peak, test.record.size());
+        for (std::size_t k = 0; k < test.record.size(); ++k) {
+            ASSERT_LE(std::fabs(test.exact[k].error_of(line.step_real(test.record[k]))), bound)
+                << test.steps << " steps, order " << test.order << ", taps " << test.taps << ", k " << k;
+        }
+        ++held;
+    }
+    constexpr bool refuses = glsum::guesses_tail<typename TypeParam::HistoryPart> ||
+                             (TypeParam::FormatPart::fixed_point && TypeParam::TechniquePart::word == "horner");
+    EXPECT_EQ(held, refuses ? 0U : cases.size());
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ library_of() {
         kernels/model/*) echo kernels/model/libglsum_model.a ;;
         kernels/*) echo kernels/libglsum.a ;;
         bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
-        bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
+        bench/discretisation_table.cpp | bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/*) echo bench/libglsum_bench.a ;;

@@ -99,6 +99,14 @@ TEST_F(MeasuredTruncation, WithoutTheRecordThereIsNoneAndItSaysWhy) {
     long_record["n_samples"] = 100'000'000;
     EXPECT_NE(bench::truncation_bounds(long_record, rows, 1).missing.find("20000"), std::string::npos);
     EXPECT_TRUE(bench::truncation_bounds(long_record, rows, 1).of.empty());
+    bench::Json other_weights = context();
+    other_weights["weights"] = "bdf2";
+    EXPECT_NE(bench::truncation_bounds(other_weights, rows, 1).missing.find("bdf2"), std::string::npos);
+    EXPECT_TRUE(bench::truncation_bounds(other_weights, rows, 1).of.empty());
+    for (const char* same : {"gl", "shifted"}) {
+        other_weights["weights"] = same;
+        EXPECT_EQ(bench::truncation_bounds(other_weights, rows, 1).missing, "") << same;
+    }
 }
 
 }  // namespace

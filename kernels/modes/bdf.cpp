@@ -1,0 +1,117 @@
+#include "modes/bdf.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace glsum::modes {
+namespace {
+
+// P(z), times what makes its coefficients whole.
+struct Formula {
+    std::array<double, most_bdf_steps + 1> coefficients;
+    double divisor;
+};
+
+const Formula& formula_of(unsigned steps) {
+    static constexpr Formula formulas[] = {
+        {{3, -4, 1, 0, 0}, 2}, {{11, -18, 9, -2, 0}, 6}, {{25, -48, 36, -16, 3}, 12}};
+    if (steps < fewest_bdf_steps || steps > most_bdf_steps) {
+        throw std::out_of_range("expected a formula of 2 to 4 steps, found " + std::to_string(steps));
+    }
+    return formulas[steps - fewest_bdf_steps];
+}
+
+// high + low, some 106 bits.
+struct Pair {
+    double high;
+    double low;
+};
+
+// [Knuth] Exact.
+Pair two_sum(double a, double b) {
+    const double high = a + b;
+    const double b_part = high - a;
+    return {high, (a - (high - b_part)) + (b - b_part)};
+}
+
+Pair two_product(double a, double b) {
+    const double high = a * b;
+    return {high, std::fma(a, b, -high)};
+}
+
+Pair sum(const Pair& a, const Pair& b) {
+    const Pair high = two_sum(a.high, b.high);
+    const Pair low = two_sum(a.low, b.low);
+    const Pair joined = two_sum(high.high, high.low + low.high);
+    return two_sum(joined.high, joined.low + low.low);
+}
+
+Pair product(const Pair& a, const Pair& b) {
+    const Pair high = two_product(a.high, b.high);
+    return two_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
+}
+
+Pair quotient(const Pair& a, double divisor) {
+    const double first = a.high / divisor;
+    const Pair back = two_product(first, divisor);
+    return two_sum(first, ((a.high - back.high) - back.low + a.low) / divisor);
+}
+
+// How many weights of a whole order v >= 0 are not zero by themselves, as rounding would hide; else no limit.
+std::size_t count_of_nonzero(unsigned steps, double order, std::size_t count) {
+    const bool ends = order >= 0.0 && std::floor(order) == order;
+    return ends ? std::min(count, steps * static_cast<std::size_t>(order) + 1) : count;
+}
+
+std::vector<Pair> walk(unsigned steps, double order, std::size_t count) {
+    const Formula& formula = formula_of(steps);
+    std::vector<Pair> a(count, Pair{0.0, 0.0});
+    for (std::size_t n = 0; n < count_of_nonzero(steps, order, count); ++n) {
+        if (n == 0) {
+            a[0] = {1.0, 0.0};
+            continue;
+        }
+        Pair total{0.0, 0.0};
+        for (std::size_t m = std::min<std::size_t>(steps, n); m > 0; --m) {
+            const Pair factor = sum(two_product(order, static_cast<double>(m)), {-static_cast<double>(n - m), 0.0});
+            total = sum(total, product(factor, product({formula.coefficients[m], 0.0}, a[n - m])));
+        }
+        a[n] = quotient(total, static_cast<double>(n) * formula.coefficients[0]);
+    }
+    return a;
+}
+
+}  // namespace
+
+double bdf_first_weight(unsigned steps, double order) {
+    const Formula& formula = formula_of(steps);
+    return std::pow(formula.coefficients[0] / formula.divisor, order);
+}
+
+std::vector<double> bdf_weights(unsigned steps, double order, std::size_t count) {
+    std::vector<double> weights;
+    weights.reserve(count);
+    for (const Pair& weight : walk(steps, order, count)) {
+        weights.push_back(weight.high);
+    }
+    return weights;
+}
+
+std::vector<double> bdf_increment_weights(unsigned steps, double order, std::size_t count) {
+    // P(1) = 0: behind the last weight of a whole order v > 0 the sums are 0.
+    const bool ends = order > 0.0 && std::floor(order) == order;
+    const std::size_t last = ends ? count_of_nonzero(steps, order, count) - 1 : count;
+    std::vector<double> weights;
+    weights.reserve(count);
+    Pair running{0.0, 0.0};
+    for (const Pair& weight : walk(steps, order, count)) {
+        running = sum(running, weight);
+        weights.push_back(weights.size() < last || weights.empty() ? running.high : 0.0);
+    }
+    return weights;
+}
+
+}  // namespace glsum::modes

@@ -1,0 +1,72 @@
+// Modes for weights of higher order: the certificate, and what an error costs.
+#include "modes/fitted.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "modes/bdf.hpp"
+#include "modes/design.hpp"
+
+namespace {
+
+using glsum::modes::approximate_fitted;
+using glsum::modes::bdf_increment_weights;
+using glsum::modes::bdf_weights;
+using glsum::modes::design_fitted;
+
+TEST(FittedModes, KeepTheErrorThatTheyAreDesignedFor) {
+    for (unsigned steps = 2; steps <= 4; ++steps) {
+        for (const double order : {0.2, 0.5, 0.98319, 1.5, 1.9909, -0.5}) {
+            for (const bool increments : {false, true}) {
+                const double of_weights = increments ? order - 1.0 : order;
+                if (!glsum::modes::has_tail(of_weights)) {
+                    continue;
+                }
+                const auto weights =
+                    increments ? bdf_increment_weights(steps, order, 2001) : bdf_weights(steps, order, 2001);
+                std::size_t before = 0;
+                for (const double wanted : {1e-2, 1e-4, 1e-6}) {
+                    const auto found = design_fitted(weights, of_weights, wanted);
+                    ASSERT_TRUE(found) << steps << " steps, order " << order << ", error " << wanted;
+                    // By hand: the recurrence of each exponential.
+                    double error = 0.0;
+                    std::vector<double> terms;
+                    for (const auto& mode : found->modes) {
+                        ASSERT_GT(mode.decay, 0.0);
+                        ASSERT_LE(mode.decay, 1.0);
+                        terms.push_back(mode.weight);
+                    }
+                    for (std::size_t j = found->near_taps; j < weights.size(); ++j) {
+                        double sum = 0.0;
+                        for (std::size_t m = 0; m < terms.size(); ++m) {
+                            sum += terms[m];
+                            terms[m] *= 1.0 - found->modes[m].decay;
+                        }
+                        error += std::fabs(weights[j] - sum);
+                    }
+                    EXPECT_LE(error, wanted * (1.0 + 1e-6)) << steps << ", " << order;
+                    EXPECT_NEAR(found->error, error, 1e-6 * wanted) << steps << ", " << order;
+                    EXPECT_GE(found->cost(), before);
+                    before = found->cost();
+                }
+            }
+        }
+    }
+}
+
+TEST(FittedModes, OfFirstOrderCostNoMoreThanAFewMore) {
+    // The poles are those of the tail; least squares on each decade alike can only spoil the sum of magnitudes a
+    // little.
+    const auto half = bdf_weights(2, 0.5, 5001);
+    const auto own = glsum::modes::design({0.5, 5000}, 1e-4);
+    const auto found = design_fitted(half, 0.5, 1e-4);
+    ASSERT_TRUE(own && found);
+    EXPECT_LE(found->cost(), own->cost() + 6);
+    EXPECT_FALSE(design_fitted(half, 0.5, 1e-15));
+    EXPECT_TRUE(approximate_fitted(half, 0.5, 4, 0).modes.empty());
+    EXPECT_EQ(approximate_fitted(half, 0.5, 4, 7).modes.size(), 7U);
+}
+
+}  // namespace
