@@ -187,7 +187,7 @@ std::vector<How> make_hows(double order, std::size_t samples) {
 // Where the sums are compared: the first, those about the borders of what is summed directly, some on the way, the
 // last.
 std::vector<std::size_t> points_of(std::size_t samples) {
-    std::vector<std::size_t> points{0, 1, 2, 31, 32, 33, 127, 255, 256, 257};
+    std::vector<std::size_t> points{0, 1, 2, 15, 16, 17, 127, 255, 256, 257};
     constexpr std::size_t parts = 12;
     for (std::size_t i = 1; i <= parts; ++i) {
         points.push_back((samples * i) / parts - 1);

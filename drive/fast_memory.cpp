@@ -40,8 +40,7 @@ void FastMemory::spread_block(std::size_t size) {
                   head.begin() + direct);
         transform.forward(found->second);
     }
-    RealTransform::Buffer block(2 * size);
-    std::copy_n(samples_.begin() + static_cast<std::ptrdiff_t>(count_ - size), size, block.reals().begin());
+    RealTransform::Buffer block(2 * size, std::span(samples_).subspan(count_ - size, size));
     transform.forward(block);
     transform.convolve(block, found->second);
     const std::size_t outputs = std::min(size, future_.size() - count_);

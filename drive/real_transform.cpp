@@ -31,11 +31,12 @@ struct RealTransform::Plans {
     fftw_plan back = nullptr;
 };
 
-RealTransform::Buffer::Buffer(std::size_t length) : length_(length), data_(fftw_alloc_real(2 * (length / 2 + 1))) {
+RealTransform::Buffer::Buffer(std::size_t length, std::span<const double> first)
+    : length_(length), data_(fftw_alloc_real(2 * (length / 2 + 1))) {
     if (!data_) {
         throw std::bad_alloc();
     }
-    std::fill_n(data_.get(), 2 * (length / 2 + 1), 0.0);
+    std::fill(std::copy(first.begin(), first.end(), data_.get()), data_.get() + 2 * (length / 2 + 1), 0.0);
 }
 
 void RealTransform::Buffer::Release::operator()(double* data) const { fftw_free(data); }

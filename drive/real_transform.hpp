@@ -15,8 +15,8 @@ public:
     /// Room for so many reals, or, in the same place, for their half spectrum of length/2 + 1 values.
     class Buffer {
     public:
-        /// All zeros. \throws std::bad_alloc
-        explicit Buffer(std::size_t length);
+        /// So many reals: at first those of `first`, at most `length`, then zeros. \throws std::bad_alloc
+        explicit Buffer(std::size_t length, std::span<const double> first = {});
         [[nodiscard]] std::span<double> reals() { return {data_.get(), length_}; }
         [[nodiscard]] std::span<const double> reals() const { return {data_.get(), length_}; }
         [[nodiscard]] std::span<std::complex<double>> spectrum();

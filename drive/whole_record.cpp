@@ -12,7 +12,7 @@
 namespace drive {
 namespace {
 
-constexpr std::size_t near_weights = 32;   // never in a transform
+constexpr std::size_t near_weights = 16;   // never in a transform
 constexpr std::size_t no_transform = 128;  // up to so many weights summing directly is faster than any transform
 constexpr std::size_t tile = 8;            // sums at once: enough for the adders to be busy
 constexpr double unit_roundoff = 0x1.0p-53;
@@ -101,10 +101,8 @@ std::vector<double> whole_record_sums(std::span<const double> weights, std::span
     if (!parted.far.empty()) {
         const RealTransform& transform = RealTransform::of(parted.length);
         const std::size_t count = record.size() - near_weights;
-        RealTransform::Buffer far(parted.length);
-        RealTransform::Buffer samples(parted.length);
-        std::copy(parted.far.begin(), parted.far.end(), far.reals().begin());
-        std::copy_n(record.begin(), count, samples.reals().begin());
+        RealTransform::Buffer far(parted.length, parted.far);
+        RealTransform::Buffer samples(parted.length, record.first(count));
         transform.forward(far);
         transform.forward(samples);
         transform.convolve(samples, far);
