@@ -16,6 +16,7 @@
 #include "bench/table.hpp"
 #include "bench/target_rows.hpp"
 #include "cli/bench_drive.hpp"
+#include "cli/bench_records.hpp"
 #include "cli/board.hpp"
 #include "cli/commands.hpp"
 #include "cli/finish_run.hpp"
@@ -33,15 +34,16 @@ constexpr std::size_t most_taps = 1'000'000;  // as bench::parse_length has it
 struct Options {
     bool quick = false;
     bool drive = false;
+    std::vector<std::string> records;
     std::vector<std::string> kernels{"*"};
     std::vector<double> orders;
     std::vector<std::string> taps;
     std::vector<std::string> signals;
-    std::vector<std::string> targets = bench::Sweep().targets;
+    std::vector<std::string> targets;  ///< empty: all that the rest of the request can be measured on
     std::vector<std::string> cores{bench::count_only, default_core};
     std::string weights{bench::discretisation_names.front()};
     std::optional<std::string> shard;
-    unsigned repetitions = 1;
+    std::optional<unsigned> repetitions;
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
     std::filesystem::path out;
 };
@@ -72,14 +74,40 @@ std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std
     return lengths;
 }
 
+void check_orders(const std::vector<double>& orders) {
+    for (const double order : orders) {
+        if (!glsum::order_in_range(order)) {
+            throw Failure(Exit::bad_input, fmt::format("--orders: expected a number in (-2, 2], found {}", order));
+        }
+    }
+}
+
+void check_signals(const std::vector<std::string>& signals) {
+    for (const std::string& signal : signals) {
+        if (std::find(std::begin(bench::signal_names), std::end(bench::signal_names), signal) ==
+            std::end(bench::signal_names)) {
+            throw Failure(Exit::bad_input, fmt::format("--signals: expected some of {}, found {}",
+                                                       fmt::join(bench::signal_names, ", "), signal));
+        }
+    }
+}
+
+std::vector<std::string> targets_of(const Options& options) {
+    if (!options.targets.empty()) {
+        return options.targets;
+    }
+    const auto weights = bench::parse_discretisation(options.weights);
+    return weights && bench::names_weights(*weights) ? std::vector<std::string>{"host"} : bench::Sweep().targets;
+}
+
 bench::Discretisation to_weights(const Options& options) {
     const auto weights = bench::parse_discretisation(options.weights);
     if (!weights) {
         throw Failure(Exit::bad_input, fmt::format("--weights: expected one of {}, found {}",
                                                    fmt::join(bench::discretisation_names, ", "), options.weights));
     }
-    const bool on_m7 = std::find(options.targets.begin(), options.targets.end(), "m7") != options.targets.end();
-    if (bench::names_weights(*weights) && on_m7) {
+    if (bench::names_weights(*weights) &&
+        std::find(options.targets.begin(), options.targets.end(), "m7") != options.targets.end()) {
         throw Failure(Exit::bad_input,
                       fmt::format("--weights {}: only with --targets host; what the emulated target is told to run "
                                   "names an order, no weights",
@@ -116,18 +144,14 @@ bench::Sweep to_sweep(const Options& options) {
     bench::Sweep sweep;
     sweep.weights = to_weights(options);
     sweep.jobs = options.jobs;
-    sweep.repetitions = options.repetitions;
+    sweep.repetitions = options.repetitions.value_or(1);
     sweep.samples = options.quick ? 1000 : 5000;
     sweep.orders = options.orders;
     if (sweep.orders.empty()) {
         sweep.orders = options.quick ? std::vector{0.5, 0.98319, 1.9909, -0.5}
                                      : std::vector{0.2, 0.3, 0.5, 0.7, 0.9, 0.98319, 1.5, 1.9909, -0.5};
     }
-    for (const double order : sweep.orders) {
-        if (!glsum::order_in_range(order)) {
-            throw Failure(Exit::bad_input, fmt::format("--orders: expected a number in (-2, 2], found {}", order));
-        }
-    }
+    check_orders(sweep.orders);
     std::vector<std::string> taps = options.taps;
     if (taps.empty()) {
         taps = options.quick ? std::vector<std::string>{"50", "100", "200", "600", "full"}
@@ -142,19 +166,13 @@ bench::Sweep to_sweep(const Options& options) {
     if (sweep.signals.empty()) {
         sweep.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
     }
-    for (const std::string& signal : sweep.signals) {
-        if (std::find(std::begin(bench::signal_names), std::end(bench::signal_names), signal) ==
-            std::end(bench::signal_names)) {
-            throw Failure(Exit::bad_input, fmt::format("--signals: expected some of {}, found {}",
-                                                       fmt::join(bench::signal_names, ", "), signal));
-        }
-    }
-    for (const std::string& target : options.targets) {
+    check_signals(sweep.signals);
+    sweep.targets = targets_of(options);
+    for (const std::string& target : sweep.targets) {
         if (target != "host" && target != "m7") {
             throw Failure(Exit::bad_input, fmt::format("--targets: expected host, m7 or both, found {}", target));
         }
     }
-    sweep.targets = options.targets;
     sweep.cores.clear();
     for (const std::string& core : options.cores) {
         if (std::find(sweep.cores.begin(), sweep.cores.end(), core) == sweep.cores.end()) {
@@ -193,6 +211,18 @@ std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
 }
 
 void run(const Options& options, const PassedOn& flags) {
+    if (!options.records.empty()) {
+        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
+        check_orders(options.orders);
+        check_signals(options.signals);
+        RecordBench records{.records = options.records,
+                            .orders = options.orders,
+                            .signals = options.signals,
+                            .out = options.out.empty() ? results / "records.json" : options.out};
+        records.repetitions = options.repetitions.value_or(records.repetitions);
+        run_record_bench(records);
+        return;
+    }
     if (options.drive) {
         if (options.weights != Options().weights) {
             throw Failure(Exit::bad_input, "--weights: only without --drive, whose models have writings of their own");
@@ -200,7 +230,7 @@ void run(const Options& options, const PassedOn& flags) {
         const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
         std::vector<std::string> cores = options.cores;
         std::erase(cores, bench::count_only);
-        run_drive_bench({options.kernels, options.taps, options.targets, cores, options.quick, options.jobs,
+        run_drive_bench({options.kernels, options.taps, targets_of(options), cores, options.quick, options.jobs,
                          options.out.empty() ? results / "drive.json" : options.out});
         return;
     }
@@ -236,6 +266,12 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
     command->add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
     command->add_flag("--drive", options->drive,
                       "Instead of sums, whole models (10) to (12) stepped at 1 kHz: writes results/drive.json");
+    CLI::Option* records =
+        command
+            ->add_option("--records", options->records,
+                         "Instead of sums of a window, full memory over whole records of so many samples, at once and "
+                         "sample by sample, beside FFTW: 100000,1000000. Writes results/records.json")
+            ->delimiter(',');
     command->add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
     command->add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
     command
@@ -246,7 +282,10 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
         ->delimiter(',');
     command->add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
         ->delimiter(',');
-    command->add_option("--targets", options->targets, "host, m7 or both")->delimiter(',')->capture_default_str();
+    command
+        ->add_option("--targets", options->targets,
+                     "host, m7 or both (default: both; with --weights that name their own, host)")
+        ->delimiter(',');
     command
         ->add_option("--core", options->cores,
                      "Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation serves "
@@ -268,6 +307,10 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
     command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
     command->add_option("--out", options->out,
                         "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
+    for (const char* other :
+         {"--quick", "--drive", "--kernels", "--taps", "--targets", "--core", "--shard", "--weights"}) {
+        records->excludes(other);
+    }
     command->callback([options, &passed_on] { run(*options, passed_on); });
 }
 

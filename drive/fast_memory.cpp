@@ -1,32 +1,16 @@
 #include "drive/fast_memory.hpp"
 
 #include <algorithm>
-#include <map>
-#include <unsupported/Eigen/FFT>
 
 namespace drive {
 namespace {
 
 constexpr std::size_t direct = 256;  // weights below this are never in a transform
 
-using Spectrum = std::vector<std::complex<double>>;
-
 }  // namespace
 
-struct FastMemory::Transforms {
-    Eigen::FFT<double> fft;
-    std::map<std::size_t, Spectrum> weights;  // of the weights direct .. 2 size - 1, by size
-};
-
 FastMemory::FastMemory(std::span<const double> weights)
-    : weights_(weights.begin(), weights.end()),
-      samples_(weights.size()),
-      future_(weights.size() + 1, 0.0),
-      transforms_(std::make_unique<Transforms>()) {
-    transforms_->fft.SetFlag(Eigen::FFT<double>::HalfSpectrum);
-}
-
-FastMemory::~FastMemory() = default;
+    : weights_(weights.begin(), weights.end()), samples_(weights.size()), future_(weights.size() + 1, 0.0) {}
 
 double FastMemory::past() const {
     double sum = future_[count_];
@@ -47,25 +31,21 @@ void FastMemory::push(double sample) {
 }
 
 void FastMemory::spread_block(std::size_t size) {
-    auto [found, fresh] = transforms_->weights.try_emplace(size);
+    const RealTransform& transform = RealTransform::of(2 * size);
+    auto [found, fresh] = spectra_.try_emplace(size, 2 * size);
     if (fresh) {
-        std::vector<double> head(2 * size, 0.0);
-        std::copy_n(weights_.begin(), std::min(2 * size, weights_.size()), head.begin());
-        std::fill_n(head.begin(), direct, 0.0);
-        transforms_->fft.fwd(found->second, head);
+        const std::span<double> head = found->second.reals();
+        std::copy(weights_.begin() + direct,
+                  weights_.begin() + static_cast<std::ptrdiff_t>(std::min(2 * size, weights_.size())),
+                  head.begin() + direct);
+        transform.forward(found->second);
     }
-    std::vector<double> block(2 * size, 0.0);
-    std::copy_n(samples_.begin() + static_cast<std::ptrdiff_t>(count_ - size), size, block.begin());
-    Spectrum spectrum;
-    transforms_->fft.fwd(spectrum, block);
-    for (std::size_t i = 0; i < spectrum.size(); ++i) {
-        spectrum[i] *= found->second[i];
-    }
-    std::vector<double> product(2 * size);
-    transforms_->fft.inv(product, spectrum, static_cast<Eigen::Index>(2 * size));
+    RealTransform::Buffer block(2 * size, std::span(samples_).subspan(count_ - size, size));
+    transform.forward(block);
+    transform.convolve(block, found->second);
     const std::size_t outputs = std::min(size, future_.size() - count_);
     for (std::size_t i = 0; i < outputs; ++i) {
-        future_[count_ + i] += product[size + i];
+        future_[count_ + i] += block.reals()[size + i];
     }
 }
 

@@ -1,11 +1,12 @@
 // The sum of a whole past by blocks: what full memory costs when it must be affordable for long records.
 #pragma once
 
-#include <complex>
 #include <cstddef>
-#include <memory>
+#include <map>
 #include <span>
 #include <vector>
+
+#include "drive/real_transform.hpp"
 
 namespace drive {
 
@@ -19,9 +20,6 @@ class FastMemory {
 public:
     /// \param weights  w_0 (not used), w_1, ...: as many as samples will come; what lies beyond counts as 0
     explicit FastMemory(std::span<const double> weights);
-    ~FastMemory();
-    FastMemory(const FastMemory&) = delete;
-    FastMemory& operator=(const FastMemory&) = delete;
 
     /// H_k for the next sample k = 0, 1, ...
     [[nodiscard]] double past() const;
@@ -29,14 +27,13 @@ public:
     void push(double sample);
 
 private:
-    struct Transforms;
     void spread_block(std::size_t size);
 
     std::vector<double> weights_;
     std::vector<double> samples_;
     std::vector<double> future_;  // what the blocks add to H_k, for k from the last block's end on
     std::size_t count_ = 0;
-    std::unique_ptr<Transforms> transforms_;
+    std::map<std::size_t, RealTransform::Buffer> spectra_;  // of the weights direct .. 2 size - 1, by size
 };
 
 }  // namespace drive

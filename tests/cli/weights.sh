@@ -7,7 +7,7 @@ fail() { echo "$*"; failures=$((failures + 1)); }
 small="--quick --orders 0.5 --taps 50 --signals step,sine5 --targets host --benchmark_min_time=0.001"
 
 expect 2 "--weights: expected one of gl, shifted, bdf2, bdf3, bdf4, found bdf5" bench --weights bdf5
-expect 2 "--weights bdf2: only with --targets host" bench --quick --weights bdf2
+expect 2 "--weights bdf2: only with --targets host" bench --quick --weights bdf2 --targets host,m7
 expect 2 "--weights bdf2: only with --targets host" bench --quick --weights bdf2 --targets m7
 expect 2 "--weights: only without --drive" bench --drive --weights bdf2
 expect 2 "--weights bdf2: none of the kernels can sum them" bench $small --weights bdf2 --kernels 'mirrorhold*'
