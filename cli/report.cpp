@@ -8,6 +8,7 @@
 
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
+#include "bench/report/best.hpp"
 #include "bench/report/report.hpp"
 #include "bench/result_file.hpp"
 #include "cli/commands.hpp"
@@ -53,6 +54,11 @@ void run(Options options) {
     fmt::print("\n");
     for (const auto& file : written) {
         fmt::print("  {} ({:.0f} kB)\n", file.string(), static_cast<double>(std::filesystem::file_size(file)) / 1e3);
+    }
+    const auto groups = bench::group(input.results.rows);
+    const auto costs = bench::report::costs_of(groups);
+    if (const auto best = bench::report::best_table(bench::report::curve_points(groups, costs), costs); !best.empty()) {
+        fmt::print("\n{}", best);
     }
 }
 

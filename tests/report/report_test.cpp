@@ -7,6 +7,7 @@
 
 #include "bench/files.hpp"
 #include "bench/gnuplot.hpp"
+#include "bench/report/best.hpp"
 #include "bench/report/columns.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
@@ -123,6 +124,46 @@ TEST(Curves, FrontsGoOverAllLengthsOfAnOrderAndLeaveFaultsOut) {
     }
     EXPECT_EQ(points[0].entry->model_cycles.at("f746").median, 50.0);
     EXPECT_FALSE(points[0].entry->model_cycles.at("f746").high);
+}
+
+TEST(Best, IsTheCheapestThatKeepsTheLimitAndTheCheapestWindow) {
+    std::vector<bench::Json> rows;
+    const auto add = [&](const std::string& kernel, const std::string& order, const std::string& taps, double error,
+                         double instructions) {
+        const std::string name = "gl/" + kernel + "/order:" + order + "/taps:" + taps;
+        rows.emplace_back(bench::make_row(name + "/accuracy/signal:step", 1))["error_max"] = error;
+        rows.emplace_back(bench::make_row(name + "/m7:count", 1))["instructions_per_sample"] = instructions;
+    };
+    add("shift_plain_f32", "0.5", "600", 5e-3, 900);
+    add("ring_plain_f32", "0.5", "600", 5e-3, 600);
+    add("ring_plain_f32", "0.5", "5000", 5e-5, 5000);
+    add("modes_plain_f32", "0.5", "2+7", 5e-3, 60);
+    add("modes_plain_f32", "0.5", "2+11", 1e-4, 90);
+    add("modes_plain_f32", "0.5", "2+15", 2e-6, 20000);
+    add("ring_plain_f32", "-0.5", "600", 1e-7, 650);
+    bench::mark_error(rows.emplace_back(bench::make_row("gl/wrong_plain_f32/order:0.5/taps:1/accuracy/signal:step", 1)),
+                      "not finite");
+    const auto groups = bench::group(rows);
+    const auto costs = costs_of(groups);
+    const auto points = curve_points(groups, costs);
+    ASSERT_EQ(deciding_cost(costs), 0U);
+    std::vector<std::string> found;
+    for (const Best& best : best_of(points, costs, 0)) {
+        const auto text = [](const auto* point) {
+            return point == nullptr ? std::string("none") : point->entry->kernel + " " + point->group->taps;
+        };
+        found.push_back(best.order + ": " + text(best.point) + ", " + text(best.window));
+    }
+    const std::vector<std::string> expected = {
+        "0.5: modes_plain_f32 2+7, ring_plain_f32 600",   "0.5: modes_plain_f32 2+11, ring_plain_f32 5000",
+        "0.5: modes_plain_f32 2+11, ring_plain_f32 5000", "0.5: none, none",
+        "-0.5: ring_plain_f32 600, ring_plain_f32 600",   "-0.5: ring_plain_f32 600, ring_plain_f32 600",
+        "-0.5: ring_plain_f32 600, ring_plain_f32 600",   "-0.5: ring_plain_f32 600, ring_plain_f32 600"};
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(never_on_front(points, costs, 0), std::vector<std::string>{"shift_plain_f32"});
+    EXPECT_NE(best_table(points, costs).find("dominated at every order and length: shift_plain_f32"),
+              std::string::npos);
+    EXPECT_EQ(best_table({}, costs), "");
 }
 
 TEST(Differences, TheLargestRatioComesFirst) {
