@@ -82,6 +82,7 @@ void add_modelled(Json& row, const qemu::ModelledCall& call, double clock_hz) {
     row["model_cycles_high"] = call.high;
     row["first_model_cycles"] = call.first_cycles;
     row["worst_model_cycles"] = call.worst_cycles;
+    row["latency_model_cycles"] = call.latency_cycles;
     for (std::size_t e = 0; e < timing::effect_count; ++e) {
         row[fmt::format("stall_{}", timing::effect_names[e])] = call.lost[e];
     }
@@ -111,7 +112,7 @@ std::vector<Counted> count_on_target(const std::vector<qemu::PlannedRow>& plan, 
         plan, jobs,
         [&](const auto& share) { return qemu::measure(board, share, signals, done, qemu::Counting::blocks, timing); },
         [&](qemu::PlannedRow planned) {
-            ++planned.calls;  // the firmware makes one more, on a painted stack
+            planned.calls = qemu::calls_hashed(planned.kernel, planned.calls);
             return qemu::replay_here(planned, signals);
         });
     std::vector<Counted> counted;

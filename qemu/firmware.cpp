@@ -76,7 +76,7 @@ struct Watch {
         }
     }
     std::vector<std::uint32_t> loops;
-    std::map<std::string, std::uint32_t> kernels;
+    std::map<std::string, WatchedKernel> kernels;
     Marks marks;
 };
 
@@ -189,6 +189,12 @@ firmware::TimedCalls timed_calls(const std::string& kernel, std::size_t taps) {
 
 std::size_t calls_to_measure(const std::string& kernel, std::size_t taps) { return timed_calls(kernel, taps).calls(); }
 
+std::size_t calls_hashed(const std::string& kernel, std::size_t calls) {
+    bool halves = false;
+    glsum::Registry::for_each([&]<class K>() { halves |= K::name() == kernel && glsum::InHalves<K>; });
+    return calls + 1 + (halves ? firmware::calls_in_halves : 0);
+}
+
 ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
     const auto& signal = signals.at(row.signal);
     std::optional<ReplayedRow> result;
@@ -245,8 +251,11 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
         for (const std::uint32_t loop : watch.loops) {
             list << loop << '\n';
         }
-        for (const auto& [name, entry] : watch.kernels) {
-            list << entry << '\n';
+        for (const auto& [name, kernel] : watch.kernels) {
+            list << kernel.step << '\n';
+            if (kernel.answer != 0) {
+                list << kernel.answer << '\n';
+            }
         }
         std::ofstream marks(scratch.file("marks"));
         marks << fmt::format("{} {} {}\n", watch.marks.row, watch.marks.on, watch.marks.off);
@@ -280,9 +289,11 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
     std::ifstream times(scratch.file("times"));
     for (std::size_t i = 0; i < plan.size(); ++i) {
         if (rows[i].status == glsum::Status::ok) {
-            const std::uint32_t entry = watch.kernels.at(plan[i].kernel);
+            const auto [entry, answer] = watch.kernels.at(plan[i].kernel);
+            const std::size_t halves = answer != 0 ? firmware::calls_in_halves : 0;
             const firmware::TimedCalls made = timed_calls(plan[i].kernel, plan[i].taps);
             summarise(rows[i], calls, entry, made);
+            calls.take(answer, halves);
             const auto reached = log.reached.find(entry);
             if (reached == log.reached.end()) {
                 throw Failure(Exit::check_failed, "the instrument saw no instruction of " + plan[i].kernel);
@@ -292,7 +303,7 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
                 const timing::TimingLog log_of_row = timing::read_timing_log(times);
                 rows[i].cores =
                     modelled_calls(log_of_row, made, plan[i].calls, timing.cores.size(), rows[i].first.instructions,
-                                   fmt::format("{} with {} taps", plan[i].kernel, plan[i].taps));
+                                   fmt::format("{} with {} taps", plan[i].kernel, plan[i].taps), halves);
                 for (const auto& [address, times_met] : log_of_row.unknown) {
                     rows[i].unknown_encodings.push_back(address);
                 }

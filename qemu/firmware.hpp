@@ -53,7 +53,7 @@ struct ReplayedRow {
 
 struct MeasuredRow {
     glsum::Status status;
-    std::uint64_t hash;  ///< of the outputs of calls + 1 calls
+    std::uint64_t hash;  ///< of the outputs of `calls_hashed` calls
     std::size_t stack_bytes;
     std::size_t state_bytes;
     std::size_t coefficient_bytes;
@@ -75,6 +75,9 @@ struct MeasuredRow {
 
 /// How many calls `measure` needs of a kernel at this length: `timed_calls(kernel, taps).calls()`.
 [[nodiscard]] std::size_t calls_to_measure(const std::string& kernel, std::size_t taps);
+
+/// How many calls the hash of a measured row is of: one more, on a painted stack, and those in halves.
+[[nodiscard]] std::size_t calls_hashed(const std::string& kernel, std::size_t calls);
 
 /// The hash of the same calls on this machine. `status` as `prepare` gave it; no calls unless ok.
 /// \throws std::out_of_range for a kernel that is not in the registry.

@@ -10,7 +10,7 @@ namespace qemu {
 
 std::vector<ModelledCall> modelled_calls(const timing::TimingLog& log, const firmware::TimedCalls& timed,
                                          std::size_t calls, std::size_t cores, std::uint64_t first_instructions,
-                                         const std::string& what) {
+                                         const std::string& what, std::size_t answers) {
     const auto fault = [&](const std::string& found) {
         return glsum::Failure(glsum::Exit::check_failed, fmt::format("the timing model, {}: {}", what, found));
     };
@@ -54,6 +54,19 @@ std::vector<ModelledCall> modelled_calls(const timing::TimingLog& log, const fir
             used = 0;
         }
     }
+    for (std::size_t seen = 0; seen < answers; ++seen) {
+        if (run == log.runs.end() || run->call.cores.size() != cores) {
+            throw fault("it saw fewer first halves than the program marked");
+        }
+        for (std::size_t c = 0; c < cores; ++c) {
+            row[c].latency_cycles +=
+                static_cast<double>(run->call.cores[c].half_cycles.at(0)) / 2.0 / static_cast<double>(answers);
+        }
+        if (++used == run->calls) {
+            ++run;
+            used = 0;
+        }
+    }
     if (run != log.runs.end()) {
         throw fault("it saw more calls than the program marked");
     }
@@ -62,6 +75,7 @@ std::vector<ModelledCall> modelled_calls(const timing::TimingLog& log, const fir
         const auto [low, high] = std::minmax_element(sets[c].begin(), sets[c].end());
         row[c].low = *low;
         row[c].high = *high;
+        row[c].latency_cycles = answers > 0 ? row[c].latency_cycles : row[c].cycles;
     }
     return row;
 }

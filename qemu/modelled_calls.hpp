@@ -19,14 +19,17 @@ struct ModelledCall {
     double high;
     double first_cycles;                            ///< of the call after `prepare`, caches and branch predictor cold
     double worst_cycles;                            ///< of the timed calls once the past is full
+    double latency_cycles;                          ///< from sample to result: of the first half, else `cycles`
     std::array<double, timing::effect_count> lost;  ///< of `cycles`, to each effect
     bool operator==(const ModelledCall&) const = default;
 };
 
 /// One for each of `cores`. \param first_instructions  what the counter saw of the first call \param what  names the
-/// row in an error \throws glsum::Failure when the log holds other calls than were marked
+/// row in an error \param answers  how many first halves were marked behind the calls \throws glsum::Failure when the
+/// log holds other calls than were marked
 [[nodiscard]] std::vector<ModelledCall> modelled_calls(const timing::TimingLog& log, const firmware::TimedCalls& timed,
                                                        std::size_t calls, std::size_t cores,
-                                                       std::uint64_t first_instructions, const std::string& what);
+                                                       std::uint64_t first_instructions, const std::string& what,
+                                                       std::size_t answers = 0);
 
 }  // namespace qemu

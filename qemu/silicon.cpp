@@ -121,7 +121,7 @@ std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program,
                                                   const std::vector<MeasuredCycles>& rows,
                                                   const std::vector<CoreVariant>& variants) {
     const Elf elf(program.elf);
-    const std::map<std::string, std::uint32_t> kernels = watched_kernels(elf);
+    const std::map<std::string, WatchedKernel> kernels = watched_kernels(elf);
     // Each placement is a core of its own; each kernel and length is run once.
     std::vector<std::pair<std::string, std::string>> placements;
     std::vector<std::pair<std::string, std::uint32_t>> plan;
@@ -149,7 +149,7 @@ std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program,
                                                        row.line, row.kernel, most, row.taps));
         }
         entries.insert(loop != most_taps_of_loops.end() ? address_of(elf, "glsum_silicon_" + row.kernel)
-                                                        : kernel->second);
+                                                        : kernel->second.step);
         of_row.emplace_back(index_in(placements, std::pair(row.code, row.data)),
                             index_in(plan, std::pair(row.kernel, row.taps)));
     }

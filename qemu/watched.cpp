@@ -15,13 +15,13 @@ std::uint32_t address_of(const Elf& elf, const std::string& symbol) {
     return *address;
 }
 
-std::map<std::string, std::uint32_t> watched_kernels(const Elf& elf) {
-    std::map<std::string, std::uint32_t> kernels;
+std::map<std::string, WatchedKernel> watched_kernels(const Elf& elf) {
+    std::map<std::string, WatchedKernel> kernels;
     const std::uint32_t table = address_of(elf, "glsum_watched");
     const std::uint32_t count = elf.word(address_of(elf, "glsum_watched_count"));
     for (std::uint32_t i = 0; i < count; ++i) {
-        const std::uint32_t row = table + 12 * i;
-        kernels[elf.text(elf.word(row), elf.word(row + 4))] = elf.word(row + 8) & ~1U;
+        const std::uint32_t row = table + 16 * i;
+        kernels[elf.text(elf.word(row), elf.word(row + 4))] = {elf.word(row + 8) & ~1U, elf.word(row + 12) & ~1U};
     }
     return kernels;
 }

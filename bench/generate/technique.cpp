@@ -445,15 +445,16 @@ std::string declared(const std::string& type, const char* name, std::size_t coun
 TechniqueText block_text(bool fused, bool fixed) {
     std::string text =
         "    const size_t phase = S->phase;\n"
-        "    @sample@ *const own = S->past + 4U * S->own;\n"
-        "    const @coefficient@ *direct = @name@_table + phase;\n"
         "    @accumulator@ sum = S->ready[phase];\n"
         "    size_t share = (@NAME@_GROUPS + phase) / 4U;\n"
-        "    for (i = 0U; i < phase; ++i) {\n        --direct;\n        sum = " +
+        "    {\n"
+        "        const @sample@ *own = S->past + 4U * S->own;\n"
+        "        const @coefficient@ *direct = @name@_table + phase;\n"
+        "        for (i = 0U; i < phase; ++i) {\n            --direct;\n            sum = " +
         accumulate(fused) +
-        "(sum, *direct, own[i]);\n    }\n"
+        "(sum, *direct, own[i]);\n        }\n    }\n"
         "    sum = @name@_start(newest) + sum;\n"
-        "    own[phase] = newest;\n"
+        "    S->past[4U * S->own + phase] = newest;\n"
         "    while (share != 0U) {\n"
         "        const size_t left = S->left;\n"
         "        size_t from = S->own + 1U + @NAME@_GROUPS - left;\n"

@@ -66,6 +66,10 @@ struct Sum<Block, Technique, Format> {
     static void reset(State& state);
     /// The sum S_k for the next sample x_k.
     static Output step(State& state, Sample newest);
+    /// The same in two halves, in this order, with the same sample: S_k as soon as x_k is there, and then what coming
+    /// sums need. The first takes at most three products whatever the length.
+    static Output answer(State& state, Sample newest);
+    static void settle(State& state, Sample newest);
 
     static Sample from_real(double real) { return Format::from_real(real); }
     static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
@@ -78,8 +82,11 @@ private:
     template <std::size_t outputs>
     [[gnu::always_inline]] static inline void add_share(Accumulator* sums, const Coefficient* a, const Sample* samples,
                                                         std::size_t count);
-    [[gnu::always_inline]] static inline Output advance(State& state, Sample newest);
-    static Output advance_fused(State& state, Sample newest);
+    [[gnu::always_inline]] static inline Accumulator sum_of(const State& state, Sample newest);
+    [[gnu::always_inline]] static inline void advance(State& state, Sample newest);
+    static Accumulator sum_of_fused(const State& state, Sample newest);
+    static void advance_fused(State& state, Sample newest);
+    static Output step_fused(State& state, Sample newest);
 
     static constexpr const auto& name_ = kernel_name<Block, Technique, Format>;
 };

@@ -80,6 +80,15 @@ concept Kernel = requires(typename K::State& state, const typename K::State& pre
     { K::to_real(prepared, output) } -> std::same_as<double>;
 };
 
+/// A kernel in two halves: `answer(state, x_k)` gives S_k as soon as x_k is there, then `settle(state, x_k)` does what
+/// coming sums need; together, in this order, they are `step` to the last bit. Between sample and result lies only the
+/// first (`latency_model_cycles`).
+template <class K>
+concept InHalves = requires(typename K::State& state, typename K::Sample sample) {
+    { K::answer(state, sample) } -> std::same_as<typename K::Output>;
+    { K::settle(state, sample) } -> std::same_as<void>;
+};
+
 /// Coefficients and samples of the past that a kernel needs for this very design: no more than for any of its taps.
 template <Kernel K>
 [[nodiscard]] constexpr std::size_t table_needed(const Design& design) {
@@ -131,6 +140,8 @@ public:
     Status prepare(const Design& design) { return K::prepare(state_, design, table_, past_); }
     void reset() { K::reset(state_); }
     typename K::Output step(typename K::Sample sample) { return K::step(state_, sample); }
+    typename K::Output answer(typename K::Sample sample) requires InHalves<K> { return K::answer(state_, sample); }
+    void settle(typename K::Sample sample) requires InHalves<K> { K::settle(state_, sample); }
     [[nodiscard]] const typename K::State& state() const { return state_; }
 
 private:

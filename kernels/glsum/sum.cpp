@@ -739,20 +739,28 @@ void Sum<Block, Technique, Format>::add_share(Accumulator* sums, const Coefficie
 }
 
 template <class Technique, class Format>
-auto Sum<Block, Technique, Format>::advance(State& state, Sample newest) -> Output {
-    const std::size_t groups = state.groups;
-    if (groups == 0) {
-        return Format::finish(Format::start(newest, state.scale), state.scale);
+auto Sum<Block, Technique, Format>::sum_of(const State& state, Sample newest) -> Accumulator {
+    if (state.groups == 0) {
+        return Format::start(newest, state.scale);
     }
     const std::size_t phase = state.phase;
-    Sample* const own = state.past + phases * state.own;
+    const Sample* const own = state.past + phases * state.own;
     auto sum = state.ready[phase];
     const Coefficient* a = state.table + phase;
     for (std::size_t i = 0; i < phase; ++i) {
         sum = accumulate<Format, fused>(sum, *--a, own[i]);
     }
-    sum = Format::start(newest, state.scale) + sum;
-    own[phase] = newest;
+    return Format::start(newest, state.scale) + sum;
+}
+
+template <class Technique, class Format>
+void Sum<Block, Technique, Format>::advance(State& state, Sample newest) {
+    const std::size_t groups = state.groups;
+    if (groups == 0) {
+        return;
+    }
+    const std::size_t phase = state.phase;
+    state.past[phases * state.own + phase] = newest;
     // Its share of the groups that the next four outputs lack, the oldest first, in at most two pieces of the ring.
     std::size_t share = (groups + phase) / phases;
     while (share != 0) {
@@ -780,20 +788,49 @@ auto Sum<Block, Technique, Format>::advance(State& state, Sample newest) -> Outp
         state.left = state.groups;
         state.own = state.own + 1 == groups ? 0 : state.own + 1;
     }
+}
+
+template <class Technique, class Format>
+GLSUM_FUSED_CLONES auto Sum<Block, Technique, Format>::sum_of_fused(const State& state, Sample newest) -> Accumulator {
+    return sum_of(state, newest);
+}
+template <class Technique, class Format>
+GLSUM_FUSED_CLONES void Sum<Block, Technique, Format>::advance_fused(State& state, Sample newest) {
+    advance(state, newest);
+}
+template <class Technique, class Format>
+GLSUM_FUSED_CLONES auto Sum<Block, Technique, Format>::step_fused(State& state, Sample newest) -> Output {
+    const Accumulator sum = sum_of(state, newest);
+    advance(state, newest);
     return Format::finish(sum, state.scale);
 }
 
 template <class Technique, class Format>
-GLSUM_FUSED_CLONES auto Sum<Block, Technique, Format>::advance_fused(State& state, Sample newest) -> Output {
-    return advance(state, newest);
+auto Sum<Block, Technique, Format>::answer(State& state, Sample newest) -> Output {
+    if constexpr (fused) {
+        return Format::finish(sum_of_fused(state, newest), state.scale);
+    } else {
+        return Format::finish(sum_of(state, newest), state.scale);
+    }
+}
+
+template <class Technique, class Format>
+void Sum<Block, Technique, Format>::settle(State& state, Sample newest) {
+    if constexpr (fused) {
+        advance_fused(state, newest);
+    } else {
+        advance(state, newest);
+    }
 }
 
 template <class Technique, class Format>
 auto Sum<Block, Technique, Format>::step(State& state, Sample newest) -> Output {
     if constexpr (fused) {
-        return advance_fused(state, newest);
+        return step_fused(state, newest);
     } else {
-        return advance(state, newest);
+        const Accumulator sum = sum_of(state, newest);
+        advance(state, newest);
+        return Format::finish(sum, state.scale);
     }
 }
 

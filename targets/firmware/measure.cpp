@@ -3,7 +3,8 @@
 // hashes their outputs.
 //
 // First the instrument's own check, `check <loop> <turns>` for loops of known counts (check_loops.S). Then, for each
-// row of the plan, `calls` calls from a cleared past and one more on a painted stack:
+// row of the plan, `calls` calls from a cleared past, one more on a painted stack and, of a kernel in two halves, 32 in
+// halves:
 //   row <n> <status> <hash of the outputs> <bytes of stack> <bytes of state> <bytes of coefficients>
 // Marks (marks.S) tell the timing model where a row begins and which of its calls it is to time.
 #include "cortex-m7/stack.hpp"
@@ -61,6 +62,15 @@ int firmware_main() {
             typename K::Output output;
             const std::size_t stack = cortex_m7::stack_bytes([&] { output = K::step(state, last); });
             hash.add(output);
+            if constexpr (glsum::InHalves<K>) {
+                glsum_mark_on();
+                for (std::size_t call = 1; call <= firmware::calls_in_halves; ++call) {
+                    const auto sample = K::from_real(signal.at(row.calls + call));
+                    hash.add(K::answer(state, sample));
+                    K::settle(state, sample);
+                }
+                glsum_mark_off();
+            }
             answer.number(hash.value(), 16);
             answer.number(stack);
             answer.number(sizeof state + glsum::past_needed<K>(row.design()) * sizeof(typename K::Sample));

@@ -52,6 +52,9 @@ struct TimedCalls {
     }
 };
 
+/// Of a kernel in two halves so many calls are made in halves once its row is through: whole groups of any block.
+inline constexpr std::size_t calls_in_halves = 32;
+
 /// Of the steps of a model, which has no one length: the first, and of the last 32 the first few.
 inline constexpr std::size_t steady_steps = 32;
 inline constexpr std::size_t least_timed_steps = 100;  ///< so that what is timed beside these lies behind the last

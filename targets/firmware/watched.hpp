@@ -7,13 +7,24 @@
 
 namespace firmware {
 
-// One after the other in memory, as an array would be: rows of { name, its length, entry }. An array would need casts
-// of the entries, which no constant may hold, and the table must be there without running anything.
+// One after the other in memory, as an array would be: rows of { name, its length, entry, entry of its first half or 0
+// }. An array would need casts of the entries, which no constant may hold, and the table must be there without running
+// anything.
+template <class K>
+constexpr auto first_half() -> typename K::Output (*)(typename K::State&, typename K::Sample) {
+    if constexpr (glsum::InHalves<K>) {
+        return &K::answer;
+    } else {
+        return nullptr;
+    }
+}
+
 template <class K, class... Rest>
 struct WatchTable {
     const char* name = K::name().data();
     std::uint32_t name_length = K::name().size();
     typename K::Output (*entry)(typename K::State&, typename K::Sample) = &K::step;
+    typename K::Output (*answer)(typename K::State&, typename K::Sample) = first_half<K>();
     WatchTable<Rest...> rest;
 };
 template <class K>
@@ -21,13 +32,14 @@ struct WatchTable<K> {
     const char* name = K::name().data();
     std::uint32_t name_length = K::name().size();
     typename K::Output (*entry)(typename K::State&, typename K::Sample) = &K::step;
+    typename K::Output (*answer)(typename K::State&, typename K::Sample) = first_half<K>();
 };
 template <class... Ks>
 constexpr WatchTable<Ks...> make_watch_table(glsum::KernelList<Ks...>) {
     return {};
 }
 using Watched = decltype(make_watch_table(glsum::Registry{}));
-static_assert(sizeof(Watched) == 12 * glsum::Registry::count);
+static_assert(sizeof(Watched) == 16 * glsum::Registry::count);
 
 }  // namespace firmware
 

@@ -27,7 +27,7 @@ counter() {
         $1 == row {print $column}' "$folder/$1.csv"
 }
 q31=gl/ring_plain_q31/order:0.5/taps:50/m7:stm32f746-itcm
-for name in model_cycles_per_sample model_cycles_low model_cycles_high first_model_cycles worst_model_cycles stall_single_issue \
+for name in model_cycles_per_sample model_cycles_low model_cycles_high first_model_cycles worst_model_cycles latency_model_cycles stall_single_issue \
     stall_load_use stall_branch_mispredict instructions_per_sample loads_per_sample code_bytes; do
     [ -n "$(counter one $q31 $name)" ] || fail "expected the counter $name"
 done

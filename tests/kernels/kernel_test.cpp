@@ -203,6 +203,39 @@ TYPED_TEST(KernelTest, ResetForgetsAndRepeats) {
     }
 }
 
+template <class K>
+void expect_halves_are_the_step() {
+    for (const std::size_t taps : {1, 2, 3, 4, 5, 6, 9, 33}) {
+        Line<K> whole({0.5, taps});
+        Line<K> halves({0.5, taps});
+        std::mt19937_64 generator(5);
+        for (std::size_t k = 0; k < 100; ++k) {
+            const auto sample = K::from_real(noise(generator));
+            const auto expected = K::step(whole.state(), sample);
+            typename K::Output output;
+            if (generator() % 4 == 0) {  // either may be called, from sample to sample
+                output = K::step(halves.state(), sample);
+            } else {
+                output = K::answer(halves.state(), sample);
+                K::settle(halves.state(), sample);
+            }
+            ASSERT_EQ(std::memcmp(&output, &expected, sizeof output), 0)
+                << K::name() << ", taps " << taps << ", k " << k;
+        }
+    }
+}
+
+TEST(Halves, AreTheWholeStep) {
+    int kernels = 0;
+    glsum::Registry::for_each([&]<class K>() {
+        if constexpr (glsum::InHalves<K>) {
+            ++kernels;
+            expect_halves_are_the_step<K>();
+        }
+    });
+    EXPECT_EQ(kernels, 2);
+}
+
 TYPED_TEST(KernelTest, PrepareServesAnyLengthAndOrderWithinTheCapacity) {
     glsum::Line<TypeParam, 50> line;
     EXPECT_EQ(line.prepare({0.5, 50}), glsum::Status::ok);
