@@ -77,14 +77,26 @@ std::string indices(const std::vector<std::uint32_t>& at) {
     return to_base64(std::vector<T>(at.begin(), at.end()));
 }
 
+// Of at most 64 values each index is a letter: a quarter less than as a byte, in base64 four letters for three.
+std::string letters(const std::vector<std::uint32_t>& at) {
+    constexpr std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve(at.size());
+    for (const std::uint32_t index : at) {
+        text += alphabet[index];
+    }
+    return text;
+}
+
 Json with_indices(Json values, const std::vector<std::uint32_t>& at) {
     Json column;
     const std::size_t distinct = values.size();
     column["values"] = std::move(values);
     if (distinct > 1) {
-        const int bits = distinct <= 0x100 ? 8 : distinct <= 0x10000 ? 16 : 32;
+        const int bits = distinct <= 64 ? 6 : distinct <= 0x100 ? 8 : distinct <= 0x10000 ? 16 : 32;
         column["bits"] = bits;
-        column["at"] = bits == 8    ? indices<std::uint8_t>(at)
+        column["at"] = bits == 6    ? letters(at)
+                       : bits == 8  ? indices<std::uint8_t>(at)
                        : bits == 16 ? indices<std::uint16_t>(at)
                                     : indices<std::uint32_t>(at);
     }

@@ -8,8 +8,8 @@
 
 namespace bench::report {
 
-/// {"values": [distinct values], "bits": 8, 16 or 32, "at": base64 of little-endian indices into them}; without "at"
-/// when there is one value.
+/// {"values": [distinct values], "bits": 6, 8, 16 or 32, "at": base64 of little-endian indices into them, of 6 bits one
+/// letter an index}; without "at" when there is one value.
 [[nodiscard]] Json encode_texts(const std::vector<std::string>& column);
 
 /// The same with numbers rounded to 7 digits, NaN (no value) as null; where most values differ,

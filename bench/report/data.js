@@ -7,6 +7,13 @@ function decodeBytes(text) {
   return bytes.buffer;
 }
 
+// One letter of base64's alphabet each.
+function decodeLetters(text) {
+  const alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/", place = new Uint8Array(128);
+  for (let i = 0; i < alphabet.length; ++i) place[alphabet.charCodeAt(i)] = i;
+  return Uint8Array.from(text, letter => place[letter.charCodeAt(0)]);
+}
+
 // The upper three bytes of each float: four digits and a half.
 function decodeFloats24(text) {
   const upper = new Uint8Array(decodeBytes(text)), whole = new Uint8Array(upper.length / 3 * 4);
@@ -26,7 +33,8 @@ function decodeColumn(column) {
   }
   const Cells = column.float32 ? Float32Array : {8: Uint8Array, 16: Uint16Array, 32: Uint32Array}[column.bits];
   let cells = null;
-  const decoded = () => cells = new Cells(decodeBytes(column.float32 || column.at));
+  const decoded = () => cells = column.bits === 6 ? decodeLetters(column.at)
+                                                  : new Cells(decodeBytes(column.float32 || column.at));
   return column.float32 ? row => (cells || decoded())[row] : row => values[(cells || decoded())[row]];
 }
 

@@ -37,15 +37,29 @@ TEST(Front, EqualPointsDoNotBeatEachOther) {
 TEST(Columns, TextsAreIndicesIntoTheirDistinctValues) {
     const bench::Json column = encode_texts({"ring", "shift", "ring", "mirror"});
     EXPECT_EQ(column["values"], (bench::Json{"ring", "shift", "mirror"}));
-    EXPECT_EQ(column["bits"], 8);
-    EXPECT_EQ(column["at"], "AAEAAg==");  // 00 01 00 02
+    EXPECT_EQ(column["bits"], 6);
+    EXPECT_EQ(column["at"], "ABAC");  // 0 1 0 2
     EXPECT_FALSE(encode_texts({"ring", "ring"}).contains("at"));
 }
 
 TEST(Columns, MissingNumbersAreNull) {
     const bench::Json column = encode_numbers({0.1, std::nan(""), 0.1});
     EXPECT_EQ(column["values"], (bench::Json{0.1, nullptr}));
-    EXPECT_EQ(column["at"], "AAEA");  // 00 01 00
+    EXPECT_EQ(column["at"], "ABA");  // 0 1 0
+}
+
+TEST(Columns, IndicesAreLettersUpTo64ValuesAndBytesBeyond) {
+    std::vector<std::string> texts;
+    for (int i = 0; i < 64; ++i) {
+        texts.push_back(std::to_string(i));
+    }
+    const bench::Json few = encode_texts(texts);
+    EXPECT_EQ(few["bits"], 6);
+    EXPECT_EQ(few["at"], "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/");
+    texts.push_back("64");
+    const bench::Json more = encode_texts(texts);
+    EXPECT_EQ(more["bits"], 8);
+    EXPECT_EQ(more["at"].get<std::string>().substr(0, 8), "AAECAwQF");  // 00 01 02 03 04 05
 }
 
 TEST(Columns, ManyDifferentNumbersAreFloats) {
