@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "glsum/double_double.hpp"
+
 namespace glsum::modes {
 namespace {
 
@@ -24,39 +26,21 @@ const Formula& formula_of(unsigned steps) {
     return formulas[steps - fewest_bdf_steps];
 }
 
-// high + low, some 106 bits.
-struct Pair {
-    double high;
-    double low;
-};
-
-// [Knuth] Exact.
-Pair two_sum(double a, double b) {
-    const double high = a + b;
-    const double b_part = high - a;
-    return {high, (a - (high - b_part)) + (b - b_part)};
-}
-
-Pair two_product(double a, double b) {
-    const double high = a * b;
-    return {high, std::fma(a, b, -high)};
-}
-
-Pair sum(const Pair& a, const Pair& b) {
-    const Pair high = two_sum(a.high, b.high);
-    const Pair low = two_sum(a.low, b.low);
-    const Pair joined = two_sum(high.high, high.low + low.high);
+DoubleDouble sum(const DoubleDouble& a, const DoubleDouble& b) {
+    const DoubleDouble high = two_sum(a.high, b.high);
+    const DoubleDouble low = two_sum(a.low, b.low);
+    const DoubleDouble joined = two_sum(high.high, high.low + low.high);
     return two_sum(joined.high, joined.low + low.low);
 }
 
-Pair product(const Pair& a, const Pair& b) {
-    const Pair high = two_product(a.high, b.high);
+DoubleDouble product(const DoubleDouble& a, const DoubleDouble& b) {
+    const DoubleDouble high = two_product(a.high, b.high);
     return two_sum(high.high, high.low + (a.high * b.low + a.low * b.high));
 }
 
-Pair quotient(const Pair& a, double divisor) {
+DoubleDouble quotient(const DoubleDouble& a, double divisor) {
     const double first = a.high / divisor;
-    const Pair back = two_product(first, divisor);
+    const DoubleDouble back = two_product(first, divisor);
     return two_sum(first, ((a.high - back.high) - back.low + a.low) / divisor);
 }
 
@@ -66,17 +50,18 @@ std::size_t count_of_nonzero(unsigned steps, double order, std::size_t count) {
     return ends ? std::min(count, steps * static_cast<std::size_t>(order) + 1) : count;
 }
 
-std::vector<Pair> walk(unsigned steps, double order, std::size_t count) {
+std::vector<DoubleDouble> walk(unsigned steps, double order, std::size_t count) {
     const Formula& formula = formula_of(steps);
-    std::vector<Pair> a(count, Pair{0.0, 0.0});
+    std::vector<DoubleDouble> a(count, DoubleDouble{0.0, 0.0});
     for (std::size_t n = 0; n < count_of_nonzero(steps, order, count); ++n) {
         if (n == 0) {
             a[0] = {1.0, 0.0};
             continue;
         }
-        Pair total{0.0, 0.0};
+        DoubleDouble total{0.0, 0.0};
         for (std::size_t m = std::min<std::size_t>(steps, n); m > 0; --m) {
-            const Pair factor = sum(two_product(order, static_cast<double>(m)), {-static_cast<double>(n - m), 0.0});
+            const DoubleDouble factor =
+                sum(two_product(order, static_cast<double>(m)), {-static_cast<double>(n - m), 0.0});
             total = sum(total, product(factor, product({formula.coefficients[m], 0.0}, a[n - m])));
         }
         a[n] = quotient(total, static_cast<double>(n) * formula.coefficients[0]);
@@ -94,7 +79,7 @@ double bdf_first_weight(unsigned steps, double order) {
 std::vector<double> bdf_weights(unsigned steps, double order, std::size_t count) {
     std::vector<double> weights;
     weights.reserve(count);
-    for (const Pair& weight : walk(steps, order, count)) {
+    for (const DoubleDouble& weight : walk(steps, order, count)) {
         weights.push_back(weight.high);
     }
     return weights;
@@ -106,8 +91,8 @@ std::vector<double> bdf_increment_weights(unsigned steps, double order, std::siz
     const std::size_t last = ends ? count_of_nonzero(steps, order, count) - 1 : count;
     std::vector<double> weights;
     weights.reserve(count);
-    Pair running{0.0, 0.0};
-    for (const Pair& weight : walk(steps, order, count)) {
+    DoubleDouble running{0.0, 0.0};
+    for (const DoubleDouble& weight : walk(steps, order, count)) {
         running = sum(running, weight);
         weights.push_back(weights.size() < last || weights.empty() ? running.high : 0.0);
     }
