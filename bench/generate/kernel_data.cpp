@@ -176,7 +176,8 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.technique_text = block_text(K::fused, Format::fixed_point);
     } else if constexpr (glsum::keeps_blocks<typename K::HistoryPart>) {
         data.has_blocks = true;
-        data.technique_text = nested_text(data.past, data.blocks, Format::fixed_point);
+        data.technique_text =
+            nested_text(data.past, data.blocks, Format::fixed_point, std::is_same_v<Format, glsum::F64>);
         data.design_error = glsum::modes::design_blocks({order, horizon}, taps).error;
     } else {
         data.technique_text = text_of<Technique>(data.history_text, past, shifts, std::is_same_v<Format, glsum::Q31>,

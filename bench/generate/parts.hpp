@@ -98,7 +98,8 @@ struct FormatText {
 [[nodiscard]] TechniqueText block_text(bool fused, bool fixed);
 
 /// Near taps and blocks. \param near_samples  K - 1; without blocks at least 1
-[[nodiscard]] TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed);
+[[nodiscard]] TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed,
+                                        bool in_software);
 
 [[nodiscard]] FormatText floating_text(bool wide_data, bool wide_sum);
 /// The constants of a fixed-point kernel's scale.

@@ -1,6 +1,7 @@
 // Generated headers on the emulated Cortex-M7: their bits, and their instructions beside those of the kernels.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -21,10 +22,16 @@ struct Verified {
     double header_stores;
     double kernel_cycles;  ///< a sample, modelled, nominal rules
     double header_cycles;
-    /// Instructions count to the last one. Cycles may be a tenth more: what the compiler makes of the same loop in C
-    /// and in C++ differs by the order of two loads.
+    /// What another place in the program may change: where loops lie in the fetched words, one wrong guess of a branch.
+    static constexpr double place_cycles = 8.0;
+    /// In software double, whose branches depend on the numbers and whose table of targets all callers share.
+    static constexpr double place_share = 0.04;
+
+    /// Instructions count to the last one, cycles but for the place.
     [[nodiscard]] bool good() const {
-        return first_wrong == 0 && header_instructions <= kernel_instructions && header_cycles <= 1.1 * kernel_cycles;
+        const double place =
+            kernel.ends_with("64") ? std::max(place_cycles, place_share * kernel_cycles) : place_cycles;
+        return first_wrong == 0 && header_instructions <= kernel_instructions && header_cycles <= kernel_cycles + place;
     }
 };
 

@@ -23,6 +23,7 @@ for design in '0.98319 51' '-0.5 62'; do
     set -- $design
     expect 0 "the kernel's" generate --order "$1" --kernel '*' --taps "$2" --verify
 done
+expect 0 "the kernel's" generate --order 0.5 --kernel 'nested_*' --taps 300 --verify
 # The committed example, made again: all but where and by what it was made.
 command=$(sed -n 's/^ \* Command: glsum //p' "$source/targets/example/half_derivative.h")
 (cd "$folder" && mkdir -p targets/example && "$program" $command >/dev/null 2>&1) || fail "the example's command fails: $command"
