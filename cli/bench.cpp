@@ -16,6 +16,7 @@
 #include "bench/table.hpp"
 #include "bench/target_rows.hpp"
 #include "cli/bench_drive.hpp"
+#include "cli/bench_equal_cost.hpp"
 #include "cli/bench_records.hpp"
 #include "cli/board.hpp"
 #include "cli/commands.hpp"
@@ -35,6 +36,7 @@ struct Options {
     bool quick = false;
     bool drive = false;
     std::vector<std::string> records;
+    std::vector<std::string> equal_cost;
     std::vector<std::string> kernels{"*"};
     std::vector<double> orders;
     std::vector<std::string> taps;
@@ -223,6 +225,14 @@ void run(const Options& options, const PassedOn& flags) {
         run_record_bench(records);
         return;
     }
+    if (!options.equal_cost.empty()) {
+        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
+        check_orders(options.orders);
+        check_signals(options.signals);
+        run_equal_cost_bench({options.equal_cost, options.orders, options.signals, options.quick, options.jobs,
+                              options.out.empty() ? results / "equal-cost.json" : options.out});
+        return;
+    }
     if (options.drive) {
         if (options.weights != Options().weights) {
             throw Failure(Exit::bad_input, "--weights: only without --drive, whose models have writings of their own");
@@ -272,6 +282,12 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
                          "Instead of sums of a window, full memory over whole records of so many samples, at once and "
                          "sample by sample, beside FFTW: 100000,1000000. Writes results/records.json")
             ->delimiter(',');
+    CLI::Option* equal_cost =
+        command
+            ->add_option("--equal-cost", options->equal_cost,
+                         "Instead of all that, what so many multiplications a sample buy: windows, guessed tails, "
+                         "blocks, modes and Oustaloup's filter side by side: 16,24,32. Writes results/equal-cost.json")
+            ->delimiter(',');
     command->add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
     command->add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
     command
@@ -310,7 +326,12 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
     for (const char* other :
          {"--quick", "--drive", "--kernels", "--taps", "--targets", "--core", "--shard", "--weights"}) {
         records->excludes(other);
+        if (std::string(other) != "--quick") {
+            equal_cost->excludes(other);
+        }
     }
+    equal_cost->excludes(records);
+    equal_cost->excludes("--repetitions");
     command->callback([options, &passed_on] { run(*options, passed_on); });
 }
 

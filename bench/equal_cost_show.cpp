@@ -1,0 +1,140 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/equal_cost.hpp"
+#include "bench/gnuplot.hpp"
+
+namespace bench {
+namespace {
+
+// In the order of tables and pictures; as many as there are colours.
+constexpr EqualCostWay ways[] = {
+    {"shift_plain_f64", "window"},
+    {"mirrorhold_oldest_f64", "window, oldest held"},
+    {"mirrorlinear_oldest_f64", "window, line to first"},
+    {"mirrordelta_oldest_f64", "window of increments"},
+    {"nested_plain_f64", "nested blocks"},
+    {"oustaloup_f64", "Oustaloup's filter"},
+    {"modes_plain_f64", "modes"},
+    {"modesdelta_plain_f64", "modes of increments"},
+};
+static_assert(std::size(ways) <= std::size(palette));
+
+// The part of a name behind `key`, to the next slash.
+std::string part(const std::string& name, std::string_view key) {
+    const std::size_t at = name.find(key);
+    return at == std::string::npos ? ""
+                                   : name.substr(at + key.size(), name.find('/', at + key.size()) - at - key.size());
+}
+
+using Found = std::map<std::string, double>;  // "<way>|<cost>|<order>|<signal>"
+
+std::string key_of(std::string_view way, std::size_t cost, const std::string& order, const std::string& signal) {
+    return fmt::format("{}|{}|{}|{}", way, cost, order, signal);
+}
+
+Found errors_by_key(const std::vector<Json>& rows) {
+    Found found;
+    for (const Json& row : rows) {
+        const std::string name = row.at("name").get<std::string>();
+        if (row.contains("error_max") && name.find("/amplitude:") == std::string::npos) {
+            found[key_of(row.at("way").get<std::string>(), row.at("cost").get<std::size_t>(), part(name, "order:"),
+                         part(name, "signal:"))] = row.at("error_max").get<double>();
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+std::span<const EqualCostWay> equal_cost_ways() { return ways; }
+
+std::string to_table(const EqualCost& wanted, const std::vector<Json>& rows) {
+    const Found found = errors_by_key(rows);
+    std::string text;
+    for (const double order : wanted.orders) {
+        text += fmt::format("\nOrder {}\n  {:>15}  {:<24}", order, "multiplications", "way");
+        for (const std::string& signal : wanted.signals) {
+            text += fmt::format(" {:>8}", signal);
+        }
+        text += fmt::format(" {:>8}\n", "worst");
+        for (const std::size_t cost : wanted.costs) {
+            for (const EqualCostWay& way : ways) {
+                double worst = 0.0;
+                std::string line;
+                for (const std::string& signal : wanted.signals) {
+                    const auto error = found.find(key_of(way.kernel, cost, fmt::format("{}", order), signal));
+                    if (error == found.end()) {
+                        break;
+                    }
+                    worst = std::max(worst, error->second);
+                    line += fmt::format(" {:>8.1e}", error->second);
+                }
+                if (!line.empty()) {
+                    text += fmt::format("  {:>15}  {:<24}{} {:>8.1e}\n", cost, way.label, line, worst);
+                }
+            }
+        }
+    }
+    return text;
+}
+
+void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, const std::filesystem::path& stem) {
+    const Found found = errors_by_key(rows);
+    constexpr double floor = 1e-10;  // exact ones would flatten all others
+    const std::size_t height = 130 + 210 * wanted.orders.size();
+    const std::size_t width = 280 + 230 * wanted.signals.size();
+    const auto tall = static_cast<double>(height);
+    const auto wide = static_cast<double>(width);
+    std::string script = fmt::format(
+        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title \"Error of the "
+        "sum at equal cost, relative to the largest exact sum (below 10^{{-10}}: drawn there)\"\nset logscale y\nset "
+        "format y \"10^{{%L}}\"\n"
+        "set xrange [{}:{}]\nset ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xtics nomirror ({})\n",
+        wanted.orders.size(), wanted.signals.size(), 70.0 / wide, 1.0 - 220.0 / wide, 60.0 / tall, 1.0 - 75.0 / tall,
+        50.0 / wide, 50.0 / tall, static_cast<double>(wanted.costs.front()) - 3.0,
+        static_cast<double>(wanted.costs.back()) + 3.0, fmt::join(wanted.costs, ", "));
+    bool key = true;
+    for (std::size_t row = 0; row < wanted.orders.size(); ++row) {
+        const std::string order = fmt::format("{}", wanted.orders[row]);
+        for (const std::string& signal : wanted.signals) {
+            std::vector<std::string> lines;
+            double smallest = 1e300;
+            double largest = 0.0;
+            for (std::size_t i = 0; i < std::size(ways); ++i) {
+                std::string data;
+                for (const std::size_t cost : wanted.costs) {
+                    const auto error = found.find(key_of(ways[i].kernel, cost, order, signal));
+                    if (error != found.end() && error->second > 0.0) {
+                        const double drawn = std::max(floor, error->second);
+                        data += fmt::format("{} {:.6e}\n", cost, drawn);
+                        smallest = std::min(smallest, drawn);
+                        largest = std::max(largest, drawn);
+                    }
+                }
+                // Of all ways, or the key would lack those without a value in the first panel.
+                data += data.empty() ? fmt::format("{} NaN\n", wanted.costs.front()) : "";
+                script += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
+                lines.push_back(fmt::format("$d{} using 1:2 with linespoints lw 1.5 pt {} ps 0.7 lc rgb \"{}\" {}", i,
+                                            4 + i, palette[i],
+                                            key ? fmt::format("title \"{}\" noenhanced", ways[i].label) : "notitle"));
+            }
+            const bool last = row + 1 == wanted.orders.size();
+            script += fmt::format(
+                "set title \"order {}: {}\" offset 0,-0.6\nset yrange {}\nset xlabel \"{}\" offset 0,0.4\n{}\nplot "
+                "{}\n",
+                gnuplot_text(order), gnuplot_text(signal), largest > 0.0 ? log_range(smallest, largest) : "[1e-3:1]",
+                last ? "multiplications a sample" : "",
+                key ? fmt::format("set key at screen {:.4f}, screen {:.4f} left top Left reverse spacing 1.4",
+                                  1.0 - 205.0 / wide, 1.0 - 75.0 / tall)
+                    : "unset key",
+                fmt::join(lines, ", \\\n  "));
+            key = false;
+        }
+    }
+    draw({script + "unset multiplot\n", width, height}, stem);
+}
+
+}  // namespace bench

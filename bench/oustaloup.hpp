@@ -1,0 +1,58 @@
+// Oustaloup's rational approximation of s^v: what many take in place of a Grünwald-Letnikov sum. For comparison at
+// equal cost; it is no kernel, as it approximates the derivative itself and no sum of weights, and has no bound.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace bench {
+
+/// How a pole or zero at -w becomes one of the sampled filter.
+enum class Mapping {
+    matched,  ///< e^(-w h), and the gain at the middle of the band
+    tustin,   ///< s = 2/h (z - 1)/(z + 1)
+};
+
+[[nodiscard]] std::string to_text(Mapping mapping);
+
+/// A band in which |s^v| is approximated.
+struct Band {
+    double low_rad_s;
+    double high_rad_s;
+};
+
+/// s^r ~ w_h^r prod_k (s + w'_k)/(s + w_k), k = 0 ... P - 1, with w'_k = w_b (w_h/w_b)^((k + (1 - r)/2)/P) and
+/// w_k = w_b (w_h/w_b)^((k + (1 + r)/2)/P) [Oustaloup2000], in second-order sections. Above order 1 a difference goes
+/// before it.
+class Oustaloup {
+public:
+    /// \param order   v in (-1, 2), not a whole number
+    /// \param step_s  h > 0
+    /// \param poles   P >= 1
+    Oustaloup(double order, double step_s, std::size_t poles, Band band, Mapping mapping);
+
+    /// \return h^v times the derivative of order v: what S_k is an approximation of too
+    double step(double sample);
+
+    /// 2 P + 1: two for a pole, one for the gain
+    [[nodiscard]] std::size_t multiplications() const;
+
+private:
+    // (1 + b1/z + b2/z^2) / (1 + a1/z + a2/z^2); of a single pole b2 = a2 = 0.
+    struct Section {
+        double b1;
+        double b2;
+        double a1;
+        double a2;
+        double first = 0.0;
+        double second = 0.0;
+    };
+    std::vector<Section> sections_;
+    std::size_t poles_;
+    double gain_;
+    bool differs_;
+    double before_ = 0.0;
+};
+
+}  // namespace bench
