@@ -17,6 +17,7 @@
 #include "bench/target_rows.hpp"
 #include "cli/bench_drive.hpp"
 #include "cli/bench_equal_cost.hpp"
+#include "cli/bench_horizons.hpp"
 #include "cli/bench_records.hpp"
 #include "cli/board.hpp"
 #include "cli/commands.hpp"
@@ -37,6 +38,7 @@ struct Options {
     bool drive = false;
     std::vector<std::string> records;
     std::vector<std::string> equal_cost;
+    std::vector<std::string> horizons;
     std::vector<std::string> kernels{"*"};
     std::vector<double> orders;
     std::vector<std::string> taps;
@@ -233,6 +235,15 @@ void run(const Options& options, const PassedOn& flags) {
                               options.out.empty() ? results / "equal-cost.json" : options.out});
         return;
     }
+    if (!options.horizons.empty()) {
+        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
+        check_orders(options.orders);
+        const std::vector<std::string> targets = targets_of(options);
+        const bool modelled = std::find(targets.begin(), targets.end(), "m7") != targets.end();
+        run_horizon_bench({options.horizons, options.orders, modelled ? default_core : "",
+                           options.out.empty() ? results / "horizons.json" : options.out});
+        return;
+    }
     if (options.drive) {
         if (options.weights != Options().weights) {
             throw Failure(Exit::bad_input, "--weights: only without --drive, whose models have writings of their own");
@@ -288,6 +299,12 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
                          "Instead of all that, what so many multiplications a sample buy: windows, guessed tails, "
                          "blocks, modes and Oustaloup's filter side by side: 16,24,32. Writes results/equal-cost.json")
             ->delimiter(',');
+    CLI::Option* horizons =
+        command
+            ->add_option("--horizons", options->horizons,
+                         "Instead of all that, what an error over a past of so many samples costs, with a window, with "
+                         "blocks and with modes: 600,5000,50000,1000000. Writes results/horizons.json")
+            ->delimiter(',');
     command->add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
     command->add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
     command
@@ -329,9 +346,17 @@ void add_bench(CLI::App& app, const PassedOn& passed_on) {
         if (std::string(other) != "--quick") {
             equal_cost->excludes(other);
         }
+        if (std::string(other) != "--targets") {
+            horizons->excludes(other);
+        }
     }
     equal_cost->excludes(records);
-    equal_cost->excludes("--repetitions");
+    horizons->excludes(records);
+    horizons->excludes(equal_cost);
+    horizons->excludes("--signals");
+    for (CLI::Option* one : {equal_cost, horizons}) {
+        one->excludes("--repetitions");
+    }
     command->callback([options, &passed_on] { run(*options, passed_on); });
 }
 

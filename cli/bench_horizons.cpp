@@ -1,0 +1,327 @@
+#include "cli/bench_horizons.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include "bench/context.hpp"
+#include "bench/files.hpp"
+#include "bench/gnuplot.hpp"
+#include "bench/host_line.hpp"
+#include "bench/progress.hpp"
+#include "bench/result_file.hpp"
+#include "bench/signals.hpp"
+#include "bench/sweep.hpp"
+#include "bench/target_rows.hpp"
+#include "cli/board.hpp"
+#include "drive/whole_record.hpp"
+#include "glsum/registry.hpp"
+#include "glsum/weights.hpp"
+#include "modes/blocks.hpp"
+#include "modes/design.hpp"
+#include "qemu/failure.hpp"
+#include "qemu/firmware.hpp"
+
+namespace cli {
+namespace {
+
+using bench::Json;
+using glsum::Exit;
+using glsum::Failure;
+using glsum::modes::Approximation;
+using WithModes = glsum::Sum<glsum::Modes, glsum::Plain, glsum::F64>;
+
+constexpr double errors[] = {1e-2, 1e-4, 1e-6};  // of the sum, for |x| <= 1, before h^-v
+constexpr std::string_view signals[] = {"step", "sine5", "noise"};
+
+// What an error over a horizon takes.
+struct Cost {
+    double order;
+    double error;
+    std::size_t samples;
+    std::optional<std::size_t> window;  // taps; nothing: all of them
+    std::optional<std::size_t> blocks;  // coefficients
+    std::optional<Approximation> modes;
+    double largest_error = 0.0;  // of the modes' kernel over the whole record, found
+    double promised = 0.0;       // the most that it may be
+    std::optional<double> cycles = {};
+};
+
+std::vector<std::size_t> to_horizons(const std::vector<std::string>& words) {
+    constexpr std::size_t fewest = 100;
+    constexpr std::size_t most = 10'000'000;
+    std::vector<std::size_t> horizons;
+    for (const std::string& word : words) {
+        std::size_t samples = 0;
+        const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), samples);
+        if (fault != std::errc() || end != word.data() + word.size() || samples < fewest || samples > most) {
+            throw Failure(Exit::bad_input, fmt::format("--horizons: expected numbers of {} to {} samples, found {}",
+                                                       fewest, most, word));
+        }
+        horizons.push_back(samples);
+    }
+    std::sort(horizons.begin(), horizons.end());
+    horizons.erase(std::unique(horizons.begin(), horizons.end()), horizons.end());
+    return horizons;
+}
+
+std::vector<double> weights_of(double order, std::size_t count) {
+    std::vector<double> table;
+    table.reserve(count);
+    for (glsum::Weights weights(order); table.size() < count; weights.next()) {
+        table.push_back(weights.weight());
+    }
+    return table;
+}
+
+// The fewest taps that leave less than the error of the weights up to the horizon.
+std::optional<std::size_t> window_for(const std::vector<double>& weights, double error) {
+    double left = 0.0;
+    std::size_t taps = weights.size();
+    while (taps > 1 && left + std::fabs(weights[taps - 1]) <= error) {
+        left += std::fabs(weights[--taps]);
+    }
+    return taps < weights.size() ? std::optional(taps) : std::nullopt;
+}
+
+// The fewest coefficients whose best layout keeps the error, within a sixty-fourth; nothing where a window is as short.
+std::optional<std::size_t> blocks_for(const glsum::modes::Tail& tail, double error) {
+    std::size_t too_few = 1;
+    std::size_t enough = 2;
+    while (glsum::modes::design_blocks(tail, enough).error > error) {
+        too_few = enough;
+        enough *= 2;
+        if (enough > tail.horizon) {
+            return std::nullopt;
+        }
+    }
+    while (enough - too_few > std::max<std::size_t>(1, enough / 64)) {
+        const std::size_t middle = (enough + too_few) / 2;
+        (glsum::modes::design_blocks(tail, middle).error > error ? too_few : enough) = middle;
+    }
+    return enough;
+}
+
+void measure_error(Cost& cost, const std::vector<double>& weights) {
+    bench::HostLine<WithModes> line({.order = cost.order, .taps = cost.modes->cost(), .modes = cost.modes->modes});
+    if (line.status() != glsum::Status::ok) {
+        throw Failure(Exit::check_failed, bench::to_text(line.status()));
+    }
+    for (const std::string_view signal : signals) {
+        const std::vector<double> record = bench::make_signal(signal, cost.samples, bench::Sweep().seed);
+        const std::vector<double> sums = drive::whole_record_sums(weights, record);
+        WithModes::reset(line.state());
+        double largest = 0.0;
+        for (std::size_t k = 0; k < record.size(); ++k) {
+            largest = std::max(largest, std::fabs(line.step(record[k]) - sums[k]));
+        }
+        cost.largest_error = std::max(cost.largest_error, largest);
+    }
+    // The design's certificate, and the rounding of both sides in double.
+    cost.promised = bench::signal_peak * (cost.modes->error + 1e-11);
+}
+
+Json to_row(const Cost& cost, std::string_view kernel, std::size_t macs) {
+    Json row = bench::make_row(
+        fmt::format("horizon/{}/order:{}/error:{:g}/samples:{}", kernel, cost.order, cost.error, cost.samples),
+        cost.samples);
+    row["horizon_samples"] = cost.samples;
+    row["macs_per_sample"] = macs;
+    return row;
+}
+
+std::string to_table(double order, const std::vector<Cost>& costs) {
+    std::string text =
+        fmt::format("\nOrder {}\n  {:>8} {:>10}  {:>10} {:>10} {:>16} {:>12} {:>12} {:>8}\n", order, "error", "samples",
+                    "window", "blocks", "modes", "certificate", "error found", "cycles");
+    for (const Cost& cost : costs) {
+        const auto number = [](const std::optional<std::size_t>& value) {
+            return value ? fmt::format("{}", *value) : "all";
+        };
+        text += fmt::format("  {:>8g} {:>10}  {:>10} {:>10} {:>16} {:>12} {:>12} {:>8}{}\n", cost.error, cost.samples,
+                            number(cost.window), number(cost.blocks),
+                            cost.modes ? fmt::format("{} ({}+2x{})", cost.modes->cost(), cost.modes->near_taps,
+                                                     cost.modes->modes.size())
+                                       : "-",
+                            cost.modes ? fmt::format("{:.1e}", cost.modes->error) : "-",
+                            cost.modes ? fmt::format("{:.1e}", cost.largest_error) : "-",
+                            cost.cycles ? fmt::format("{:.0f}", *cost.cycles) : "-",
+                            cost.largest_error > cost.promised ? "  WRONG" : "");
+    }
+    return text;
+}
+
+// Multiplications over the horizon: a panel for each order and error.
+void plot(const std::vector<double>& orders, const std::vector<Cost>& all, const std::filesystem::path& stem) {
+    const std::size_t width = 280 + 260 * orders.size();
+    const std::size_t height = 110 + 230 * std::size(errors);
+    const auto wide = static_cast<double>(width);
+    const auto tall = static_cast<double>(height);
+    const auto shortest = static_cast<double>(all.front().samples);
+    const auto longest = static_cast<double>(all.back().samples);
+    std::string script = fmt::format(
+        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title \"Multiplications "
+        "a "
+        "sample for an error of the sum, over the samples that the past may hold\"\n"
+        "set logscale xy\nset format \"10^{{%L}}\"\nset xtics nomirror\nset ytics nomirror\nset mxtics 1\nset mytics "
+        "1\n"
+        "set grid lc rgb \"#dddddd\"\nset xrange [{}:{}]\nset yrange [3:{}]\n",
+        std::size(errors), orders.size(), 65.0 / wide, 1.0 - 235.0 / wide, 60.0 / tall, 1.0 - 70.0 / tall, 50.0 / wide,
+        60.0 / tall, shortest / 2.0, longest * 2.0, longest * 2.0);
+    const auto data_of = [&](std::size_t way, double order, double error) {
+        std::string data;
+        for (const Cost& cost : all) {
+            if (cost.order != order || cost.error != error) {
+                continue;
+            }
+            std::optional<std::size_t> macs = cost.window.value_or(cost.samples);
+            if (way == 1) {
+                macs = cost.blocks;
+            } else if (way == 2) {
+                macs = cost.modes ? std::optional(cost.modes->cost()) : std::nullopt;
+            }
+            data += macs ? fmt::format("{} {}\n", cost.samples, *macs) : "";
+        }
+        return data.empty() ? std::string("1000 NaN\n") : data;
+    };
+    constexpr std::string_view titles[] = {"window", "near taps and blocks", "near taps and modes"};
+    std::string key = fmt::format("set key at screen {:.4f}, screen {:.4f} left top Left reverse spacing 1.4",
+                                  1.0 - 222.0 / wide, 1.0 - 70.0 / tall);
+    for (const double error : errors) {
+        for (const double order : orders) {
+            std::vector<std::string> lines;
+            for (std::size_t way = 0; way < std::size(titles); ++way) {
+                script += fmt::format("$d{} << EOD\n{}EOD\n", way, data_of(way, order, error));
+                lines.push_back(
+                    fmt::format("$d{} using 1:2 with linespoints lw 1.8 pt {} ps 0.8 lc rgb \"{}\" title \"{}\"", way,
+                                5 + 2 * way, bench::palette[way], titles[way]));
+            }
+            script += fmt::format(
+                "set title \"order {}, error 10^{{{:.0f}}}\" offset 0,-0.6\nset xlabel \"{}\" offset 0,0.4\n{}\nplot "
+                "{}\n",
+                order, std::log10(error), error == errors[std::size(errors) - 1] ? "samples" : "", key,
+                fmt::join(lines, ", \\\n  "));
+            key = "unset key";
+        }
+    }
+    bench::draw({script + "unset multiplot\n", width, height}, stem);
+}
+
+// Modelled cycles of the designs in single precision. What was measured once is known.
+void measure_cycles(std::vector<Cost>& all, const std::string& core) {
+    constexpr const char* kernel = "modes_plain_f32";
+    std::map<std::pair<double, std::size_t>, std::size_t> planned;  // by order and cost: the plan's row
+    std::vector<qemu::PlannedRow> plan;
+    for (const Cost& cost : all) {
+        if (cost.modes && planned.emplace(std::pair(cost.order, cost.modes->cost()), plan.size()).second) {
+            plan.push_back({kernel, cost.order, cost.modes->cost(), 0,
+                            qemu::calls_to_measure(kernel, cost.modes->cost()), cost.modes->modes});
+        }
+    }
+    bench::Progress progress("emulated Cortex-M7", plan.size());
+    const auto measured = qemu::measure(
+        built_board(), plan, {bench::make_signal("noise", 1000, bench::Sweep().seed)}, [&] { progress.advance(); },
+        qemu::Counting::blocks, bench::timing_request(cores_folder(), {core}));
+    for (Cost& cost : all) {
+        if (cost.modes) {
+            cost.cycles = measured.at(planned.at({cost.order, cost.modes->cost()})).cores.at(0).cycles;
+        }
+    }
+}
+
+}  // namespace
+
+void run_horizon_bench(const HorizonBench& options) {
+    const std::vector<std::size_t> horizons = to_horizons(options.horizons);
+    const std::vector<double> orders = options.orders.empty() ? std::vector{0.2, 0.5, 0.9, 1.5, -0.5} : options.orders;
+    for (const double order : orders) {
+        if (!glsum::modes::has_tail(order)) {
+            throw Failure(Exit::bad_input,
+                          fmt::format("--orders: expected orders in (-1, 2) that are not whole, found {}", order));
+        }
+    }
+    bench::check_writable(options.out);
+    std::vector<Cost> all;
+    bench::Progress progress("designs", orders.size() * horizons.size() * std::size(errors));
+    for (const double order : orders) {
+        const std::vector<double> weights = weights_of(order, horizons.back() + 1);
+        for (const double error : errors) {
+            for (const std::size_t samples : horizons) {
+                const std::vector<double> seen(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(samples));
+                // The oldest sample that a record of N shows has the index N - 1.
+                const glsum::modes::Tail tail{order, samples - 1};
+                Cost cost{order, error, samples, window_for(seen, error), blocks_for(tail, error), design(tail, error)};
+                if (cost.modes) {
+                    measure_error(cost, seen);
+                }
+                all.push_back(std::move(cost));
+                progress.advance();
+            }
+        }
+    }
+    if (!options.core.empty()) {
+        measure_cycles(all, options.core);
+    }
+    std::string text =
+        "Multiplications a sample for an error of the sum (|x| <= 1, before h^-v) over the whole past: of a window, of "
+        "near\n"
+        "taps and blocks, of near taps and modes; the modes' certificate, the largest error found in double on step, "
+        "sine and\n";
+    text += fmt::format(
+        "noise of 0.9{}.\n",
+        options.core.empty() ? "" : "; modelled cycles of the same design in single precision, " + options.core);
+    std::vector<Json> rows;
+    std::size_t wrong = 0;
+    for (const double order : orders) {
+        std::vector<Cost> of_order;
+        std::copy_if(all.begin(), all.end(), std::back_inserter(of_order),
+                     [&](const Cost& cost) { return cost.order == order; });
+        text += to_table(order, of_order);
+    }
+    for (const Cost& cost : all) {
+        rows.push_back(to_row(cost, "window", cost.window.value_or(cost.samples)));
+        if (cost.blocks) {
+            rows.push_back(to_row(cost, "nested", *cost.blocks));
+        }
+        if (cost.modes) {
+            Json row = to_row(cost, "modes", cost.modes->cost());
+            row["near_taps"] = cost.modes->near_taps;
+            row["modes"] = cost.modes->modes.size();
+            row["design_error"] = cost.modes->error;
+            row["absolute_error_max"] = cost.largest_error;
+            if (cost.cycles) {
+                row["model_cycles_per_sample"] = *cost.cycles;
+            }
+            if (cost.largest_error > cost.promised) {
+                bench::mark_error(row,
+                                  fmt::format("errs by {:.3g}, promised {:.3g}", cost.largest_error, cost.promised));
+                ++wrong;
+            }
+            rows.push_back(row);
+        }
+    }
+    fmt::print("{}", text);
+    bench::Sweep sweep;
+    sweep.targets = {"host"};
+    sweep.cores.clear();
+    sweep.samples = horizons.back();
+    sweep.orders = orders;
+    sweep.signals.assign(std::begin(signals), std::end(signals));
+    Json context = bench::make_context(Json(), sweep, nullptr);
+    context["horizons"] = horizons;
+    context["core"] = options.core;
+    bench::write_results(options.out, context, rows);
+    std::filesystem::path stem = options.out;
+    stem.replace_extension();
+    plot(orders, all, stem);
+    fmt::print("\n{} rows in {}, drawn in {}.svg and .png\n", rows.size(), options.out.string(), stem.string());
+    if (wrong > 0) {
+        throw Failure(Exit::check_failed, fmt::format("{} designs err more than they promise; they are marked", wrong));
+    }
+}
+
+}  // namespace cli
