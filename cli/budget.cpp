@@ -9,6 +9,7 @@
 
 #include "bench/build_info.hpp"
 #include "bench/signals.hpp"
+#include "cli/board.hpp"
 #include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
 
@@ -63,13 +64,17 @@ std::shared_ptr<Budget> add_budget(CLI::App& command) {
         ->delimiter(',');
     command.add_option("--max-cycles", budget->max_cycles,
                        "Cycles a sample: the host's, or the timing model's upper end");
-    command.add_option("--max-instructions", budget->max_instructions, "Instructions a sample, --target m7");
+    command.add_option("--max-instructions", budget->max_instructions,
+                       "Instructions a sample, --target m7: ranked and limited in place of cycles");
     command.add_option("--max-bytes", budget->max_bytes, "Bytes of state and coefficients");
     command.add_option("--clock-hz", budget->clock_hz, "The core's clock: with --rate-hz, says the share of real time");
     command.add_option("--rate-hz", budget->rate_hz, "Samples a second");
     command.add_option("--target", budget->target, "host or m7");
-    command.add_option("--core", budget->core,
-                       "Core of the timing model, whose cycles decide if the results hold them");
+    command.add_option(
+        "--core", budget->core,
+        fmt::format("Core of the timing model, a file of qemu/cores, whose cycles are ranked and limited "
+                    "(default with --target m7: {}; with --max-instructions: none, instructions are)",
+                    default_core));
     command.add_option("--results", budget->results,
                        "Earlier measurements (default: results/latest.json if it is there); only rows of this very "
                        "build count, at h = 1 ms");
@@ -117,7 +122,8 @@ choose::Question to_question(const Budget& budget) {
         refuse(fmt::format("--samples: expected 2 to 8000, found {}", question.conditions.samples));
     }
     question.target = budget.target == "host" ? choose::Target::host : choose::Target::m7;
-    question.core = budget.core;
+    const bool counts = question.target == choose::Target::host || (budget.max_instructions && budget.core.empty());
+    question.core = counts ? "" : budget.core.empty() ? default_core : budget.core;
     question.kernels = choose::kernels_of(question.target);
     question.max_error = budget.max_error;
     question.max_cycles = budget.max_cycles;

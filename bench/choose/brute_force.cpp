@@ -203,9 +203,9 @@ Agreement check_against_brute_force(const Question& question, CostSource& costs,
 
 Agreement check_against_brute_force(const Question& question, const qemu::Board& board, std::size_t budgets,
                                     std::uint64_t seed) {
-    Instructions instructions(board, question.conditions.order, question.conditions.samples, question.conditions.seed,
-                              question.jobs);
-    return check_against_brute_force(question, instructions, budgets, seed);
+    OnTarget costs(board, question.conditions.order, question.conditions.samples, question.conditions.seed,
+                   question.jobs, question.core);
+    return check_against_brute_force(question, costs, budgets, seed);
 }
 
 }  // namespace choose

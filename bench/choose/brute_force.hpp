@@ -24,7 +24,7 @@ struct Agreement {
 [[nodiscard]] Agreement check_against_brute_force(const Question& question, CostSource& costs, std::size_t budgets,
                                                   std::uint64_t seed);
 
-/// The same on the emulated board, in instructions.
+/// The same on the emulated board, in modelled cycles or instructions as the question asks.
 [[nodiscard]] Agreement check_against_brute_force(const Question& question, const qemu::Board& board,
                                                   std::size_t budgets, std::uint64_t seed);
 

@@ -33,14 +33,19 @@ double quantile(std::vector<double> values, double share) {
 }  // namespace
 
 // The signal that bench counts on.
-Instructions::Instructions(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs)
-    : board_(std::move(board)), order_(order), signals_{bench::make_signal("noise", samples, seed + 1)}, jobs_(jobs) {}
+OnTarget::OnTarget(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs,
+                   const std::string& core)
+    : board_(std::move(board)), order_(order), signals_{bench::make_signal("noise", samples, seed + 1)}, jobs_(jobs) {
+    if (!core.empty()) {
+        timing_ = bench::timing_request(board_.cores, {core});
+    }
+}
 
-void Instructions::remember(const Case& of, const Cost& cost) { given_[of] = cost; }
+void OnTarget::remember(const Case& of, const Cost& cost) { given_[of] = cost; }
 
-bool Instructions::dear(const std::string& kernel) const { return bench::double_in_software(kernel); }
+bool OnTarget::dear(const std::string& kernel) const { return bench::double_in_software(kernel); }
 
-std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
+std::vector<Cost> OnTarget::costs(const std::vector<Case>& cases) {
     std::vector<qemu::PlannedRow> plan;
     std::vector<Case> planned;
     for (const Case& wanted : cases) {
@@ -64,11 +69,13 @@ std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
     }
     if (!plan.empty()) {
         bench::Progress progress("emulated Cortex-M7", plan.size());
-        const auto counted = bench::count_on_target(plan, signals_, board_, jobs_, [&] { progress.advance(); });
+        const auto counted = bench::count_on_target(
+            plan, signals_, board_, jobs_, [&] { progress.advance(); }, timing_);
         for (std::size_t i = 0; i < plan.size(); ++i) {
             const qemu::MeasuredRow& row = counted[i].row;
-            Cost cost{.value = row.instructions, .limited = row.instructions, .noise = 0.0, .bytes = 0.0, .fault = {}};
-            cost.bytes = static_cast<double>(row.state_bytes + row.coefficient_bytes);
+            Cost cost{.bytes = static_cast<double>(row.state_bytes + row.coefficient_bytes), .fault = {}};
+            cost.value = modelled() && !row.cores.empty() ? row.cores.front().cycles : row.instructions;
+            cost.limited = modelled() && !row.cores.empty() ? row.cores.front().high : row.instructions;
             if (row.status != glsum::Status::ok) {
                 cost.fault = bench::to_text(row.status);
             } else if (!counted[i].same_bits) {
@@ -81,48 +88,6 @@ std::vector<Cost> Instructions::costs(const std::vector<Case>& cases) {
     std::vector<Cost> costs;
     for (const Case& wanted : cases) {
         costs.push_back(known_.at(wanted));
-    }
-    return costs;
-}
-
-ModelCycles::ModelCycles(const std::vector<bench::Json>& rows, double order, const std::string& core,
-                         std::size_t samples) {
-    for (const bench::Json& row : rows) {
-        const auto key = bench::parse_key(row.value("name", ""));
-        if (!key || key->aspect != "m7:" + core || key->order != fmt::format("{}", order) ||
-            !row.contains("model_cycles_per_sample")) {
-            continue;
-        }
-        const std::optional<std::size_t> taps = taps_of(*key, order, samples);
-        if (!taps) {
-            continue;
-        }
-        Cost cost{
-            .value = number(row, "model_cycles_per_sample"), .limited = 0.0, .noise = 0.0, .bytes = 0.0, .fault = {}};
-        cost.limited = std::max(cost.value, number(row, "model_cycles_high"));
-        cost.bytes = number(row, "state_bytes") + number(row, "coefficient_bytes");
-        if (row.value("error_occurred", false)) {
-            cost.fault = row.value("error_message", "marked as wrong");
-        }
-        known_[{key->kernel, *taps}] = cost;
-    }
-}
-
-std::optional<std::vector<std::size_t>> ModelCycles::lengths(const std::string& kernel) const {
-    std::vector<std::size_t> lengths;
-    for (const auto& [of, cost] : known_) {
-        if (of.first == kernel) {
-            lengths.push_back(of.second);
-        }
-    }
-    return lengths;
-}
-
-std::vector<Cost> ModelCycles::costs(const std::vector<Case>& cases) {
-    std::vector<Cost> costs;
-    for (const Case& wanted : cases) {
-        const auto found = known_.find(wanted);
-        costs.push_back(found != known_.end() ? found->second : Cost{.fault = "no modelled cycles in the file"});
     }
     return costs;
 }

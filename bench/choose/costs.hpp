@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,25 +31,30 @@ public:
     [[nodiscard]] virtual std::string limited_unit() const = 0;  ///< of what is limited
     /// Whether equal code and length give equal costs, every time.
     [[nodiscard]] virtual bool exact() const = 0;
-    /// Rising, the lengths that have a cost at all; nothing: every length has.
-    [[nodiscard]] virtual std::optional<std::vector<std::size_t>> lengths(const std::string&) const { return {}; }
     /// Whether a kernel is known to be so dear that a short length should be measured before a long one.
     [[nodiscard]] virtual bool dear(const std::string&) const { return false; }
     [[nodiscard]] virtual std::vector<Cost> costs(const std::vector<Case>& cases) = 0;
 };
 
-/// Instructions a sample on the emulated Cortex-M7, the same for every run of the same firmware.
-class Instructions : public CostSource {
+/// Cycles of a modelled core a sample, or instructions, on the emulated Cortex-M7: the same for every run of the same
+/// firmware.
+class OnTarget : public CostSource {
 public:
-    /// \param samples  of the noise on which double precision in software, whose count depends on the data, is counted
-    Instructions(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs);
+    /// \param samples  of the noise on which double precision in software, whose cost depends on the data, is measured
+    /// \param core     a file of the board's cores; empty: instructions are counted
+    /// \throws glsum::Failure (bad input) for a core that has no file
+    OnTarget(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs,
+             const std::string& core = "");
     void remember(const Case& of, const Cost& cost);
 
-    [[nodiscard]] std::string unit() const override { return "instructions"; }
-    [[nodiscard]] std::string limited_unit() const override { return unit(); }
+    [[nodiscard]] bool modelled() const { return !timing_.cores.empty(); }
+    [[nodiscard]] std::string unit() const override { return modelled() ? "model cycles" : "instructions"; }
+    [[nodiscard]] std::string limited_unit() const override {
+        return modelled() ? "model cycles, upper end of the band" : unit();
+    }
     [[nodiscard]] bool exact() const override { return true; }
     [[nodiscard]] bool dear(const std::string& kernel) const override;
-    /// Each counted call's outputs are held against the host's, bit by bit.
+    /// Each measured call's outputs are held against the host's, bit by bit.
     [[nodiscard]] std::vector<Cost> costs(const std::vector<Case>& cases) override;
 
     [[nodiscard]] std::size_t measured() const { return measured_; }
@@ -61,27 +65,11 @@ private:
     double order_;
     qemu::Signals signals_;
     unsigned jobs_;
+    timing::TimingRequest timing_;
     std::map<Case, Cost> known_;
     std::map<Case, Cost> given_;
     std::size_t measured_ = 0;
     std::size_t remembered_ = 0;
-};
-
-/// Cycles of the timing model, of the lengths that a result file has.
-class ModelCycles : public CostSource {
-public:
-    /// The rows `gl/<kernel>/order:<v>/taps:<L>/m7:<core>` of the order.
-    ModelCycles(const std::vector<bench::Json>& rows, double order, const std::string& core, std::size_t samples);
-    [[nodiscard]] bool empty() const { return known_.empty(); }
-
-    [[nodiscard]] std::string unit() const override { return "model cycles"; }
-    [[nodiscard]] std::string limited_unit() const override { return "model cycles, upper end of the band"; }
-    [[nodiscard]] bool exact() const override { return true; }
-    [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
-    [[nodiscard]] std::vector<Cost> costs(const std::vector<Case>& cases) override;
-
-private:
-    std::map<Case, Cost> known_;
 };
 
 /// Nanoseconds a sample here: all cases of one call in one run, in interleaved repetitions, since times of different

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "bench/designs.hpp"
 #include "bench/signals.hpp"
 
@@ -80,7 +82,6 @@ Earlier read_earlier(const Question& question, const bench::Json& context) {
         return earlier;
     }
     const std::string firmware = difference(results.context, context, {"elf_sha256"});
-    earlier.instructions = firmware.empty();
     std::string build = difference(results.context, context, {"glsum_version", "compiler", "flags", "contraction"});
     const bool clean = text(results.context, "dirty") == "false" && text(context, "dirty") == "false";
     if (build.empty() && !firmware.empty()) {
@@ -95,13 +96,18 @@ Earlier read_earlier(const Question& question, const bench::Json& context) {
         build = "its records are sampled at 1 ms";
     }
     earlier.errors = build.empty();
-    earlier.rows = std::move(results.rows);
     earlier.note = fmt::format("errors: {}", earlier.errors ? "of " + name + " where it has them"
                                                             : "measured afresh, not of " + name + ": " + build);
     if (question.target == Target::m7) {
-        earlier.note += fmt::format("; instructions: {}", earlier.instructions ? "of " + name + " where it has them"
-                                                                               : "measured afresh: " + firmware);
+        // The file may have other cores too.
+        const std::string core = question.core.empty() ? "" : text(context, "core_file");
+        const bool same_core = text(results.context, "core_file").find(core) != std::string::npos;
+        const std::string why = !firmware.empty() ? firmware : same_core ? "" : core + " is not among its cores";
+        earlier.on_target = why.empty();
+        earlier.note += fmt::format("; {}: {}", core.empty() ? "instructions" : "model cycles",
+                                    why.empty() ? "of " + name + " where it has them" : "measured afresh: " + why);
     }
+    earlier.rows = std::move(results.rows);
     return earlier;
 }
 
@@ -116,24 +122,30 @@ void remember(const Earlier& earlier, const Question& question, MeasuredErrors& 
     });
 }
 
-void remember(const Earlier& earlier, const Question& question, Instructions& instructions) {
-    if (!earlier.instructions) {
+void remember(const Earlier& earlier, const Question& question, OnTarget& costs) {
+    if (!earlier.on_target) {
         return;
     }
+    const char* const counter = costs.modelled() ? "model_cycles_per_sample" : "instructions_per_sample";
+    const char* const limit = costs.modelled() ? "model_cycles_high" : counter;
     const std::string here = fmt::format("counted at order {}", question.conditions.order);
     for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
-        if (!key.aspect.starts_with("m7:") || !row.contains("instructions_per_sample")) {
+        if (costs.modelled() ? key.aspect != "m7:" + question.core : !key.aspect.starts_with("m7:")) {
+            return;
+        }
+        if (!row.contains(counter) || !row.contains(limit)) {
             return;
         }
         // In software double the data decides, and with it the order at which the count was taken.
         const std::string label = row.value("label", "");
-        if (instructions.dear(key.kernel) && label.find(here + ";") == std::string::npos) {
+        if (costs.dear(key.kernel) && label.find(here + ";") == std::string::npos) {
             return;
         }
         Cost cost;
-        cost.value = cost.limited = row.value("instructions_per_sample", 0.0);
+        cost.value = row.value(counter, 0.0);
+        cost.limited = std::max(cost.value, row.value(limit, 0.0));
         cost.bytes = row.value("state_bytes", 0.0) + row.value("coefficient_bytes", 0.0);
-        instructions.remember({key.kernel, taps}, cost);
+        costs.remember({key.kernel, taps}, cost);
     });
 }
 

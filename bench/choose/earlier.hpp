@@ -14,9 +14,9 @@ namespace choose {
 /// What of a result file may be used, and why the rest may not.
 struct Earlier {
     std::vector<bench::Json> rows;
-    bool errors = false;        ///< accuracy rows: same build, weights, record and seed, at h = 1 ms
-    bool instructions = false;  ///< m7:count rows: the same firmware, by its hash
-    std::string note;           ///< one sentence
+    bool errors = false;     ///< accuracy rows: same build, weights, record and seed, at h = 1 ms
+    bool on_target = false;  ///< m7 rows: the same firmware, by its hash, and of a modelled core the same file
+    std::string note;        ///< one sentence
 };
 
 /// How a question counts the length of a row; nothing for one that it does not ask for: longer than its record, or of
@@ -28,6 +28,6 @@ struct Earlier {
 
 /// Hands the usable rows to the sources.
 void remember(const Earlier& earlier, const Question& question, MeasuredErrors& errors);
-void remember(const Earlier& earlier, const Question& question, Instructions& instructions);
+void remember(const Earlier& earlier, const Question& question, OnTarget& costs);
 
 }  // namespace choose

@@ -22,6 +22,9 @@ bench::Json context_of(const Question& question, const std::optional<qemu::Board
     sweep.signals = question.conditions.signals;
     sweep.samples = question.conditions.samples;
     sweep.seed = question.conditions.seed;
+    if (!question.core.empty()) {
+        sweep.cores = {question.core};
+    }
     bench::Json context = bench::make_context({}, sweep, board ? &*board : nullptr);
     context["executable"] = "glsum choose";
     context["step_s"] = question.conditions.step_s;
@@ -38,34 +41,21 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
         note = "host times: taken in this run alone, 9 interleaved repetitions of each candidate, never of a file";
         return std::make_unique<HostTimes>(question.conditions.order, question.conditions.samples);
     }
-    if (!question.core.empty()) {
-        auto cycles =
-            std::make_unique<ModelCycles>(earlier.instructions ? earlier.rows : std::vector<bench::Json>{},
-                                          question.conditions.order, question.core, question.conditions.samples);
-        if (!cycles->empty()) {
-            if (question.max_instructions) {
-                throw Failure(Exit::bad_input, "--max-instructions: with modelled cycles use --max-cycles");
-            }
-            note = fmt::format("cycles: modelled for {}, at the lengths that the file has", question.core);
-            return cycles;
-        }
+    if (question.max_instructions && !question.core.empty()) {
+        throw Failure(Exit::bad_input, "--max-instructions: with --core use --max-cycles");
     }
-    if (question.max_cycles) {
-        throw Failure(Exit::missing,
-                      fmt::format("--max-cycles: no modelled cycles{} are known for this build and order; "
-                                  "--max-instructions limits what the emulator counts",
-                                  question.core.empty() ? "" : " of core " + question.core));
+    if (question.max_cycles && question.core.empty()) {
+        throw Failure(Exit::bad_input, "--max-cycles: with --max-instructions only instructions are counted");
     }
     if (!board) {
         throw Failure(Exit::missing, "the emulated board is needed for --target m7 and was not found");
     }
-    note = fmt::format(
-        "{}counted on the emulated Cortex-M7; instructions are not cycles",
-        question.core.empty() ? "" : fmt::format("no modelled cycles of core {} are known: ", question.core));
-    auto instructions = std::make_unique<Instructions>(*board, question.conditions.order, question.conditions.samples,
-                                                       question.conditions.seed, question.jobs);
-    remember(earlier, question, *instructions);
-    return instructions;
+    note = question.core.empty() ? "counted on the emulated Cortex-M7; instructions are not cycles"
+                                 : fmt::format("cycles: modelled for {}, on the emulated Cortex-M7", question.core);
+    auto costs = std::make_unique<OnTarget>(*board, question.conditions.order, question.conditions.samples,
+                                            question.conditions.seed, question.jobs, question.core);
+    remember(earlier, question, *costs);
+    return costs;
 }
 
 }  // namespace
@@ -99,9 +89,9 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
     answer.notes = {earlier.note, cost_note};
     answer.notes.push_back(fmt::format("{} records run through kernels for their errors, {} errors taken from the file",
                                        errors.measured(), errors.remembered()));
-    if (const auto* counted = dynamic_cast<const Instructions*>(costs.get())) {
+    if (const auto* counted = dynamic_cast<const OnTarget*>(costs.get())) {
         answer.notes.back() +=
-            fmt::format("; {} counts measured, {} taken from the file", counted->measured(), counted->remembered());
+            fmt::format("; {} costs measured, {} taken from the file", counted->measured(), counted->remembered());
     }
     if (const auto* timed = dynamic_cast<const HostTimes*>(costs.get())) {
         answer.notes.push_back("host cycles: " + timed->cycle_counter());
@@ -125,7 +115,7 @@ Answer measure_one(const Question& question, const std::string& kernel, std::siz
     std::string note;
     if (question.target == Target::m7 && !board) {
         candidate.cost.fault = "the emulated board was not found";
-        answer.unit = answer.limited_unit = "instructions";
+        answer.unit = answer.limited_unit = question.core.empty() ? "instructions" : "model cycles";
     } else {
         const auto costs = make_costs(question, {}, board, note);
         candidate.cost = costs->costs({{kernel, taps}}).front();

@@ -19,7 +19,7 @@ enum class Target { host, m7 };
 struct Question {
     Conditions conditions;
     Target target = Target::m7;
-    std::string core;                  ///< of the timing model; empty: none
+    std::string core;                  ///< of the timing model, whose cycles count; empty: instructions do
     std::vector<std::string> kernels;  ///< to choose among
     double max_error = 0.0;
     std::optional<double> max_cycles;
@@ -45,8 +45,8 @@ struct Answer {
 [[nodiscard]] std::vector<std::string> kernels_of(Target target);
 
 /// \param board  needed for the target m7; on the host it only says whether a file's rows are of this build
-/// \throws glsum::Failure (bad input) for limits that do not suit the target; (missing) for a limit on cycles where no
-///         modelled cycles are known.
+/// \throws glsum::Failure (bad input) for limits that do not suit the target; (missing) without a board for the target
+/// m7.
 [[nodiscard]] Answer answer(const Question& question, const std::optional<qemu::Board>& board);
 
 /// The error and cost of one kernel and length, whatever the limits: `chosen` of the answer. Without a board the

@@ -140,12 +140,6 @@ private:
     // every third time.
     std::size_t next_probe(const Candidate& last, std::size_t fits, std::size_t fails, const Limits& limits,
                            int round) const {
-        if (const auto known = costs_.lengths(last.kernel)) {
-            std::vector<std::size_t> between;
-            std::copy_if(known->begin(), known->end(), std::back_inserter(between),
-                         [&](std::size_t taps) { return taps > fits && taps < fails; });
-            return between.empty() ? 0 : between[between.size() / 2];
-        }
         if (fails - fits <= 1) {
             return 0;
         }

@@ -55,24 +55,18 @@ private:
     }
 
     void find_length(Fared& fared) {
-        const auto known = costs_.lengths(fared.kernel);
-        if (const auto lengths = known ? known : errors_.lengths(fared.kernel)) {
+        if (const auto lengths = errors_.lengths(fared.kernel)) {
             Reach reach;
             for (const std::size_t taps : *lengths) {
                 const ErrorAt at = errors_.error(fared.kernel, taps);
-                if (at.fault.empty() && at.error <= limits_.max_error && !reach.shortest) {
-                    reach.shortest = taps;
-                    if (!known) {
-                        break;
-                    }
-                }
                 if (reach.best_taps == 0 || at.error < reach.best.error) {
                     reach.best_taps = taps;
                     reach.best = at;
                 }
-            }
-            if (lengths->empty()) {
-                reach.best.fault = "no " + costs_.unit() + " of it are known";
+                if (at.fault.empty() && at.error <= limits_.max_error) {
+                    reach.shortest = taps;
+                    break;
+                }
             }
             take(fared, reach);
         } else {
@@ -144,17 +138,9 @@ private:
             if (!fared.best || fared.already || fared.best->cost.value > so_far + group_cost) {
                 continue;
             }
-            std::vector<std::size_t> lengths;
-            if (const auto known = costs_.lengths(fared.kernel)) {
-                lengths = *known;
-            } else {
-                for (std::size_t i = 1; i <= group_taps && fared.best->taps + i <= errors_.longest_of(fared.kernel);
-                     ++i) {
-                    lengths.push_back(fared.best->taps + i);
-                }
-            }
-            for (const std::size_t taps : lengths) {
-                if (taps > fared.best->taps && errors_.meets(fared.kernel, taps, limits_.max_error)) {
+            for (std::size_t i = 1; i <= group_taps && fared.best->taps + i <= errors_.longest_of(fared.kernel); ++i) {
+                const std::size_t taps = fared.best->taps + i;
+                if (errors_.meets(fared.kernel, taps, limits_.max_error)) {
                     longer.push_back(at(fared.kernel, taps));
                 }
             }
