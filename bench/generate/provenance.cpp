@@ -24,10 +24,10 @@ std::vector<std::string> provenance(const choose::Answer& answer, const std::str
         fmt::format("relative to the largest exact full-memory sum, the worst of {}",
                     fmt::join(question.conditions.signals, ", ")),
         chosen.cost.fault.empty()
-            ? fmt::format("Measured cost: {} a sample of the kernel that this is made from{}",
+            ? fmt::format("Measured cost a sample of the kernel that this is made from: {}{}",
                           choose::cost_text(answer, chosen),
                           on_target ? answer.unit == "instructions" ? ", on an emulated Cortex-M7: no cycles"
-                                                                    : " for " + question.core
+                                                                    : ", for " + question.core
                                     : " on " + text(answer.context, "cpu"))
             : fmt::format("Cost not measured: {}", chosen.cost.fault)};
     if (answer.choice.runner_up) {
