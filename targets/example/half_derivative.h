@@ -25,10 +25,10 @@
  *
  * Measured error 0.343 (ramp): the largest of S_k over 1000 samples at h = 0.001 s,
  * relative to the largest exact full-memory sum, the worst of step, ramp, sine1, sine5, sine50, noise, drive
- * Measured cost: 1215 instructions a sample of the kernel that this is made from, on an emulated Cortex-M7: no cycles
+ * Measured cost a sample of the kernel that this is made from: 1227.6 model cycles, at most 1289.2, for stm32f746-itcm
  *
  * Command: glsum generate --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
- * glsum 0.1.0, commit 0411df56c31582a2d309089ecda34d861074f15e with changes
+ * glsum 0.1.0, commit 4b998d9c9a7c0731f448e4a6ffd0e7ed861debf0
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
  * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
