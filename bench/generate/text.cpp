@@ -23,4 +23,8 @@ std::string fill(std::string_view text, const Places& places) {
     return filled;
 }
 
+std::string accumulate(bool fused) { return fused ? "@name@_fused_multiply_add" : "@name@_multiply_add"; }
+
+std::string rounded_once(bool fused) { return fused ? ", product and addition rounded once" : ""; }
+
 }  // namespace generate
