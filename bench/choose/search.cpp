@@ -15,6 +15,8 @@ namespace {
 // the rest of a group: so many instructions, so many taps.
 constexpr double group_cost = 64.0;
 constexpr std::size_t group_taps = 7;
+// In software double the data decides too, and what the branch predictor makes of it: a tenth.
+constexpr double dear_share = 0.1;
 // A kernel that is known to be dear is tried at this length first.
 constexpr std::size_t short_taps = 64;
 
@@ -135,7 +137,8 @@ private:
         const double so_far = std::min(least(), limits_.max_cost.value_or(std::numeric_limits<double>::infinity()));
         std::vector<Candidate> longer;
         for (const Fared& fared : choice_.kernels) {
-            if (!fared.best || fared.already || fared.best->cost.value > so_far + group_cost) {
+            const double group = group_cost + (costs_.dear(fared.kernel) ? dear_share * so_far : 0.0);
+            if (!fared.best || fared.already || fared.best->cost.value > so_far + group) {
                 continue;
             }
             for (std::size_t i = 1; i <= group_taps && fared.best->taps + i <= errors_.longest_of(fared.kernel); ++i) {
