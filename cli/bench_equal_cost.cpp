@@ -2,46 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
-
 #include "bench/context.hpp"
 #include "bench/equal_cost.hpp"
 #include "bench/files.hpp"
 #include "bench/result_file.hpp"
 #include "bench/signals.hpp"
 #include "bench/sweep.hpp"
-#include "qemu/failure.hpp"
+#include "cli/rising.hpp"
 
 namespace cli {
-namespace {
-
-using glsum::Exit;
-using glsum::Failure;
-
-std::vector<std::size_t> to_costs(const std::vector<std::string>& words) {
-    constexpr std::size_t fewest = 4;
-    constexpr std::size_t most = 600;
-    std::vector<std::size_t> costs;
-    for (const std::string& word : words) {
-        std::size_t cost = 0;
-        const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), cost);
-        if (fault != std::errc() || end != word.data() + word.size() || cost < fewest || cost > most) {
-            throw Failure(Exit::bad_input,
-                          fmt::format("--equal-cost: expected {} to {} multiplications, found {}", fewest, most, word));
-        }
-        costs.push_back(cost);
-    }
-    std::sort(costs.begin(), costs.end());
-    costs.erase(std::unique(costs.begin(), costs.end()), costs.end());
-    return costs;
-}
-
-}  // namespace
-
 void run_equal_cost_bench(const EqualCostBench& options) {
     bench::EqualCost wanted;
-    wanted.costs = to_costs(options.costs);
+    wanted.costs = to_rising(options.costs, {"--equal-cost", "multiplications", 4, 600});
     wanted.orders = options.orders.empty() ? wanted.orders : options.orders;
     wanted.signals = options.signals;
     if (wanted.signals.empty()) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -18,9 +17,9 @@
 #include "bench/sweep.hpp"
 #include "bench/target_rows.hpp"
 #include "cli/board.hpp"
+#include "cli/rising.hpp"
 #include "drive/whole_record.hpp"
 #include "glsum/registry.hpp"
-#include "glsum/weights.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "qemu/failure.hpp"
@@ -50,33 +49,6 @@ struct Cost {
     double promised = 0.0;       // the most that it may be
     std::optional<double> cycles = {};
 };
-
-std::vector<std::size_t> to_horizons(const std::vector<std::string>& words) {
-    constexpr std::size_t fewest = 100;
-    constexpr std::size_t most = 10'000'000;
-    std::vector<std::size_t> horizons;
-    for (const std::string& word : words) {
-        std::size_t samples = 0;
-        const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), samples);
-        if (fault != std::errc() || end != word.data() + word.size() || samples < fewest || samples > most) {
-            throw Failure(Exit::bad_input, fmt::format("--horizons: expected numbers of {} to {} samples, found {}",
-                                                       fewest, most, word));
-        }
-        horizons.push_back(samples);
-    }
-    std::sort(horizons.begin(), horizons.end());
-    horizons.erase(std::unique(horizons.begin(), horizons.end()), horizons.end());
-    return horizons;
-}
-
-std::vector<double> weights_of(double order, std::size_t count) {
-    std::vector<double> table;
-    table.reserve(count);
-    for (glsum::Weights weights(order); table.size() < count; weights.next()) {
-        table.push_back(weights.weight());
-    }
-    return table;
-}
 
 // The fewest taps that leave less than the error of the weights up to the horizon.
 std::optional<std::size_t> window_for(const std::vector<double>& weights, double error) {
@@ -236,7 +208,7 @@ void measure_cycles(std::vector<Cost>& all, const std::string& core) {
 }  // namespace
 
 void run_horizon_bench(const HorizonBench& options) {
-    const std::vector<std::size_t> horizons = to_horizons(options.horizons);
+    const std::vector<std::size_t> horizons = to_rising(options.horizons, {"--horizons", "samples", 100, 10'000'000});
     const std::vector<double> orders = options.orders.empty() ? std::vector{0.2, 0.5, 0.9, 1.5, -0.5} : options.orders;
     for (const double order : orders) {
         if (!glsum::modes::has_tail(order)) {
@@ -248,7 +220,7 @@ void run_horizon_bench(const HorizonBench& options) {
     std::vector<Cost> all;
     bench::Progress progress("designs", orders.size() * horizons.size() * std::size(errors));
     for (const double order : orders) {
-        const std::vector<double> weights = weights_of(order, horizons.back() + 1);
+        const std::vector<double> weights = drive::record_weights(order, horizons.back() + 1);
         for (const double error : errors) {
             for (const std::size_t samples : horizons) {
                 const std::vector<double> seen(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(samples));

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -20,11 +19,11 @@
 #include "bench/reference/sums.hpp"
 #include "bench/result_file.hpp"
 #include "bench/signals.hpp"
+#include "cli/rising.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/real_transform.hpp"
 #include "drive/whole_record.hpp"
 #include "glsum/registry.hpp"
-#include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -92,32 +91,6 @@ struct Size {
     Task task;
     std::vector<How> hows;
 };
-
-std::vector<std::size_t> to_sizes(const std::vector<std::string>& words) {
-    std::vector<std::size_t> sizes;
-    for (const std::string& word : words) {
-        std::size_t samples = 0;
-        const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), samples);
-        if (fault != std::errc() || end != word.data() + word.size() || samples < fewest_samples ||
-            samples > most_samples) {
-            throw Failure(Exit::bad_input, fmt::format("--records: expected numbers of {} to {} samples, found {}",
-                                                       fewest_samples, most_samples, word));
-        }
-        sizes.push_back(samples);
-    }
-    std::sort(sizes.begin(), sizes.end());
-    sizes.erase(std::unique(sizes.begin(), sizes.end()), sizes.end());
-    return sizes;
-}
-
-std::vector<double> weights_of(double order, std::size_t count) {
-    std::vector<double> table;
-    table.reserve(count);
-    for (glsum::Weights weights(order); table.size() < count; weights.next()) {
-        table.push_back(weights.weight());
-    }
-    return table;
-}
 
 std::vector<double> by_blocks(const Task& task) {
     drive::FastMemory memory(task.weights);
@@ -310,7 +283,8 @@ std::string to_table(double order, const std::vector<Size>& sizes) {
 }  // namespace
 
 void run_record_bench(const RecordBench& options) {
-    const std::vector<std::size_t> samples = to_sizes(options.records);
+    const std::vector<std::size_t> samples =
+        to_rising(options.records, {"--records", "samples", fewest_samples, most_samples});
     const std::vector<double> orders = options.orders.empty() ? std::vector{0.5, -0.5} : options.orders;
     const std::vector<std::string> signals =
         options.signals.empty() ? std::vector<std::string>{"step", "sine5", "noise"} : options.signals;
@@ -326,7 +300,9 @@ void run_record_bench(const RecordBench& options) {
         std::vector<Size> sizes;
         for (const std::size_t count : samples) {
             sizes.push_back(
-                {count, {weights_of(order, count), bench::make_signal("noise", count, bench::Sweep().seed)}, {}});
+                {count,
+                 {drive::record_weights(order, count), bench::make_signal("noise", count, bench::Sweep().seed)},
+                 {}});
             (void)drive::whole_record_sums(sizes.back().task.weights, sizes.back().task.record);
             (void)by_blocks(sizes.back().task);
         }

@@ -7,9 +7,19 @@
 #include <cmath>
 
 #include "drive/real_transform.hpp"
+#include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
 
 namespace drive {
+
+std::vector<double> record_weights(double order, std::size_t count) {
+    std::vector<double> table;
+    table.reserve(count);
+    for (glsum::Weights weights(order); table.size() < count; weights.next()) {
+        table.push_back(weights.weight());
+    }
+    return table;
+}
 namespace {
 
 constexpr std::size_t near_weights = 16;   // never in a transform

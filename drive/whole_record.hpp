@@ -27,6 +27,9 @@ namespace drive {
 /// record
 [[nodiscard]] std::vector<double> whole_record_sums(std::span<const double> weights, std::span<const double> record);
 
+/// a_0 ... a_(count-1) of an order, as `glsum::Weights` gives them: they make the sums those of the order.
+[[nodiscard]] std::vector<double> record_weights(double order, std::size_t count);
+
 /// How far each sum can be from the exact one of the given numbers, u being 2^-53:
 ///
 ///   u [ sum_{j<16} (j + 2) |w_j| max|x|  +  17 min(|w_far|_1 max|x|, |w_far|_2 |x|_2)  +  log2(M) |w_far|_2 |x|_2 ]

@@ -4,7 +4,7 @@ set -u
 program=$1
 . "$(dirname "$0")/expect.sh"
 fail() { echo "$*"; failures=$((failures + 1)); }
-expect 2 "--horizons: expected numbers of 100 to 10000000 samples, found 99" bench --horizons 99
+expect 2 "--horizons: expected 100 to 10000000 samples, found 99" bench --horizons 99
 expect 2 "found 1e3" bench --horizons 600,1e3
 expect 2 "that are not whole, found 1" bench --horizons 600 --orders 1
 expect 2 "that are not whole, found -1.5" bench --horizons 600 --orders=-1.5

@@ -4,7 +4,7 @@ set -u
 program=$1
 . "$(dirname "$0")/expect.sh"
 
-expect 2 "--records: expected numbers of 1000 to 10000000 samples, found 999" bench --records 999
+expect 2 "--records: expected 1000 to 10000000 samples, found 999" bench --records 999
 expect 2 "found 10000001" bench --records 1000,10000001
 expect 2 "found 1e5" bench --records 1e5
 expect 2 "found -5" bench --records=-5

@@ -12,7 +12,6 @@
 #include "bench/signals.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/real_transform.hpp"
-#include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
 
 namespace {
@@ -22,14 +21,6 @@ using drive::whole_record_error_bound;
 using drive::whole_record_sums;
 
 constexpr double orders[] = {0.5, 0.98319, 1.9909, -0.5};
-
-std::vector<double> weights_of(double order, std::size_t count) {
-    std::vector<double> table;
-    for (glsum::Weights weights(order); table.size() < count; weights.next()) {
-        table.push_back(weights.weight());
-    }
-    return table;
-}
 
 // The exact sum of the numbers as they are.
 reference::Exact exact_sum(std::span<const double> weights, std::span<const double> record, std::size_t k) {
@@ -57,7 +48,7 @@ double largest_error(std::span<const double> weights, std::span<const double> re
 TEST(WholeRecord, StaysWithinTheBoundThatItStates) {
     constexpr std::size_t samples = 20'000;
     for (const double order : orders) {
-        const auto weights = weights_of(order, samples);
+        const auto weights = drive::record_weights(order, samples);
         for (const char* signal : {"step", "ramp", "sine5", "sine50", "noise"}) {
             const auto record = bench::make_signal(signal, samples, 2020);
             const double error = largest_error(weights, record, 499);
@@ -74,13 +65,13 @@ TEST(WholeRecord, IsTheSumAtEveryLengthOfRecordAndTable) {
     const auto record = bench::make_signal("noise", 700, 7);
     for (const std::size_t samples : {1, 2, 7, 8, 9, 15, 16, 17, 127, 128, 129, 130, 144, 145, 257, 700}) {
         for (const std::size_t taps : {1, 2, 15, 16, 17, 127, 128, 129, 300, 700, 900}) {
-            const auto weights = weights_of(-0.5, taps);
+            const auto weights = drive::record_weights(-0.5, taps);
             const auto part = std::span(record).first(samples);
             EXPECT_LE(largest_error(weights, part, 1), whole_record_error_bound(weights, part))
                 << samples << " samples, " << taps << " weights";
         }
     }
-    EXPECT_TRUE(whole_record_sums(weights_of(0.5, 3), {}).empty());
+    EXPECT_TRUE(whole_record_sums(drive::record_weights(0.5, 3), {}).empty());
     EXPECT_THAT(whole_record_sums({}, std::vector<double>{1.0, 2.0}), testing::ElementsAre(0.0, 0.0));
 }
 
@@ -88,7 +79,7 @@ TEST(WholeRecord, IsTheSumAtEveryLengthOfRecordAndTable) {
 // is small.
 TEST(WholeRecord, KeepsTheFirstWeightsOutOfTheTransform) {
     constexpr std::size_t samples = 100'000;
-    const auto weights = weights_of(1.9909, samples);
+    const auto weights = drive::record_weights(1.9909, samples);
     const std::vector<double> ones(samples, 1.0);
     const double error = largest_error(weights, ones, 9973);
     EXPECT_LE(error, 5e-16);
@@ -96,7 +87,7 @@ TEST(WholeRecord, KeepsTheFirstWeightsOutOfTheTransform) {
 
 TEST(WholeRecord, AgreesWithTheSumsOfOneSampleAtATime) {
     constexpr std::size_t samples = 5000;
-    const auto weights = weights_of(0.5, samples);
+    const auto weights = drive::record_weights(0.5, samples);
     const auto record = bench::make_signal("noise", samples, 3);
     const auto sums = whole_record_sums(weights, record);
     drive::FastMemory memory(weights);
