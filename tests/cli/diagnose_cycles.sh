@@ -39,6 +39,20 @@ printf '%s\n' kernel,code,data,maintenance,taps,cycles,instructions shift_fir_q3
 expect 0 "different_binary" diagnose cycles --measured "$folder/other.csv" --json "$verdict"
 has '"verdict": "attributed"'
 
+# Blind: sealed before anything is diagnosed, each from its file, and what it says is right but for a case or two.
+expect 2 "expected --measured FILE or --blind N" diagnose cycles
+expect 2 "expected --out FOLDER" diagnose cycles --blind 2
+expect 2 "neither --measured nor --json" diagnose cycles --blind 2 --out "$folder/blind" --measured "$published"
+expect 0 "6 cases of stm32f746-itcm, sealed: sha256 " diagnose cycles --blind 6 --seed 1 --out "$folder/blind"
+hash=$(sed -n 's/.*sealed: sha256 //p' "$folder/said")
+[ "$hash" = "$(sha256sum "$folder/blind/truth.json" | cut -d ' ' -f 1)" ] || fail "the truth has another hash than was told"
+[ "$(grep -c '^  case-00[1-6].*' "$folder/said")" -eq 6 ] || fail "expected six lines; found $(cat "$folder/said")"
+[ "$(grep -c 'WRONG$' "$folder/said")" -le 1 ] || fail "more than one wrong of six; found $(cat "$folder/said")"
+cp "$folder/said" "$folder/blind.txt"
+# The same file by itself says the same.
+line=$(sed -n 's/^  case-005  *[a-z]* .*\(attributed\|no_gap\|unknown\|ambiguous\): .*/\1/p' "$folder/blind.txt")
+expect 0 "$line" diagnose cycles --measured "$folder/blind/case-005.csv" --core stm32f746-itcm
+
 expect 2 "expected the column" diagnose cycles --measured "$source/README.md"
 expect 2 "cannot read" diagnose cycles --measured "$folder/none.csv"
 expect 2 "m8" diagnose cycles --measured "$published" --core m8

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 
+#include "gap/cycles/blind.hpp"
 #include "gap/cycles/explain.hpp"
 
 namespace {
@@ -175,6 +178,64 @@ TEST(Cycles, WhatNoEffectDoesIsUnknown) {
     const Explanation found =
         diagnose("real", {}, [](const auto& row, const auto& p) { return p.nominal + 1.5e-2 * row.taps * row.taps; });
     EXPECT_EQ(found.verdict, "unknown");
+}
+
+TEST(BlindCycles, SecretsAreOfEveryKindAndRepeatWithTheirSeed) {
+    const std::vector<std::string> switches{"single_issue", "fpu_latency"};
+    const auto secrets = gap::cycles::draw_secrets(400, 7, switches);
+    std::map<std::string, int> kinds;
+    std::set<std::string> effects;
+    for (const auto& secret : secrets) {
+        ++kinds[secret.kind];
+        effects.insert(secret.effects.begin(), secret.effects.end());
+        EXPECT_EQ(secret.effects.size(), secret.kind == "two"                               ? 2U
+                                         : secret.kind == "switch" || secret.kind == "cost" ? 1U
+                                                                                            : 0U);
+    }
+    EXPECT_NEAR(kinds["nothing"], 100, 30);
+    EXPECT_NEAR(kinds["two"], 60, 25);
+    EXPECT_NEAR(kinds["unlisted"], 60, 25);
+    EXPECT_EQ(effects, (std::set<std::string>{"bus_contention", "cache_maintenance", "call_overhead", "clock_ratio",
+                                              "fpu_latency", "single_issue"}));
+    const auto again = gap::cycles::draw_secrets(400, 7, switches);
+    for (std::size_t i = 0; i < secrets.size(); ++i) {
+        EXPECT_EQ(secrets[i].effects, again[i].effects);
+        EXPECT_EQ(secrets[i].ratio, again[i].ratio);
+    }
+}
+
+TEST(BlindCycles, WhatWasDoneIsInTheRows) {
+    auto rows = gap::cycles::blind_rows();
+    ASSERT_EQ(rows.size(), 72U);
+    const std::vector<qemu::PredictedCycles> predicted(rows.size(), {1000.0, 0, 0, 100.0, 500, {}});
+    gap::cycles::measure(rows, predicted, {.kind = "cost", .ratio = 2.0, .overhead = 10.0, .maintenance = 50.0}, 1);
+    std::set<double> off;
+    for (const auto& row : rows) {
+        off.insert(row.cycles - (row.maintenance ? 2120.0 : 2020.0));
+    }
+    EXPECT_EQ(off, (std::set<double>{-1.0, 0.0, 1.0}));
+    gap::cycles::measure(rows, predicted, {.kind = "cost", .contention = 0.5}, 1);
+    EXPECT_NEAR(rows.front().cycles, 1000.0, 1.0);  // in ITCM and DTCM
+    EXPECT_NEAR(rows.back().cycles, 1450.0, 1.0);
+    gap::cycles::measure(rows, predicted, {.kind = "unlisted", .sawtooth = 1.0}, 1);
+    for (const auto& row : rows) {
+        EXPECT_NEAR(row.cycles, row.taps % 3 == 1 ? 1900.0 : 1000.0, 1.0) << row.taps;
+    }
+}
+
+TEST(BlindCycles, OnlyTheWholeAnswerIsRight) {
+    Explanation found{};
+    found.verdict = "attributed";
+    found.steps = {{"fpu_latency", {}, {}, 0, 0, 0}, {"call_overhead", {}, {}, 0, 0, 0}};
+    EXPECT_TRUE(names(found, {.kind = "two", .effects = {"call_overhead", "fpu_latency"}}));
+    EXPECT_FALSE(names(found, {.kind = "switch", .effects = {"fpu_latency"}}));
+    EXPECT_FALSE(names(found, {.kind = "nothing"}));
+    EXPECT_FALSE(names(found, {.kind = "unlisted"}));
+    found.verdict = "unknown";
+    EXPECT_FALSE(names(found, {.kind = "two", .effects = {"call_overhead", "fpu_latency"}}));
+    EXPECT_TRUE(names(found, {.kind = "unlisted"}));
+    found.verdict = "no_gap";
+    EXPECT_TRUE(names(found, {.kind = "nothing"}));
 }
 
 }  // namespace

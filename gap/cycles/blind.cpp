@@ -1,0 +1,125 @@
+#include "gap/cycles/blind.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "gap/cycles/evidence.hpp"
+
+namespace gap::cycles {
+namespace {
+
+// The same numbers everywhere: of the engine's bits, not by the library's distributions.
+class Draw {
+public:
+    explicit Draw(std::uint64_t seed) : engine_(seed) {}
+    double between(double low, double high) {
+        return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1p-53;
+    }
+    std::size_t below(std::size_t count) {
+        return std::min(count - 1, static_cast<std::size_t>(between(0.0, static_cast<double>(count))));
+    }
+
+private:
+    std::mt19937_64 engine_;
+};
+
+void add_switch(Secret& secret, Draw& draw, const std::vector<std::string>& switches) {
+    secret.without.push_back(switches[draw.below(switches.size())]);
+    secret.effects.push_back(secret.without.back());
+}
+
+// Sizes that the rows can show: these calls take some hundred cycles.
+void add_cost(Secret& secret, Draw& draw) {
+    switch (draw.below(4)) {
+        case 0:
+            secret.overhead = std::round(draw.between(15.0, 60.0));
+            secret.effects.emplace_back("call_overhead");
+            break;
+        case 1:
+            secret.maintenance = std::round(draw.between(40.0, 200.0));
+            secret.effects.emplace_back("cache_maintenance");
+            break;
+        case 2:
+            secret.ratio = draw.below(2) == 0 ? draw.between(0.7, 0.92) : draw.between(1.08, 1.5);
+            secret.effects.emplace_back("clock_ratio");
+            break;
+        default:
+            secret.contention = draw.between(0.1, 0.4);
+            secret.effects.emplace_back("bus_contention");
+    }
+}
+
+}  // namespace
+
+std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed, const std::vector<std::string>& switches) {
+    Draw draw(seed);
+    std::vector<Secret> secrets;
+    while (secrets.size() < cases) {
+        const double kind = draw.between(0.0, 1.0);
+        Secret secret;
+        if (kind < 0.25) {
+            secret.kind = "nothing";
+        } else if (kind < 0.40) {
+            secret.kind = "two";
+            add_switch(secret, draw, switches);
+            add_cost(secret, draw);
+        } else if (kind < 0.55) {
+            secret.kind = "unlisted";
+            secret.sawtooth = draw.between(0.15, 0.4);
+        } else if (kind < 0.775) {
+            secret.kind = "switch";
+            add_switch(secret, draw, switches);
+        } else {
+            secret.kind = "cost";
+            add_cost(secret, draw);
+        }
+        std::sort(secret.effects.begin(), secret.effects.end());
+        secrets.push_back(std::move(secret));
+    }
+    return secrets;
+}
+
+std::vector<qemu::MeasuredCycles> blind_rows() {
+    std::vector<qemu::MeasuredCycles> rows;
+    for (const char* kernel : {"shift_fir_q31", "shift_firfma_f32", "ring_plain_q31", "ring_plain_f32",
+                               "mirror_multi_f32", "mirror_smlald_q15"}) {
+        for (const bool on_bus : {false, true}) {
+            for (const std::uint32_t taps : {10U, 20U, 40U, 64U, 100U, 128U}) {
+                rows.push_back({kernel, on_bus ? "flash_cached" : "itcm", on_bus ? "axi" : "dtcm", on_bus, taps, 0.0,
+                                static_cast<unsigned>(rows.size() + 2)});
+            }
+        }
+    }
+    return rows;
+}
+
+void measure(std::vector<qemu::MeasuredCycles>& rows, const std::vector<qemu::PredictedCycles>& predicted,
+             const Secret& secret, std::uint64_t seed) {
+    Draw draw(seed);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        double call = predicted[i].nominal - predicted[i].beside;
+        call *= on_bus(rows[i]) ? 1.0 + secret.contention : 1.0;
+        call *= rows[i].taps % 3 == 1 ? 1.0 + secret.sawtooth : 1.0;
+        const double beside = predicted[i].beside + secret.overhead + (rows[i].maintenance ? secret.maintenance : 0.0);
+        const double counter = static_cast<double>(draw.below(3)) - 1.0;
+        rows[i].cycles = std::max(1.0, std::round(secret.ratio * (call + beside)) + counter);
+    }
+}
+
+bool names(const Explanation& found, const Secret& secret) {
+    if (secret.kind == "nothing") {
+        return found.verdict == "no_gap";
+    }
+    if (secret.kind == "unlisted") {
+        return found.verdict == "unknown";
+    }
+    std::vector<std::string> named;
+    for (const Step& step : found.steps) {
+        named.push_back(step.effect);
+    }
+    std::sort(named.begin(), named.end());
+    return found.verdict == "attributed" && named == secret.effects;
+}
+
+}  // namespace gap::cycles

@@ -1,0 +1,43 @@
+// Measured cycles of cores that nobody told the diagnosis: secret switches and costs of the timing model, and a counter
+// that is not exact.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gap/cycles/explain.hpp"
+
+namespace gap::cycles {
+
+/// What was done to a core.
+struct Secret {
+    std::string kind;                       ///< nothing, switch, cost, two, unlisted
+    std::vector<std::string> effects = {};  ///< that the diagnosis is to name, sorted; of `unlisted` none
+    std::vector<std::string> without = {};  ///< effects of the model that it does not pay
+    double ratio = 1.0;                     ///< of the clocks: all cycles
+    double overhead = 0.0;                  ///< cycles a call
+    double maintenance = 0.0;               ///< and beside them where caches are maintained
+    double contention = 0.0;                ///< a part of the call's cycles where it is on the bus
+    double sawtooth = 0.0;                  ///< of the cycles of lengths 3 n + 1: what no listed effect does
+};
+
+/// A quarter nothing, 15 % two at once, 15 % unlisted, of the rest half a switch and half a cost.
+/// \param switches  effects of the model that these rows show: what a switch takes away
+[[nodiscard]] std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed,
+                                               const std::vector<std::string>& switches);
+
+/// The rows of a blind case: kernels of each number format, loops of published measurements among them, in the fastest
+/// memory and over the bus with caches maintained, six lengths each. Their cycles are 0.
+[[nodiscard]] std::vector<qemu::MeasuredCycles> blind_rows();
+
+/// Sets the rows' cycles: what a core predicts without the secret's switches, its costs, and a counter that is a cycle
+/// off in either direction two times of three.
+void measure(std::vector<qemu::MeasuredCycles>& rows, const std::vector<qemu::PredictedCycles>& predicted,
+             const Secret& secret, std::uint64_t seed);
+
+/// Whether an explanation says what was done: no gap of nothing, `unknown` of what is not listed, else every effect and
+/// no other.
+[[nodiscard]] bool names(const Explanation& found, const Secret& secret);
+
+}  // namespace gap::cycles
