@@ -118,6 +118,15 @@ bool names(const Explanation& found, const Secret& secret) {
     for (const Step& step : found.steps) {
         named.push_back(step.effect);
     }
+    if (found.verdict == "ambiguous") {
+        // What cannot be told apart: one of the alternatives beside the steps.
+        return std::any_of(found.alternatives.begin(), found.alternatives.end(), [&](const Step& other) {
+            std::vector<std::string> together = named;
+            together.push_back(other.effect);
+            std::sort(together.begin(), together.end());
+            return together == secret.effects;
+        });
+    }
     std::sort(named.begin(), named.end());
     return found.verdict == "attributed" && named == secret.effects;
 }

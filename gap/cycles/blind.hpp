@@ -37,7 +37,7 @@ void measure(std::vector<qemu::MeasuredCycles>& rows, const std::vector<qemu::Pr
              const Secret& secret, std::uint64_t seed);
 
 /// Whether an explanation says what was done: no gap of nothing, `unknown` of what is not listed, else every effect and
-/// no other.
+/// no other; of an ambiguous one with one of its alternatives (a slower clock looks like interrupts).
 [[nodiscard]] bool names(const Explanation& found, const Secret& secret);
 
 }  // namespace gap::cycles

@@ -77,19 +77,31 @@ std::vector<Step> steps_to(Evidence& evidence, const State& found, State now, co
                          },
                          {{"factor", has}}});
     }
-    if (std::fabs(found.overhead - now.overhead) > cost_worth) {
+    // Another clock takes the costs beside the call along: what is left of them is a cause, to a twentieth.
+    const auto is_cause = [&](double State::*cost) {
+        const double along = now.*cost * found.ratio;
+        return std::fabs(found.*cost - along) > std::max(cost_worth, found.ratio != 1.0 ? 0.05 * along : 0.0);
+    };
+    const bool overhead = is_cause(&State::overhead);
+    const bool maintenance = is_cause(&State::maintenance);
+    if (overhead) {
         moves.push_back({"call_overhead",
                          [&found](State& state) { state.overhead = found.overhead; },
                          {{"cycles", found.overhead}}});
     }
-    if (std::fabs(found.maintenance - now.maintenance) > cost_worth) {
+    if (maintenance) {
         moves.push_back({"cache_maintenance",
                          [&found](State& state) { state.maintenance = found.maintenance; },
                          {{"cycles", found.maintenance}}});
     }
     if (found.ratio != 1.0) {
-        moves.push_back(
-            {"clock_ratio", [&found](State& state) { state.ratio = found.ratio; }, {{"ratio", found.ratio}}});
+        moves.push_back({"clock_ratio",
+                         [&found, overhead, maintenance](State& state) {
+                             state.ratio = found.ratio;
+                             state.overhead = overhead ? state.overhead : found.overhead;
+                             state.maintenance = maintenance ? state.maintenance : found.maintenance;
+                         },
+                         {{"ratio", found.ratio}}});
     }
     if (found.contention != 0.0) {
         moves.push_back({"bus_contention",

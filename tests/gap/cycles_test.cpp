@@ -180,6 +180,20 @@ TEST(Cycles, WhatNoEffectDoesIsUnknown) {
     EXPECT_EQ(found.verdict, "unknown");
 }
 
+TEST(Cycles, AClockAndASwitchAtOnceAreParted) {
+    for (const char* effect : {"single_issue", "store_buffer", "load_bank_conflict"}) {
+        for (const double ratio : {0.8, 1.3}) {
+            const Explanation found =
+                diagnose("real", {effect}, [&](const auto&, const auto& p) { return ratio * p.nominal; });
+            std::vector<std::string> both{"clock_ratio", effect};
+            std::sort(both.begin(), both.end());
+            EXPECT_TRUE(names(found, {.kind = "two", .effects = both}))
+                << effect << ' ' << ratio << ' ' << found.verdict;
+            EXPECT_EQ(found.verdict, ratio > 1.0 ? "ambiguous" : "attributed");
+        }
+    }
+}
+
 TEST(BlindCycles, SecretsAreOfEveryKindAndRepeatWithTheirSeed) {
     const std::vector<std::string> switches{"single_issue", "fpu_latency"};
     const auto secrets = gap::cycles::draw_secrets(400, 7, switches);
@@ -231,6 +245,10 @@ TEST(BlindCycles, OnlyTheWholeAnswerIsRight) {
     EXPECT_FALSE(names(found, {.kind = "switch", .effects = {"fpu_latency"}}));
     EXPECT_FALSE(names(found, {.kind = "nothing"}));
     EXPECT_FALSE(names(found, {.kind = "unlisted"}));
+    found.verdict = "ambiguous";
+    EXPECT_FALSE(names(found, {.kind = "two", .effects = {"call_overhead", "fpu_latency"}}));
+    found.alternatives = {{"interrupt_load", {}, {}, 0, 0, 0}, {"clock_ratio", {}, {}, 0, 0, 0}};
+    EXPECT_TRUE(names(found, {.kind = "two", .effects = {"call_overhead", "clock_ratio", "fpu_latency"}}));
     found.verdict = "unknown";
     EXPECT_FALSE(names(found, {.kind = "two", .effects = {"call_overhead", "fpu_latency"}}));
     EXPECT_TRUE(names(found, {.kind = "unlisted"}));
