@@ -60,13 +60,17 @@ std::string_view not_a_finite_number(std::string_view text, std::size_t position
     refuse(fmt::format("{}:{}: expected JSON, found '{}'", name, line, near));
 }
 
-// What fields are, wherever they occur in a row: others may be numbers, texts or booleans.
+// What fields are, wherever they occur in a row: counters are numbers, others may be numbers, texts or booleans.
 const std::map<std::string_view, Json::value_t> known_fields = {
     {"name", Json::value_t::string},          {"run_name", Json::value_t::string},
     {"run_type", Json::value_t::string},      {"aggregate_name", Json::value_t::string},
     {"label", Json::value_t::string},         {"time_unit", Json::value_t::string},
     {"error_message", Json::value_t::string}, {"error_occurred", Json::value_t::boolean},
 };
+
+// Of the context, what is more than shown and compared.
+const std::map<std::string, Json::value_t> known_context = {
+    {"commit", Json::value_t::string}, {"history", Json::value_t::array}};
 
 // Builds rows as they come, and refuses a hostile file before it fills the memory.
 class Reader : public nlohmann::json_sax<Json> {
@@ -114,6 +118,13 @@ public:
     Results take() {
         if (!has_rows_) {
             refuse(fmt::format("{}: expected a result file with an array benchmarks, found other JSON", name_));
+        }
+        for (const auto& [field, type] : known_context) {
+            const auto found = results_.context.find(field);
+            if (found != results_.context.end() && found->type() != type) {
+                refuse(fmt::format("{}: context: {}: expected {}, found {}", name_, field,
+                                   type == Json::value_t::array ? "an array" : "a text", found->dump().substr(0, 60)));
+            }
         }
         return std::move(results_);
     }
@@ -216,13 +227,15 @@ private:
 
     void add_field(Json found) {
         const auto known = known_fields.find(key_);
-        const bool expected = known != known_fields.end()
-                                  ? found.type() == known->second
-                                  : found.is_number() || found.is_string() || found.is_boolean();
+        const bool is_known = known != known_fields.end();
+        const bool is_count = !is_known && is_counter(key_);
+        const bool expected = is_known ? found.type() == known->second
+                                       : found.is_number() || (!is_count && (found.is_string() || found.is_boolean()));
         if (!expected) {
             refuse(fmt::format("{} ({}): {}: expected {}, found {}", at(), row_.value("name", "without a name yet"),
                                key_,
-                               known == known_fields.end()               ? "a finite number, a text or a boolean"
+                               is_count                                  ? "a finite number"
+                               : !is_known                               ? "a finite number, a text or a boolean"
                                : known->second == Json::value_t::boolean ? "a boolean"
                                                                          : "a text",
                                found.dump().substr(0, 60)));

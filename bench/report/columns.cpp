@@ -22,39 +22,6 @@
 namespace bench::report {
 namespace {
 
-// The counters that a page shows, besides stall_<cause>.
-constexpr std::array<std::string_view, 30> counters = {
-    "error_max",
-    "error_rms",
-    "rounding_error_max",
-    "truncation_error_max",
-    "discretisation_error_max",
-    "saturations",
-    "effective_taps",
-    "macs_per_sample",
-    "horizon_samples",
-    "coefficient_bytes",
-    "state_bytes",
-    "code_bytes",
-    "stack_bytes",
-    "real_time",
-    "ns_per_sample",
-    "cycles_per_sample",
-    "instructions_per_sample",
-    "loads_per_sample",
-    "stores_per_sample",
-    "branches_per_sample",
-    "first_instructions",
-    "worst_instructions",
-    "model_cycles_per_sample",
-    "model_cycles_low",
-    "model_cycles_high",
-    "first_model_cycles",
-    "worst_model_cycles",
-    "latency_model_cycles",
-    "iterations",
-    "repetition_index",
-};
 constexpr std::size_t most_stalls = 64;
 constexpr std::size_t longest_text = 300;
 
@@ -116,8 +83,7 @@ struct Table {
     }
     void set_number(const std::string& field, double number) {
         const auto [found, is_new] = known.try_emplace(field, nullptr);
-        if (is_new &&
-            (field.starts_with("stall_") || std::find(counters.begin(), counters.end(), field) != counters.end())) {
+        if (is_new && is_counter(field)) {
             found->second = &numbers[field];
         }
         if (found->second != nullptr) {

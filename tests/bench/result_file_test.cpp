@@ -103,6 +103,14 @@ TEST(ResultFile, OtherFilesAreRefusedWithAReason) {
     EXPECT_THAT(refusal("{\"benchmarks\": [{\"label\": true, \"name\": \"a\"}]}"),
                 HasSubstr("label: expected a text, found true"));
     EXPECT_THAT(refusal("{\"benchmarks\": [{\"name\": \"a\", \"x\": null}]}"), HasSubstr("(a): x: expected"));
+    EXPECT_THAT(refusal("{\"benchmarks\": [{\"name\": \"a\", \"state_bytes\": \"two\"}]}"),
+                HasSubstr("row 1 of benchmarks (a): state_bytes: expected a finite number, found \"two\""));
+    EXPECT_THAT(refusal("{\"benchmarks\": [{\"name\": \"a\", \"stall_load_use\": false}]}"),
+                HasSubstr("(a): stall_load_use: expected a finite number, found false"));
+    EXPECT_THAT(refusal("{\"context\": {\"commit\": 3}, \"benchmarks\": []}"),
+                HasSubstr("a.json: context: commit: expected a text, found 3"));
+    EXPECT_THAT(refusal("{\"context\": {\"history\": {}}, \"benchmarks\": []}"),
+                HasSubstr("history: expected an array, found {}"));
     std::string many = "{\"context\": {\"a\": [0";
     for (std::size_t i = 0; i < bench::ResultLimits::context_values; ++i) {
         many += ",0";
