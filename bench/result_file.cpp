@@ -69,8 +69,8 @@ const std::map<std::string_view, Json::value_t> known_fields = {
 };
 
 // Of the context, what is more than shown and compared.
-const std::map<std::string, Json::value_t> known_context = {
-    {"commit", Json::value_t::string}, {"history", Json::value_t::array}};
+const std::map<std::string, Json::value_t> known_context = {{"commit", Json::value_t::string},
+                                                            {"history", Json::value_t::array}};
 
 // Builds rows as they come, and refuses a hostile file before it fills the memory.
 class Reader : public nlohmann::json_sax<Json> {

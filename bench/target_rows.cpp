@@ -86,6 +86,7 @@ void add_modelled(Json& row, const qemu::ModelledCall& call, double clock_hz) {
     for (std::size_t e = 0; e < timing::effect_count; ++e) {
         row[fmt::format("stall_{}", timing::effect_names[e])] = call.lost[e];
     }
+    row[fmt::format("stall_{}", timing::double_in_software)] = call.double_in_software;
 }
 
 std::vector<double> clocks_of(const timing::TimingRequest& request) {

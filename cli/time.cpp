@@ -127,6 +127,7 @@ void run(const Options& options) {
     Distribution instructions;
     std::vector<Distribution> half_cycles;  // the nominal set, then what spans the band
     std::vector<Distribution> losses(timing::effect_count);
+    Distribution in_double;
     std::uint64_t calls = 0;
     for (const timing::TimedRun& run : log.runs) {
         calls += run.calls;
@@ -139,6 +140,7 @@ void run(const Options& options) {
         for (std::size_t e = 0; e < losses.size(); ++e) {
             losses[e].add(time.losses[e], run.calls);
         }
+        in_double.add(time.double_in_software, run.calls);
     }
     const auto cycles = [](std::int64_t half) { return static_cast<double>(half) / 2.0; };
     double low = cycles(half_cycles[0].median());
@@ -167,6 +169,7 @@ void run(const Options& options) {
     for (std::size_t e = 0; e < losses.size(); ++e) {
         json["stalls"][std::string(timing::effect_names[e])] = cycles(losses[e].median());
     }
+    json["stalls"][std::string(timing::double_in_software)] = cycles(in_double.median());
     std::vector<std::pair<std::int64_t, std::uint32_t>> hot;
     for (const auto& [address, half] : log.hot.empty() ? std::map<std::uint32_t, std::int64_t>{} : log.hot[0]) {
         hot.emplace_back(half, address);
@@ -194,10 +197,20 @@ void run(const Options& options) {
                instructions.max());
     fmt::print("{:<16} {:>12.1f} {:>12.1f} {:>12.1f}   band {:.1f} to {:.1f}\n\n", "model cycles",
                cycles(half_cycles[0].min()), cycles(half_cycles[0].median()), cycles(half_cycles[0].max()), low, high);
-    fmt::print("{:<24} {:>12}   (median of the calls)\n", "lost to", "cycles");
+    fmt::print("{:<28} {:>12}   (median of the calls)\n", "lost to", "cycles");
     for (std::size_t e = 0; e < losses.size(); ++e) {
         if (losses[e].max() > 0) {
-            fmt::print("{:<24} {:>12.1f}\n", timing::effect_names[e], cycles(losses[e].median()));
+            fmt::print("{:<28} {:>12.1f}\n", timing::effect_names[e], cycles(losses[e].median()));
+        }
+    }
+    if (in_double.max() > 0) {
+        fmt::print("{:<28} {:>12.1f}   (all cycles within its routines)\n", timing::double_in_software,
+                   cycles(in_double.median()));
+    }
+    for (const std::string& effect : options.without) {
+        if (std::find(timing::effects_beside_a_call.begin(), timing::effects_beside_a_call.end(), effect) !=
+            timing::effects_beside_a_call.end()) {
+            fmt::print("{:<28} {:>12.1f}   (lies beside a call, which is what is timed here)\n", effect, 0.0);
         }
     }
     fmt::print("\n{:<12} {:>12}  {:<24} {}\n", "address", "cycles", "symbol", "instruction, all calls together");

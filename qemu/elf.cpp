@@ -276,6 +276,11 @@ const Function* Elf::function_at(std::uint32_t address) const {
     return address - function.address < function.bytes ? &function : nullptr;
 }
 
+std::uint32_t Elf::end_of_function(std::uint32_t address) const {
+    const auto found = functions_.lower_bound(address);
+    return found == functions_.end() ? address : found->first == address ? address + found->second.bytes : found->first;
+}
+
 const unsigned char* Elf::at(std::uint32_t address, std::size_t length) const {
     for (const Section& section : sections_) {
         if (address >= section.address && address - section.address + length <= section.bytes.size()) {

@@ -30,6 +30,11 @@ public:
     void check_runs_on_cortex_m7() const;
     /// The function that holds an address.
     [[nodiscard]] const Function* function_at(std::uint32_t address) const;
+    /// Behind the last byte of the function that begins at an address: by its symbol's size, or, where that has none,
+    /// where the next function begins.
+    [[nodiscard]] std::uint32_t end_of_function(std::uint32_t address) const;
+    /// Addresses by name; of functions without the Thumb bit.
+    [[nodiscard]] const std::map<std::string, std::uint32_t>& symbols() const { return symbols_; }
     /// The word at an address of a loaded section. \throws glsum::Failure when there is none.
     [[nodiscard]] std::uint32_t word(std::uint32_t address) const;
     [[nodiscard]] std::string text(std::uint32_t address, std::size_t length) const;

@@ -5,13 +5,21 @@
 
 namespace qemu {
 
-MarkedTimer::Part::Part(const std::set<std::uint32_t>& entries, const std::vector<timing::CoreFile>& cores,
-                        std::ostream& log)
-    : writer(log), timer(entries, cores, [this](const timing::TimedCall& call) { writer.add(call); }) {}
+MarkedTimer::Part::Part(const MarkedTimer& whole)
+    : writer(whole.log_),
+      timer(
+          whole.entries_, whole.cores_, [this](const timing::TimedCall& call) { writer.add(call); },
+          whole.double_routines_) {}
 
 MarkedTimer::MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores,
-                         std::optional<Marks> marks, std::ostream& log)
-    : entries_(std::move(entries)), cores_(std::move(cores)), marks_(marks), log_(log), on_(!marks) {
+                         std::optional<Marks> marks, std::ostream& log,
+                         std::vector<timing::AddressRange> double_routines)
+    : entries_(std::move(entries)),
+      cores_(std::move(cores)),
+      marks_(marks),
+      log_(log),
+      double_routines_(std::move(double_routines)),
+      on_(!marks) {
     if (on_) {
         begin_part();
     }
@@ -45,6 +53,6 @@ void MarkedTimer::finish() {
     on_ = false;
 }
 
-void MarkedTimer::begin_part() { part_ = std::make_unique<Part>(entries_, cores_, log_); }
+void MarkedTimer::begin_part() { part_ = std::make_unique<Part>(*this); }
 
 }  // namespace qemu

@@ -30,9 +30,10 @@ class MarkedTimer final : public StreamConsumer {
 public:
     /// \param entries  addresses of the functions to time
     /// \param marks    without: the whole program is one part, timed from the start
+    /// \param double_routines  see timing::CallTimer
     /// \param log      receives one timing log a part, each with its end
     MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores, std::optional<Marks> marks,
-                std::ostream& log);
+                std::ostream& log, std::vector<timing::AddressRange> double_routines = {});
 
     /// Whether the instruction is a mark's first: `meets_mark` is then to be called in place of `executes`.
     [[nodiscard]] bool is_mark(std::uint32_t address) const;
@@ -50,7 +51,7 @@ private:
     struct Part {
         timing::TimingLogWriter writer;
         timing::CallTimer timer;
-        Part(const std::set<std::uint32_t>& entries, const std::vector<timing::CoreFile>& cores, std::ostream& log);
+        explicit Part(const MarkedTimer& whole);
     };
     void begin_part();
 
@@ -58,6 +59,7 @@ private:
     std::vector<timing::CoreFile> cores_;
     std::optional<Marks> marks_;
     std::ostream& log_;
+    std::vector<timing::AddressRange> double_routines_;
     std::unique_ptr<Part> part_;
     bool on_;
 };

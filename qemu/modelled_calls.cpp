@@ -47,6 +47,7 @@ std::vector<ModelledCall> modelled_calls(const timing::TimingLog& log, const fir
                 for (std::size_t e = 0; e < timing::effect_count; ++e) {
                     modelled.lost[e] += share * static_cast<double>(time.losses[e]) / 2.0;
                 }
+                modelled.double_in_software += share * static_cast<double>(time.double_in_software) / 2.0;
             }
         }
         if (++used == run->calls) {

@@ -21,6 +21,7 @@ struct ModelledCall {
     double worst_cycles;                            ///< of the timed calls once the past is full
     double latency_cycles;                          ///< from sample to result: of the first half, else `cycles`
     std::array<double, timing::effect_count> lost;  ///< of `cycles`, to each effect
+    double double_in_software = 0.0;  ///< of `cycles`, within the routines that compute in double precision
     bool operator==(const ModelledCall&) const = default;
 };
 

@@ -7,6 +7,7 @@
 
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
+#include "qemu/software_double.hpp"
 
 namespace qemu {
 
@@ -22,7 +23,9 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
             watch << entry << '\n';
         }
         std::ofstream out(scratch.file("request"));
-        timing::write_timing_request(out, request);
+        timing::TimingRequest whole = request;
+        whole.double_routines = double_routines(Elf(elf));
+        timing::write_timing_request(out, whole);
         std::ofstream of_marks(scratch.file("marks"));
         if (marks) {
             of_marks << marks->row << ' ' << marks->on << ' ' << marks->off << '\n';

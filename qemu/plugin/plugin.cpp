@@ -36,9 +36,9 @@ struct Timing {
     qemu::MarkedTimer timer;
     std::uint64_t executed = 0;  // instructions, but for the first of each block
     std::uint64_t before = 0;    // the present block
-    Timing(const std::set<std::uint32_t>& entries, std::vector<timing::CoreFile> cores,
+    Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
-        : log(path), timer(entries, std::move(cores), marks, log) {}
+        : log(path), timer(entries, timing::cores_of(request), marks, log, request.double_routines) {}
 };
 
 struct Options {
@@ -255,8 +255,8 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
     if (!options.request_path.empty()) {
         try {
             std::ifstream request(options.request_path);
-            timing = std::make_unique<Timing>(options.entries, timing::cores_of(timing::read_timing_request(request)),
-                                              options.marks, options.times_path);
+            timing = std::make_unique<Timing>(options.entries, timing::read_timing_request(request), options.marks,
+                                              options.times_path);
         } catch (const std::exception& error) {
             std::fprintf(stderr, "plugin: %s\n", error.what());
             return 1;

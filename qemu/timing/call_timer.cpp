@@ -11,8 +11,8 @@ CallTimer::Core::Core(const CoreFile& core)
     : file(core), surroundings(core.sets[0].figures, core.placement), replay(core) {}
 
 CallTimer::CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
-                     std::function<void(const TimedCall&)> done)
-    : entries_(std::move(entries)), done_(std::move(done)) {
+                     std::function<void(const TimedCall&)> done, std::vector<AddressRange> double_routines)
+    : entries_(std::move(entries)), double_routines_(std::move(double_routines)), done_(std::move(done)) {
     for (const CoreFile& core : cores) {
         cores_.push_back(std::make_unique<Core>(core));
         call_.cores.emplace_back().half_cycles.resize(3);
@@ -52,6 +52,10 @@ CallTimer::Piece& CallTimer::piece_of(std::vector<std::unique_ptr<Piece>>& piece
     piece = std::make_unique<Piece>();
     piece->code.index = index;
     piece->entry = entries_.contains(instructions.front().address);
+    piece->in_double_routine =
+        std::any_of(double_routines_.begin(), double_routines_.end(), [&](const AddressRange& range) {
+            return range.begin <= instructions.front().address && instructions.front().address < range.end;
+        });
     piece->met.resize(cores_.size());
     for (const qemu::Instruction& instruction : instructions) {
         const Prepared* one = prepared(instruction);
@@ -121,6 +125,12 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
     for (std::size_t c = 0; c < cores_.size(); ++c) {
         cores_[c]->surroundings.meet(std::span(lines).first(done), accesses_, next, piece.met[c]);
     }
+    for (const auto& core : cores_) {
+        if (piece.in_double_routine) {
+            core->before = core->replay.core().positions();
+            core->lost_before = core->replay.core().losses();
+        }
+    }
     if (ends || begins || done < lines.size()) {
         time_by_steps(piece, done, ends, begins);
         if (done < lines.size()) {
@@ -131,6 +141,9 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
             cores_[c]->replay.execute(piece.code, piece.met[c], inside_);
         }
         call_.instructions += inside_ ? done : 0;
+    }
+    if (piece.in_double_routine && inside_) {
+        leave_double_routine();
     }
     const CodeBlock::Line& last = lines[done - 1];
     const Decoded& d = last.instruction->decoded;
@@ -161,14 +174,29 @@ void CallTimer::time_by_steps(const Piece& piece, std::size_t done, bool ends, b
     }
 }
 
+// All that its block took, whatever it was lost to.
+void CallTimer::leave_double_routine() {
+    for (const auto& core : cores_) {
+        for (std::size_t s = 0; s < core->in_double.size(); ++s) {
+            core->in_double[s] += core->replay.core().positions()[s] - core->before[s];
+        }
+        for (std::size_t e = 0; e < effect_count; ++e) {
+            core->lost_in_double[e] += core->replay.core().losses()[e] - core->lost_before[e];
+        }
+    }
+}
+
 void CallTimer::begin_call(std::uint32_t entry) {
     inside_ = true;
     depth_ = returns_.size();
     call_.entry = entry;
     call_.instructions = 0;
     for (std::size_t c = 0; c < cores_.size(); ++c) {
-        cores_[c]->begun = cores_[c]->replay.core().positions();
-        call_.cores[c].losses = cores_[c]->replay.core().losses();
+        Core& core = *cores_[c];
+        core.begun = core.before = core.replay.core().positions();
+        core.lost_before = call_.cores[c].losses = core.replay.core().losses();
+        core.in_double = {};
+        core.lost_in_double = {};
     }
 }
 
@@ -177,13 +205,16 @@ void CallTimer::end_call() {
         const Core& core = *cores_[c];
         std::array<std::int64_t, CoreFile::most_sets> taken{};
         for (std::size_t s = 0; s < taken.size(); ++s) {
-            taken[s] = core.replay.core().positions()[s] - core.begun[s];
+            taken[s] = core.replay.core().positions()[s] - core.begun[s] -
+                       (core.file.double_in_software_off ? core.in_double[s] : 0);
         }
         const Band band = band_of(core.file, std::span(taken).first(core.file.sets.size()));
         call_.cores[c].half_cycles = {taken[0], band.low, band.high};
         for (std::size_t e = 0; e < effect_count; ++e) {
-            call_.cores[c].losses[e] = core.replay.core().losses()[e] - call_.cores[c].losses[e];
+            call_.cores[c].losses[e] =
+                core.replay.core().losses()[e] - call_.cores[c].losses[e] - core.lost_in_double[e];
         }
+        call_.cores[c].double_in_software = core.file.double_in_software_off ? 0 : core.in_double[0];
     }
     inside_ = false;
     done_(call_);

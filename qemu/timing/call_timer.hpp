@@ -19,10 +19,17 @@
 
 namespace timing {
 
+struct AddressRange {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;  ///< behind its last byte
+};
+
 /// What one core takes for one call.
 struct CoreTime {
     std::vector<std::int64_t> half_cycles;  ///< nominal, and the low and high edge of its band
     Losses losses{};                        ///< half cycles, of the nominal set
+    std::int64_t double_in_software = 0;    ///< half cycles within the double routines, of the nominal set: no losses
+    bool operator==(const CoreTime&) const = default;
 };
 
 struct TimedCall {
@@ -33,10 +40,11 @@ struct TimedCall {
 
 class CallTimer final : public qemu::StreamConsumer {
 public:
-    /// \param entries  addresses of the watched functions' first instructions (no Thumb bit)
-    /// \param done     called at the end of each call
+    /// \param entries          addresses of the watched functions' first instructions (no Thumb bit)
+    /// \param done             called at the end of each call
+    /// \param double_routines  what computes in double precision where the core has no unit: told apart
     CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
-              std::function<void(const TimedCall&)> done);
+              std::function<void(const TimedCall&)> done, std::vector<AddressRange> double_routines = {});
 
     void executes(const qemu::Instruction& instruction) override;
     void accesses(const qemu::Access& access) override { accesses_.push_back(access); }
@@ -62,6 +70,7 @@ private:
     struct Piece {
         CodeBlock code;
         bool entry = false;
+        bool in_double_routine = false;
         ItBlock it_block_behind;
         std::vector<std::uint32_t> unknown;  // addresses
         std::vector<BlockEvents> met;        // by core
@@ -70,7 +79,13 @@ private:
         CoreFile file;
         Surroundings surroundings;
         BlockReplay replay;
-        std::array<std::int64_t, CoreFile::most_sets> begun{};  // positions at the call's beginning
+        using Positions = std::array<std::int64_t, CoreFile::most_sets>;
+        // Where the core stands, and what it has lost: at the call's beginning, before a block, within double routines.
+        Positions begun{};
+        Positions before{};
+        Positions in_double{};
+        Losses lost_before{};
+        Losses lost_in_double{};
         explicit Core(const CoreFile& core);
     };
     const Prepared* prepared(const qemu::Instruction& instruction);
@@ -79,10 +94,12 @@ private:
     void flush(std::size_t done, std::uint32_t next);
     void follow_calls(std::uint32_t address);
     void time_by_steps(const Piece& piece, std::size_t done, bool ends, bool begins);
+    void leave_double_routine();
     void end_call();
     void begin_call(std::uint32_t entry);
 
     std::set<std::uint32_t> entries_;
+    std::vector<AddressRange> double_routines_;
     std::vector<std::unique_ptr<Core>> cores_;
     std::function<void(const TimedCall&)> done_;
     std::vector<std::unique_ptr<Prepared>> prepared_;  // by index of the instruction

@@ -114,7 +114,7 @@ struct Collected {
     std::map<std::string, Origin> rows;
     std::map<std::string, Rival> rivals;
     std::optional<Placement> placement;
-    Effects off;
+    std::vector<std::string> off;
     std::string note;
     std::string text;
 };
@@ -199,11 +199,11 @@ void collect(const std::filesystem::path& folder, const std::string& name, std::
                 reject(node, "expected effects_off = [\"..\"]");
             }
             for (const toml::node& one : *names) {
-                const auto effect = effect_named(one.value_or(std::string()));
-                if (!effect) {
-                    reject(one, "effects_off: no such effect: " + one.value_or(std::string("?")));
+                CoreFile any;
+                into.off.push_back(one.value_or(std::string("?")));
+                if (!switch_off(any, into.off.back())) {
+                    reject(one, "effects_off: no such effect: " + into.off.back());
                 }
-                into.off.set(index(*effect));
             }
         } else if (word == "rows") {
             if (node.as_table() == nullptr) {
@@ -250,6 +250,25 @@ std::vector<std::string> core_names(const std::filesystem::path& folder) {
     return names;
 }
 
+bool switch_off(CoreFile& core, std::string_view effect) {
+    if (const auto of_core = effect_named(effect)) {
+        core.off.set(index(*of_core));
+    } else if (effect == double_in_software) {
+        core.double_in_software_off = true;
+    } else if (std::find(effects_beside_a_call.begin(), effects_beside_a_call.end(), effect) ==
+               effects_beside_a_call.end()) {
+        return false;
+    }
+    for (RuleSet& set : core.sets) {
+        if (effect == "call_overhead") {
+            set.figures.measurement_counter_reads = 0;
+        } else if (effect == "cache_maintenance") {
+            set.figures.measurement_maintenance = 0;
+        }
+    }
+    return true;
+}
+
 CoreFile read_core(const std::filesystem::path& folder, const std::string& name) {
     const std::filesystem::path file = folder / (name + ".toml");
     if (!std::filesystem::exists(file) || name.starts_with("_")) {
@@ -265,7 +284,6 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
     CoreFile core;
     core.name = name;
     core.note = collected.note;
-    core.off = collected.off;
     core.text = collected.text;
     if (!collected.placement) {
         throw Failure(Exit::bad_input, file.string() + ": expected placement = { code = \"..\", data = \"..\" }");
@@ -297,6 +315,9 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
     if (core.sets.size() > CoreFile::most_sets) {
         throw Failure(Exit::bad_input, file.string() + ": expected at most " + std::to_string(CoreFile::most_sets - 1) +
                                            " rival sets, found " + std::to_string(core.sets.size() - 1));
+    }
+    for (const std::string& effect : collected.off) {
+        (void)switch_off(core, effect);  // known: checked where it was read
     }
     return core;
 }

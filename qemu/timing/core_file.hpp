@@ -65,7 +65,8 @@ struct CoreFile {
     std::string name;
     std::string note;
     Placement placement;
-    Effects off;                  ///< effects that cost nothing in this core
+    Effects off;  ///< effects that cost nothing in this core
+    bool double_in_software_off = false;
     std::vector<RuleSet> sets;    ///< the nominal one first
     std::vector<Origin> origins;  ///< of the nominal set, in the order of rows.def
     std::string text;             ///< of all files that it was read from, for its hash
@@ -75,6 +76,10 @@ struct CoreFile {
 /// \throws glsum::Failure: bad input, with file and line, for a damaged file, a missing or unknown key, an effect that
 ///         does not exist; missing (with the names that exist) when there is no such core
 [[nodiscard]] CoreFile read_core(const std::filesystem::path& folder, const std::string& name);
+
+/// Makes an effect cost nothing, one of the contract's: of the core, of double precision in software, of the
+/// measurement. \return false when there is none of that name
+[[nodiscard]] bool switch_off(CoreFile& core, std::string_view effect);
 
 /// The cores that a folder holds, sorted. Files that begin with an underscore are only for others to be based on.
 [[nodiscard]] std::vector<std::string> core_names(const std::filesystem::path& folder);

@@ -1,5 +1,4 @@
-// The causes of lost cycles that the model tells apart: the cycle effects of the diagnosis, as far as they arise inside
-// the core and its memories.
+// The causes of lost cycles that the model tells apart. Together they are the cycle effects of the diagnosis.
 #pragma once
 
 #include <array>
@@ -9,6 +8,7 @@
 
 namespace timing {
 
+/// What rules of the pipeline and its memories make a core pay.
 enum class Effect : std::uint8_t {
     single_issue,        ///< the second slot of a cycle stays empty; instructions that take several cycles to issue
     result_latency,      ///< of the ALU, of flags, of a division
@@ -39,6 +39,13 @@ inline constexpr std::array<std::string_view, effect_count> effect_names{
     }
     return std::nullopt;
 }
+
+/// Paid by programs, not by a rule: all that the routines take which compute in double precision without a unit.
+inline constexpr std::string_view double_in_software = "double_precision_in_software";
+/// Of the measurement, the board and the build. Core files hold figures for the first two, which lie beside a call; no
+/// core file pays for the others.
+inline constexpr std::array<std::string_view, 6> effects_beside_a_call{
+    "call_overhead", "cache_maintenance", "clock_ratio", "interrupt_load", "bus_contention", "different_binary"};
 
 [[nodiscard]] constexpr std::size_t index(Effect effect) { return static_cast<std::size_t>(effect); }
 

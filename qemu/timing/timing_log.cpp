@@ -16,7 +16,7 @@ bool same(const TimedCall& a, const TimedCall& b) {
         return false;
     }
     for (std::size_t c = 0; c < a.cores.size(); ++c) {
-        if (a.cores[c].half_cycles != b.cores[c].half_cycles || a.cores[c].losses != b.cores[c].losses) {
+        if (a.cores[c] != b.cores[c]) {
             return false;
         }
     }
@@ -45,6 +45,7 @@ void TimingLogWriter::write_run() {
         for (const std::int64_t loss : core.losses) {
             out_ << ' ' << loss;
         }
+        out_ << ' ' << core.double_in_software;
     }
     out_ << '\n';
     run_ = {};
@@ -93,6 +94,7 @@ TimingLog read_timing_log(std::istream& in) {
                 for (std::int64_t& loss : core.losses) {
                     words >> loss;
                 }
+                words >> core.double_in_software;
                 if (!words || word != "core") {
                     throw std::runtime_error("timing log: damaged line: " + line);
                 }
@@ -131,6 +133,9 @@ TimingLog read_timing_log(std::istream& in) {
 void write_timing_request(std::ostream& out, const TimingRequest& request) {
     const auto word = [](const std::string& text) { return text.empty() ? "-" : text; };
     out << "folder " << request.cores_folder << '\n';
+    for (const AddressRange& range : request.double_routines) {
+        out << "double " << range.begin << ' ' << range.end << '\n';
+    }
     for (const auto& core : request.cores) {
         out << "core " << core.name << ' ' << word(core.code) << ' ' << word(core.data) << ' ' << core.instruction_cache
             << ' ' << word(core.set);
@@ -149,6 +154,10 @@ TimingRequest read_timing_request(std::istream& in) {
         words >> kind;
         if (kind == "folder") {
             std::getline(words >> std::ws, request.cores_folder);
+        } else if (kind == "double") {
+            AddressRange range;
+            words >> range.begin >> range.end;
+            request.double_routines.push_back(range);
         } else if (kind == "core") {
             TimingRequest::Core core;
             words >> core.name >> core.code >> core.data >> core.instruction_cache >> core.set;
@@ -166,36 +175,20 @@ TimingRequest read_timing_request(std::istream& in) {
 
 namespace {
 
-Effects effects_named(const std::vector<std::string>& names) {
-    Effects effects;
-    for (const std::string& name : names) {
-        const auto effect = effect_named(name);
-        if (!effect) {
+void switch_off_all(CoreFile& core, const std::vector<std::string>& effects) {
+    for (const std::string& effect : effects) {
+        if (!switch_off(core, effect)) {
             std::string known;
             for (const std::string_view one : effect_names) {
                 known += " " + std::string(one);
             }
-            // What a measurement has and the core alone has not: nothing to switch off in a model without it.
-            constexpr std::string_view outside[] = {"double_precision_in_software",
-                                                    "cache_maintenance",
-                                                    "call_overhead",
-                                                    "clock_ratio",
-                                                    "interrupt_load",
-                                                    "bus_contention",
-                                                    "different_binary"};
-            const bool is_outside = std::find(std::begin(outside), std::end(outside), name) != std::end(outside);
-            throw glsum::Failure(
-                glsum::Exit::bad_input,
-                name +
-                    (is_outside
-                         ? ": an effect outside the core, nothing of the model to switch off (diagnose cycles looks "
-                           "for it in measured cycles); expected one of"
-                         : ": no such effect of the model; expected one of") +
-                    known);
+            known += " " + std::string(double_in_software);
+            for (const std::string_view one : effects_beside_a_call) {
+                known += " " + std::string(one);
+            }
+            throw glsum::Failure(glsum::Exit::bad_input, effect + ": no such effect; expected one of" + known);
         }
-        effects.set(index(*effect));
     }
-    return effects;
 }
 
 void keep_only(CoreFile& core, const std::string& set) {
@@ -218,7 +211,7 @@ std::vector<CoreFile> cores_of(const TimingRequest& request) {
     std::vector<CoreFile> cores;
     for (const auto& wanted : request.cores) {
         CoreFile core = read_core(request.cores_folder, wanted.name);
-        core.off |= effects_named(wanted.without);
+        switch_off_all(core, wanted.without);
         if (!wanted.set.empty()) {
             keep_only(core, wanted.set);
         }

@@ -55,6 +55,7 @@ struct TimingRequest {
     };
     std::string cores_folder;
     std::vector<Core> cores;
+    std::vector<AddressRange> double_routines = {};  ///< of the program, see software_double.hpp
 };
 void write_timing_request(std::ostream& out, const TimingRequest& request);
 [[nodiscard]] TimingRequest read_timing_request(std::istream& in);

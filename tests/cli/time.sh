@@ -58,6 +58,7 @@ KEEP float dot(const float *x, const float *y, int n) {
     return sum;
 }
 KEEP int uneven(int n) { int s = 0; for (int i = 0; i < n; i++) { s += i; __asm__ volatile("" : "+r"(s)); } return s; }
+KEEP double power(double x, int n) { double y = 1; for (int i = 0; i < n; i++) y = y * x + 0.5; return y; } /* no double unit */
 static inline __attribute__((always_inline)) int gone(int x) { return x ^ 5; }
 KEEP void never(void) { for (;;) sink++; }
 KEEP void uncalled(void) { sink = 7; }
@@ -69,6 +70,7 @@ int main(int argc, char **argv) {
     sink = fib(6);
     sink = (int)dot(a, b, 64);
     for (int i = 1; i <= 4; i++) sink = uneven(10 * i);
+    sink = (int)power(0.75, 40);
     sink = gone(sink);
     for (int i = 0; i < MANY; i++) sink = leaf(i);
 #ifdef HANG
@@ -82,7 +84,7 @@ build() {  # OUT OPTION...
     out=$1
     shift
     arm-none-eabi-gcc $core -O2 -g0 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/map.ld" "$folder/start.c" \
-        "$@" -o "$folder/$out" 2>"$folder/said" || { cat "$folder/said"; exit 1; }
+        "$@" -lgcc -o "$folder/$out" 2>"$folder/said" || { cat "$folder/said"; exit 1; }
 }
 build own.elf "$folder/main.c"
 
@@ -138,6 +140,18 @@ has "$folder/dot.json" '"data": "axi"'
 [ "$(printf '%s\n%s\n' "$fast" "$slow" | sort -g | head -n 1)" = "$fast" ] && [ "$fast" != "$slow" ] ||
     fail "dot: expected fewer cycles in ITCM ($fast) than in flash without caches ($slow)"
 timed dot --without fpu_latency
+
+# Double precision in software: all cycles within its routines are told apart, and can be taken away.
+share_of() { tr -d ' \n' <"$1" | sed 's/.*"double_precision_in_software":\([0-9.]*\).*/\1/'; }
+timed dot
+[ "$(share_of "$folder/dot.json")" = 0.0 ] || fail "dot: expected nothing in double precision, found $(share_of "$folder/dot.json")"
+timed power
+whole=$(median_of "$folder/power.json") in_double=$(share_of "$folder/power.json")
+timed power --without double_precision_in_software,interrupt_load
+grep -q '^interrupt_load  .*beside a call' "$folder/said" || fail "power: expected to be told that interrupts lie beside a call"
+rest=$(median_of "$folder/power.json")
+[ "$(share_of "$folder/power.json")" = 0.0 ] && echo "$whole $in_double $rest" | awk '{exit !($1 == $2 + $3 && $2 > $1 / 2 && $3 > 0)}' ||
+    fail "power: expected the share in double precision and the rest to sum to the whole, found $in_double + $rest of $whole"
 expect 0 "m7-ideal" time --elf "$folder/own.elf" --function dot --core m7-ideal
 
 # Wrong use, each with one clear error.
@@ -147,7 +161,6 @@ expect 1 "never called" time --elf "$folder/own.elf" --function uncalled
 expect 2 "--place" time --elf "$folder/own.elf" --function dot --place stack=dtcm
 expect 2 "code" time --elf "$folder/own.elf" --function dot --place code=sram
 expect 2 "no such effect" time --elf "$folder/own.elf" --function dot --without magic
-expect 2 "outside the core" time --elf "$folder/own.elf" --function dot --without interrupt_load
 expect 2 "no such core" time --elf "$folder/own.elf" --function dot --core no-such-core
 expect 2 "$folder/none.elf" time --elf "$folder/none.elf" --function dot
 expect 2 "$folder/start.c" time --elf "$folder/start.c" --function dot

@@ -8,6 +8,7 @@
 
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
+#include "qemu/software_double.hpp"
 
 namespace {
 
@@ -86,6 +87,29 @@ TEST(Elf, FindsSymbolsFunctionsAndWords) {
     EXPECT_FALSE(elf.symbol("nothing_of_this_name"));
     EXPECT_EQ(elf.function_at(0xF0000000), nullptr);
     EXPECT_THROW((void)elf.word(0xF0000000), glsum::Failure);
+}
+
+TEST(Elf, TellsTheRoutinesThatComputeInDoublePrecision) {
+    if (!std::filesystem::exists(measure_elf)) {
+        GTEST_SKIP() << "no " << measure_elf;
+    }
+    const qemu::Elf elf(measure_elf);
+    const std::vector<timing::AddressRange> ranges = qemu::double_routines(elf);
+    const auto holds = [&](std::uint32_t address) {
+        return std::any_of(ranges.begin(), ranges.end(), [&](const timing::AddressRange& range) {
+            return range.begin <= address && address < range.end;
+        });
+    };
+    for (const char* name : {"__aeabi_dadd", "__aeabi_dsub", "__aeabi_drsub", "__aeabi_dmul", "__aeabi_d2f",
+                             "__aeabi_f2d", "__aeabi_i2d", "__aeabi_ui2d", "__aeabi_dcmpeq", "__aeabi_cdcmpeq"}) {
+        EXPECT_TRUE(holds(elf.symbol(name).value_or(0))) << name;
+    }
+    // To their last byte, of 634, and no further.
+    const std::uint32_t subtraction = elf.symbol("__aeabi_dsub").value_or(0);
+    EXPECT_TRUE(holds(elf.end_of_function(subtraction) - 2));
+    for (const char* name : {"memcpy", "__aeabi_uldivmod", "main"}) {
+        EXPECT_FALSE(holds(elf.symbol(name).value_or(0))) << name;
+    }
 }
 
 }  // namespace

@@ -15,8 +15,11 @@ namespace {
 class Program {
 public:
     explicit Program(const char* core = "m7-ideal", std::set<std::uint32_t> entries = {0x100})
-        : timer_(std::move(entries), {timing::read_core(TEST_CORES, core)},
-                 [this](const timing::TimedCall& call) { calls.push_back(call); }) {}
+        : Program(timing::read_core(TEST_CORES, core), std::move(entries)) {}
+    // Between 0x200 and 0x300 it computes in double precision.
+    explicit Program(const timing::CoreFile& core, std::set<std::uint32_t> entries = {0x100})
+        : timer_(std::move(entries), {core}, [this](const timing::TimedCall& call) { calls.push_back(call); },
+                 {{0x200, 0x300}}) {}
     void run(std::uint32_t address, std::uint32_t encoding, std::uint8_t bytes) {
         const auto index = static_cast<std::uint32_t>(known_.size());
         timer_.executes(known_.try_emplace(address, qemu::Instruction{address, encoding, bytes, index}).first->second);
@@ -66,6 +69,38 @@ TEST(CallTimer, CalleesCountAndTailCallsEndWhereControlReturnsToTheCaller) {
     p.finish();
     ASSERT_EQ(p.calls.size(), 1U);
     EXPECT_EQ(p.calls[0].instructions, 8U);
+}
+
+TEST(CallTimer, DoublePrecisionInSoftwareIsToldApartAndCanBeTakenAway) {
+    const auto call_of = [](const timing::CoreFile& core) {
+        Program p(core);
+        p.call(0x10);
+        p.add(0x100);
+        p.call(0x102);
+        p.run(0x200, 0x4348, 2);  // muls r0, r1
+        p.run(0x202, 0x4348, 2);  // again: waits
+        p.give_back(0x204);
+        p.add(0x106);
+        p.give_back(0x108);
+        p.add(0x14);
+        p.finish();
+        return p.calls.at(0).cores.at(0);
+    };
+    const auto sum = [](const timing::Losses& losses) {
+        return std::accumulate(losses.begin(), losses.end(), std::int64_t{0});
+    };
+    timing::CoreFile core = timing::read_core(TEST_CORES, "m7-ideal");
+    EXPECT_EQ(call_of(core).half_cycles[0], 7);
+    EXPECT_EQ(call_of(core).double_in_software, 3);
+    core = timing::read_core(TEST_CORES, "stm32f746-itcm");
+    const timing::CoreTime paid = call_of(core);
+    EXPECT_GT(paid.double_in_software, 3);
+    EXPECT_EQ(paid.half_cycles[0], 4 + sum(paid.losses) + paid.double_in_software);
+    ASSERT_TRUE(timing::switch_off(core, "double_precision_in_software"));
+    const timing::CoreTime unpaid = call_of(core);
+    EXPECT_EQ(unpaid.double_in_software, 0);
+    EXPECT_EQ(unpaid.losses, paid.losses);
+    EXPECT_EQ(unpaid.half_cycles[0], paid.half_cycles[0] - paid.double_in_software);
 }
 
 TEST(CallTimer, AFunctionThatIsEnteredByATailCallEndsInTheCallersCaller) {
@@ -135,8 +170,7 @@ TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
     std::int64_t total = 0;
     for (const timing::TimedCall& call : p.calls) {
         const auto& losses = call.cores[0].losses;
-        EXPECT_EQ(call.cores[0].half_cycles[0],
-                  4 + std::accumulate(losses.begin(), losses.end(), std::int64_t{0}));
+        EXPECT_EQ(call.cores[0].half_cycles[0], 4 + std::accumulate(losses.begin(), losses.end(), std::int64_t{0}));
         total += call.cores[0].half_cycles[0];
     }
     EXPECT_GT(p.calls[0].cores[0].losses[timing::index(timing::Effect::mac_latency)], 0);

@@ -110,16 +110,51 @@ TEST(CoreFile, ACoreOrEffectThatDoesNotExistIsNamedWithThoseThatDo) {
     EXPECT_EQ(changed[0].placement.data, timing::DataPlace::axi);
     ASSERT_EQ(changed[0].sets.size(), 1U);
     EXPECT_EQ(changed[0].sets[0].name, "published");
+    EXPECT_GT(changed[0].sets[0].figures.measurement_maintenance, 0);
+    // Every cycle effect has a switch: what lies beside a call costs nothing then, whatever the rule set.
+    for (const std::string effect : {"single_issue",
+                                     "result_latency",
+                                     "load_use",
+                                     "load_bank_conflict",
+                                     "fpu_latency",
+                                     "mac_latency",
+                                     "double_precision_in_software",
+                                     "branch_mispredict",
+                                     "store_buffer",
+                                     "unaligned_access",
+                                     "fetch_alignment",
+                                     "icache_misses",
+                                     "dcache_misses",
+                                     "flash_wait_states",
+                                     "cache_maintenance",
+                                     "call_overhead",
+                                     "clock_ratio",
+                                     "interrupt_load",
+                                     "bus_contention",
+                                     "different_binary"}) {
+        request.cores = {{"stm32h747-dtcm", "", "", true, "", {effect}}};
+        const timing::CoreFile core = timing::cores_of(request)[0];
+        EXPECT_EQ(core.off.count(), timing::effect_named(effect) ? 1U : 0U) << effect;
+        EXPECT_EQ(core.double_in_software_off, effect == "double_precision_in_software");
+        for (const timing::RuleSet& set : core.sets) {
+            EXPECT_EQ(set.figures.measurement_counter_reads == 0, effect == "call_overhead") << effect;
+            EXPECT_EQ(set.figures.measurement_maintenance == 0, effect == "cache_maintenance") << effect;
+        }
+    }
 }
 
 TEST(TimingRequest, IsReadAsItWasWritten) {
     timing::TimingRequest request;
     request.cores_folder = "/a folder/cores";
+    request.double_routines = {{16, 32}, {48, 50}};
     request.cores = {{"one", "itcm", ""}, {"two", "", "axi", false, "chain", {"load_use", "single_issue"}}};
     std::stringstream text;
     timing::write_timing_request(text, request);
     const timing::TimingRequest read = timing::read_timing_request(text);
     EXPECT_EQ(read.cores_folder, request.cores_folder);
+    ASSERT_EQ(read.double_routines.size(), 2U);
+    EXPECT_EQ(read.double_routines[1].begin, 48U);
+    EXPECT_EQ(read.double_routines[1].end, 50U);
     ASSERT_EQ(read.cores.size(), 2U);
     EXPECT_EQ(read.cores[0].code, "itcm");
     EXPECT_EQ(read.cores[0].data, "");
