@@ -16,6 +16,7 @@
 #include "qemu/failure.hpp"
 #include "qemu/modelled_calls.hpp"
 #include "qemu/scratch.hpp"
+#include "qemu/software_double.hpp"
 #include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
 
@@ -260,7 +261,7 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
         std::ofstream marks(scratch.file("marks"));
         marks << fmt::format("{} {} {}\n", watch.marks.row, watch.marks.on, watch.marks.off);
         std::ofstream request(scratch.file("request"));
-        timing::write_timing_request(request, timing);
+        timing::write_timing_request(request, for_program(timing, elf));
         if (!list.flush() || !marks.flush() || !request.flush()) {
             throw Failure(Exit::check_failed, fmt::format("{}: cannot write", scratch.file("").string()));
         }

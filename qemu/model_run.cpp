@@ -14,6 +14,7 @@
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
+#include "qemu/software_double.hpp"
 #include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
 
@@ -157,7 +158,7 @@ std::vector<MeasuredRow> step_models(const Board& board, std::span<const Planned
         const Marks marked = marks_of(elf);
         std::ofstream(scratch.file("marks")) << fmt::format("{} {} {}\n", marked.row, marked.on, marked.off);
         std::ofstream request(scratch.file("request"));
-        timing::write_timing_request(request, timing);
+        timing::write_timing_request(request, for_program(timing, elf));
     }
     Answers answers(plan.size());
     std::vector<MeasuredRow> rows;

@@ -23,9 +23,7 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
             watch << entry << '\n';
         }
         std::ofstream out(scratch.file("request"));
-        timing::TimingRequest whole = request;
-        whole.double_routines = double_routines(Elf(elf));
-        timing::write_timing_request(out, whole);
+        timing::write_timing_request(out, for_program(request, Elf(elf)));
         std::ofstream of_marks(scratch.file("marks"));
         if (marks) {
             of_marks << marks->row << ' ' << marks->on << ' ' << marks->off << '\n';

@@ -89,6 +89,18 @@ TEST(Elf, FindsSymbolsFunctionsAndWords) {
     EXPECT_THROW((void)elf.word(0xF0000000), glsum::Failure);
 }
 
+TEST(SoftwareDouble, IsToldByTheNamesOfItsRoutines) {
+    for (const char* name :
+         {"__aeabi_dadd", "__aeabi_drsub", "__aeabi_dcmpun", "__aeabi_cdrcmple", "__aeabi_d2ulz", "__aeabi_ul2d",
+          "__aeabi_f2d", "__adddf3", "__negdf2", "__unorddf2", "__fixunsdfdi", "__floatundidf", "__truncdfsf2"}) {
+        EXPECT_TRUE(qemu::is_double_routine(name)) << name;
+    }
+    for (const char* name : {"__aeabi_fadd", "__aeabi_fcmpun", "__aeabi_f2iz", "__aeabi_i2f", "__aeabi_ldivmod",
+                             "__addsf3", "__floatsisf", "__divdi3", "dadd", "__aeabi_dadd_of_mine", "__aeabi_memcpy"}) {
+        EXPECT_FALSE(qemu::is_double_routine(name)) << name;
+    }
+}
+
 TEST(Elf, TellsTheRoutinesThatComputeInDoublePrecision) {
     if (!std::filesystem::exists(measure_elf)) {
         GTEST_SKIP() << "no " << measure_elf;
