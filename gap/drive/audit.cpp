@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/statistics/linear_regression.hpp>
 #include <cmath>
 
 namespace gap {
@@ -13,12 +14,29 @@ double span_of(const std::vector<double>& values) {
     return *high - *low;
 }
 
-// The step whose multiples all differences between readings are, and the readings too.
+// The power of ten whose multiples all readings are; 0 where they have more digits than six.
+double last_digit_of(const std::vector<Record>& records) {
+    for (const double digit : {1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+        const bool all = std::all_of(records.begin(), records.end(), [&](const Record& record) {
+            return std::all_of(record.output.begin(), record.output.end(), [&](double value) {
+                return std::fabs(value / digit - std::round(value / digit)) < 1e-6 * (1.0 + std::fabs(value / digit));
+            });
+        });
+        if (all) {
+            return digit;
+        }
+    }
+    return 0.0;
+}
+
+// The step by whose multiples readings differ. A logger's last digit may round them: 0.3223 K is 0.32 or 0.33 there.
 double quantum_of(const std::vector<Record>& records) {
     std::vector<double> sizes;
+    std::vector<double> levels;
     double span = 0.0;
     for (const Record& record : records) {
         span = std::max(span, span_of(record.output));
+        levels.insert(levels.end(), record.output.begin(), record.output.end());
         for (std::size_t i = 1; i < record.size(); ++i) {
             const double by = std::fabs(record.output[i] - record.output[i - 1]);
             if (by > 0.0) {
@@ -33,6 +51,8 @@ double quantum_of(const std::vector<Record>& records) {
     if (least < 1e-5 * span) {
         return 0.0;  // the digits of the file
     }
+    const double last_digit = last_digit_of(records);
+    const double rounded = last_digit < 0.1 * least ? last_digit : 0.0;
     double along = 0.0;
     double square = 0.0;
     double far = 0.0;
@@ -40,21 +60,25 @@ double quantum_of(const std::vector<Record>& records) {
         const double multiple = std::round(size / least);
         along += size * multiple;
         square += multiple * multiple;
-        far += std::fabs(size / least - multiple) > 0.02 * multiple ? 1.0 : 0.0;
+        far += std::fabs(size / least - multiple) > 0.02 * multiple + rounded / least ? 1.0 : 0.0;
     }
     if (far > 0.01 * static_cast<double>(sizes.size())) {
         return 0.0;
     }
+    // The readings lie on a lattice, wherever its origin is: 0 K is on none of a sensor's that counts from 0 degrees.
+    std::sort(levels.begin(), levels.end());
+    levels.erase(std::unique(levels.begin(), levels.end()), levels.end());
     const double step = along / square;
-    double off = 0.0;
-    double count = 0.0;
-    for (const Record& record : records) {
-        for (const double value : record.output) {
-            off += std::fabs(value / step - std::round(value / step)) > 0.1 ? 1.0 : 0.0;
-            count += 1.0;
-        }
+    std::vector<double> numbers{0.0};
+    for (std::size_t i = 1; i < levels.size(); ++i) {
+        numbers.push_back(numbers.back() + std::round((levels[i] - levels[i - 1]) / step));
     }
-    return off > 0.01 * count ? 0.0 : step;
+    const auto [origin, quantum] = boost::math::statistics::simple_ordinary_least_squares(numbers, levels);
+    std::ptrdiff_t off = 0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        off += std::fabs(levels[i] - origin - quantum * numbers[i]) > 0.1 * quantum + rounded ? 1 : 0;
+    }
+    return 100 * off > static_cast<std::ptrdiff_t>(levels.size()) ? 0.0 : quantum;
 }
 
 // Readings that repeat the one before although their neighbours move.

@@ -75,10 +75,6 @@ std::vector<FreeParameter> base_of(const Study& study) {
         const double scale = delay ? std::max(size, study.scales.time_constant_s) : size;
         free.push_back(to_free(parameter.name, parameter.value, lower, std::max(upper, lower + 1e-9), scale));
     }
-    if (!study.scales.steady) {  // elsewhere the operating point has it
-        const double force = study.scales.force;
-        free.push_back(to_free("bias", 0.0, -force, force, 0.1 * force));
-    }
     return free;
 }
 
@@ -90,7 +86,10 @@ std::vector<FreeParameter> state_of(const Study& study, const Record& record) {
     const double first = record.output.front();
     const double speed = study.scales.speed_max;
     const double far = 1e3 * span + std::fabs(first);
-    return {to_free("offset", study.scales.steady && record.input.front() == 0.0 ? first : 0.0, -far, far, span),
+    const double force = study.scales.force;
+    // Where it would rest without input; what does not rest has a force in its place, a ramp of its own in each record.
+    return {study.scales.steady ? to_free("offset", record.input.front() == 0.0 ? first : 0.0, -far, far, span)
+                                : to_free("bias", 0.0, -force, force, 0.1 * force),
             to_free("initial_output", first, first - 3.0 * span, first + 3.0 * span, span),
             to_free("initial_velocity", 0.0, -3.0 * speed, 3.0 * speed, speed),
             to_free("input_before", 0.0, -study.scales.input_max, study.scales.input_max, study.scales.input_max)};
@@ -148,8 +147,7 @@ Scenario scenario_of(const Study& study, const Candidate& candidate, std::size_t
     scenario.model = study.base.form.to_model(values);
     const FreeParameter* own = candidate.own[record].data();
     if (study.base.refit) {
-        scenario.forces.bias = study.scales.steady ? 0.0 : next_base->value;
-        scenario.operating_output = (own++)->value;
+        (study.scales.steady ? scenario.operating_output : scenario.forces.bias) = (own++)->value;
         // The first reading is where it rests, whatever the operating point is.
         scenario.initial_output = (own++)->value - scenario.operating_output;
         scenario.initial_velocity = (own++)->value;

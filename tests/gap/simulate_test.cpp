@@ -145,6 +145,12 @@ TEST(GapAudit, FindsTheQuantumAndTheHeldSamples) {
     const gap::Record quantised = gap_test::log_of({{"encoder_quantisation.step", 0.0063}}, {.seed = 8});
     EXPECT_NEAR(gap::audit({quantised}).quantum, 0.0063, 1e-6);
     EXPECT_EQ(gap::audit({gap_test::log_of({}, {.seed = 8})}).quantum, 0.0);
+    // As a logger prints it, in kelvin, of a sensor that counts from 0 degrees.
+    gap::Record printed = quantised;
+    for (double& value : printed.output) {
+        value = std::round((value * 51.157 + 273.15) * 100.0) / 100.0;
+    }
+    EXPECT_NEAR(gap::audit({printed}).quantum, 0.0063 * 51.157, 1e-4);
     const gap::Record dropping = gap_test::log_of({{"dropped_samples.rate", 0.1}}, {.seed = 9});
     EXPECT_NEAR(gap::audit({dropping}).held_share, 0.1, 0.05);
     EXPECT_EQ(gap::audit({gap_test::log_of({}, {.seed = 9})}).held_share, 0.0);
