@@ -37,6 +37,32 @@ std::vector<double> Whitener::log_likelihood(std::span<const double> residuals, 
     return logs;
 }
 
+namespace {
+
+double samples_apart(const std::vector<std::vector<double>>& residuals) {
+    const auto covariance = [&](std::size_t lag) {
+        double sum = 0.0;
+        for (const std::vector<double>& record : residuals) {
+            for (std::size_t k = lag; k < record.size(); ++k) {
+                sum += record[k] * record[k - lag];
+            }
+        }
+        return sum;
+    };
+    const double whole = covariance(0);
+    double apart = 1.0;
+    for (std::size_t lag = 1; lag <= residuals.front().size() / 4; ++lag) {
+        const double now = covariance(lag);
+        if (!(now > 0.0)) {
+            break;
+        }
+        apart += 2.0 * now / whole;
+    }
+    return apart;
+}
+
+}  // namespace
+
 Whitener fit_whitener(const std::vector<std::vector<double>>& residuals, std::size_t most, double least_deviation) {
     std::vector<double> covariance(most + 1, 0.0);
     double count = 0.0;
@@ -52,6 +78,7 @@ Whitener fit_whitener(const std::vector<std::vector<double>>& residuals, std::si
     covariance[0] += 1e-9 * covariance[0] + count * 1e-6 * least_deviation * least_deviation;
     Whitener best;
     best.stationary_deviation = best.deviation = std::max(least_deviation, std::sqrt(covariance[0] / count));
+    best.samples_apart = samples_apart(residuals);
     double least = count * std::log(covariance[0]);
     std::vector<double> coefficients;
     double variance = covariance[0];

@@ -19,6 +19,10 @@ struct Whitener {
     [[nodiscard]] std::vector<double> log_likelihood(std::span<const double> residuals,
                                                      std::span<const double> spread = {}) const;
     double stationary_deviation = 1.0;
+    /// Between residuals that tell anything new: 1 + 2 sum of their correlations, up to the first that is not positive.
+    double samples_apart = 1.0;
+    /// Correlations of 0.97 from one to the next and beyond: no sensor's noise, but a model that is not quite right.
+    [[nodiscard]] bool is_slow() const { return stationary_deviation > 4.0 * deviation; }
 };
 
 /// By Yule and Walker over several records, the order by BIC up to `most`. \param least_deviation  e is taken to have

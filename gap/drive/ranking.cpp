@@ -55,6 +55,17 @@ std::vector<double> log_mass(std::span<const double> outside, double step) {
     return best;
 }
 
+// What a fitted form of a few coefficients leaves is slow, and the same from sample to sample whatever is added to it:
+// whitened, it tells only of kinks. Its size tells, as often as there is anything new in it.
+// \param share  of the residuals, that is new
+std::vector<double> log_of_slow(std::span<const double> residuals, double deviation, double share) {
+    std::vector<double> logs;
+    for (const double one : residuals) {
+        logs.push_back(-share * (std::log(deviation) + 0.5 * one * one / (deviation * deviation)));
+    }
+    return logs;
+}
+
 }  // namespace
 
 void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
@@ -63,19 +74,29 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     ranked.by_sample.clear();
     ranked.log_likelihood = 0.0;
     std::vector<std::vector<double>> left;
+    const bool by_size = validation.base.refit && whitener.is_slow();
+    const double size = std::max(rms_of(validation, ranked.residuals), validation.least_deviation);
+    // Whitened residuals hardly know of slow ones. Of those each block of the records counts once.
+    constexpr double blocks = 24.0;
+    double samples = 0.0;
+    for (const auto& count : validation.counts) {
+        samples += static_cast<double>(std::count(count.begin(), count.end(), 1));
+    }
+    const double share_new = std::min(1.0, std::max(blocks / samples, 1.0 / whitener.samples_apart));
     for (std::size_t r = 0; r < ranked.residuals.size(); ++r) {
         const auto& residuals = ranked.residuals[r];
         // What lies within its step is not missed; noise far below a step leaves little else, which is coloured like
         // any other remainder.
         const bool fine = step > 0.0 && rms_of(validation, ranked.residuals) < 0.12 * step;
         auto logs =
-            within_steps && !fine
+            by_size ? log_of_slow(residuals, size, share_new)
+            : within_steps && !fine
                 ? log_mass(residuals, step)
                 : whitener.log_likelihood(residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
         // No reading tells more than which step it fell on, however well the one before it foresees that it stays
         // there.
         for (double& one : logs) {
-            one = step > 0.0 ? std::min(one, density_constant - std::log(step)) : one;
+            one = step > 0.0 && !by_size ? std::min(one, density_constant - std::log(step)) : one;
         }
         for (std::size_t i = 0; i < logs.size(); ++i) {
             if (validation.counts[r][i] != 0) {
@@ -87,11 +108,10 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     }
     ranked.gap_after = rms_of(validation, left) / output_deviation(validation);
     ranked.gap_after = std::isfinite(ranked.gap_after) ? ranked.gap_after : 1e6;  // it ran away
-    // Whitened residuals hardly know of slow ones. Of those each block of the records counts once.
-    constexpr double blocks = 24.0;
     const double slow = std::max(rms_of(validation, ranked.residuals), (within_steps ? 0.05 : 0.29) * step) /
                         output_deviation(validation);
-    ranked.penalty = penalty_of(ranked.candidate, validation) + blocks * std::log(std::clamp(slow, 1e-9, 1e6));
+    ranked.penalty =
+        penalty_of(ranked.candidate, validation) + (by_size ? 0.0 : blocks * std::log(std::clamp(slow, 1e-9, 1e6)));
 }
 
 Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener, const Whitener* fits_by,
