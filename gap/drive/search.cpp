@@ -268,6 +268,14 @@ private:
     // The whitener of the best one's training residuals; likelihoods follow.
     void renew_whitener() {
         found_.whitener = whitener_of(of_.ground.study, found_.ranking.front().trained);
+        if (of_.ground.study.base.refit && found_.whitener.is_slow()) {
+            // What leads with a slow misfit hides how often there is anything new in the records.
+            const auto closest =
+                std::min_element(found_.ranking.begin(), found_.ranking.end(),
+                                 [](const Ranked& a, const Ranked& b) { return a.trained.cost < b.trained.cost; });
+            found_.whitener.samples_apart =
+                std::min(found_.whitener.samples_apart, whitener_of(of_.ground.study, closest->trained).samples_apart);
+        }
         for (Ranked& ranked : found_.ranking) {
             judge(ranked, of_.ground.validation, found_.whitener);
         }
