@@ -125,11 +125,8 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
     for (std::size_t c = 0; c < cores_.size(); ++c) {
         cores_[c]->surroundings.meet(std::span(lines).first(done), accesses_, next, piece.met[c]);
     }
-    for (const auto& core : cores_) {
-        if (piece.in_double_routine) {
-            core->before = core->replay.core().positions();
-            core->lost_before = core->replay.core().losses();
-        }
+    if (piece.in_double_routine) {
+        enter_double_routine();
     }
     if (ends || begins || done < lines.size()) {
         time_by_steps(piece, done, ends, begins);
@@ -171,6 +168,13 @@ void CallTimer::time_by_steps(const Piece& piece, std::size_t done, bool ends, b
             begin_call(line.address);
         }
         call_.instructions += inside_ ? 1 : 0;
+    }
+}
+
+void CallTimer::enter_double_routine() {
+    for (const auto& core : cores_) {
+        core->before = core->replay.core().positions();
+        core->lost_before = core->replay.core().losses();
     }
 }
 

@@ -94,6 +94,7 @@ private:
     void flush(std::size_t done, std::uint32_t next);
     void follow_calls(std::uint32_t address);
     void time_by_steps(const Piece& piece, std::size_t done, bool ends, bool begins);
+    void enter_double_routine();
     void leave_double_routine();
     void end_call();
     void begin_call(std::uint32_t entry);
