@@ -17,11 +17,10 @@ constexpr double clear_advantage = 8.0;
 constexpr double parting_advantage = 6.0;
 // An effect takes at least so much of the gap: a twentieth of the base's rms; a further one of what can be closed.
 constexpr double material_share = 0.04;
-// More than so much of the closable squared gap left, and foreseeable: something else is missing. A given model is the
-// drive's but for what is looked for; a form that was fitted to it is one of a few coefficients, and its own misfit stays.
+// More than so much of the closable squared gap left, and foreseeable: something else is missing.
 constexpr double unexplained_share = 0.08;
-constexpr double unexplained_by_a_form = 0.25;
-// More than so much of the gap left, and slow.
+// More than so much of the gap left, and slow. A given model is the drive's but for what is looked for; a form that was
+// fitted to it has a few coefficients, and its own misfit stays.
 constexpr double slow_share = 0.1;
 constexpr double slow_share_of_a_form = 0.5;
 // What is left over what differs from sample to sample: sensors' noise is seldom so coloured.
@@ -112,8 +111,7 @@ public:
         }
         // Three effects that still leave what can be foreseen are an expansion of something else, not its causes.
         const bool expansion = ranking_[chosen].trained.effects.size() >= 3;
-        const double enough = study_.base.refit ? unexplained_by_a_form : unexplained_share;
-        if (foreseeable && (unexplained > enough || expansion) && after - left > 0.02 * decision_.base_gap) {
+        if (foreseeable && (unexplained > unexplained_share || expansion) && after - left > 0.02 * decision_.base_gap) {
             decision_.outcome = Outcome::unknown;
             decision_.confidence = std::clamp(0.5 + 0.5 * unexplained, 0.5, 0.95);
         } else if (chosen == none) {

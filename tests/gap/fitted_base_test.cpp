@@ -107,4 +107,13 @@ TEST(FittedBase, NamesWhatTakesMostOfTheGapThoughItsOwnMisfitStays) {
     EXPECT_THAT(gap_test::names(answer), Contains(HasSubstr("input_curve"))) << text_of(answer);
 }
 
+// A second-order plant that swings, taken for one lag: what the form lacks is no effect.
+TEST(FittedBase, NamesNothingForAFormThatIsTheWrongOne) {
+    const gap::Answer answer =
+        diagnosed("fopdt", gap_test::log_of({}, {.seed = 11}),
+                  gap_test::log_of({}, {.experiment = "prbs", .low_duty = 0.02, .seed = 12}), gap::Metric::simulation);
+    EXPECT_GT(answer.none().gap_after, 0.05);
+    EXPECT_EQ(answer.decision.outcome, gap::Outcome::unknown) << text_of(answer);
+}
+
 }  // namespace
