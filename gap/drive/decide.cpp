@@ -23,6 +23,8 @@ constexpr double unexplained_share = 0.08;
 // fitted to it has a few coefficients, and its own misfit stays.
 constexpr double slow_share = 0.1;
 constexpr double slow_share_of_a_form = 0.5;
+// A fitted form's own misfit: within so much of the rms, or half the noise, it is none of the drive's effects.
+constexpr double misfit_share = 0.11;
 // What is left over what differs from sample to sample: sensors' noise is seldom so coloured.
 constexpr double usual_ratio = 7.0;
 
@@ -111,7 +113,9 @@ public:
         }
         // Three effects that still leave what can be foreseen are an expansion of something else, not its causes.
         const bool expansion = ranking_[chosen].trained.effects.size() >= 3;
-        if (foreseeable && (unexplained > unexplained_share || expansion) && after - left > 0.02 * decision_.base_gap) {
+        const bool misfit = study_.base.refit && chosen == none && after - left < misfit_share * after;
+        if (foreseeable && !misfit && (unexplained > unexplained_share || expansion) &&
+            after - left > 0.02 * decision_.base_gap) {
             decision_.outcome = Outcome::unknown;
             decision_.confidence = std::clamp(0.5 + 0.5 * unexplained, 0.5, 0.95);
         } else if (chosen == none) {
@@ -157,7 +161,7 @@ private:
         // A third that is small makes up for what the first two are not quite.
         const std::size_t so_far = ranking_[chosen].trained.effects.size();
         const double of_closable = material_share * (decision_.base_gap - least);
-        const double material = so_far == 0   ? 0.03 * before
+        const double material = so_far == 0   ? (study_.base.refit ? misfit_share : 0.03) * before
                                 : so_far == 1 ? std::min(of_closable, 0.25 * before)
                                               : of_closable;
         return is_clear(advantage(ranking_[wider], ranking_[chosen])) && before - after > material;
