@@ -119,7 +119,7 @@ TEST(FittedBase, NamesWhatTakesMostOfTheGapThoughItsOwnMisfitStays) {
 
 // Two unequal lags, of which a form has two equal ones: what that leaves is a part of the noise.
 TEST(FittedBase, HasNoGapWhereItsMisfitIsBelowTheNoise) {
-    const Propeller linear{0.0, 0.0, {0.32, 0.22, 0.001}, 3e-3};
+    const Propeller linear{0.0, 0.0, {0.35, 0.2, 0.001}, 5e-3};
     const gap::Answer answer =
         diagnosed("sopdt", propeller(linear, climb, 3), propeller(linear, steps, 4), gap::Metric::simulation);
     EXPECT_EQ(answer.decision.outcome, gap::Outcome::no_gap) << text_of(answer);
