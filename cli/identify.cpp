@@ -369,7 +369,9 @@ void add_identify(CLI::App& app) {
     command->add_option("--iterations", options->fit.iterations, "Stop after so many")->capture_default_str();
     command->add_option("--starts", options->fit.starts, "Also from random starts, so many in all")
         ->capture_default_str();
-    command->add_option("--seed", options->fit.seed, "Of the random starts, and of the first log of --coverage")
+    command
+        ->add_option("--seed", options->fit.seed,
+                     "Of the random starts, and of the logs of --coverage: another set for each")
         ->capture_default_str();
     command->add_flag("--static", options->characteristic,
                       "Instead: the static characteristic, where the output rests for each level of the input");

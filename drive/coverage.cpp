@@ -1,6 +1,7 @@
 #include "drive/coverage.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <mutex>
@@ -19,6 +20,14 @@ double uniform(std::mt19937_64& random) { return (static_cast<double>(random() >
 double normal(std::mt19937_64& random) {
     const double radius = std::sqrt(-2.0 * std::log(uniform(random)));
     return radius * std::cos(2.0 * std::numbers::pi * uniform(random));
+}
+
+// Of a set of logs each its own, and another one in every set: the seed of a set is no log's.
+std::uint64_t seed_of(std::uint64_t set, std::size_t run) {
+    std::seed_seq words{set & 0xFFFFFFFFU, set >> 32U, static_cast<std::uint64_t>(run)};
+    std::array<std::uint32_t, 2> mixed{};
+    words.generate(mixed.begin(), mixed.end());
+    return std::uint64_t{mixed[0]} << 32U | mixed[1];
 }
 
 }  // namespace
@@ -62,7 +71,7 @@ Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOpt
 }
 
 Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acquisition, std::size_t runs,
-                          std::uint64_t first_seed, unsigned jobs, const std::function<void()>& done) {
+                          std::uint64_t set, unsigned jobs, const std::function<void()>& done) {
     const Form form(kind, truth);
     Coverage coverage;
     coverage.runs = runs;
@@ -91,7 +100,7 @@ Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acqu
     std::mutex mutex;
     bench::parallel_for(runs, jobs, [&](std::size_t run) {
         try {
-            const Record record = to_record(take_log(truth, acquisition, first_seed + run));
+            const Record record = to_record(take_log(truth, acquisition, seed_of(set, run)));
             const Fit found = fit_from_nothing(kind, {record}, {.profile = true});
             const bool jointly = jointly_holds(found, record);
             const std::lock_guard lock(mutex);

@@ -40,11 +40,10 @@ struct Coverage {
     std::size_t failed = 0;  ///< fits that threw; they count as outside
 };
 
-/// Seeds `first_seed` and the next. Each fit starts from the log alone: a search for SOPDT, its fit, and that as the
-/// start of `kind`. \param done  called after each run
+/// \param set  which logs: two sets have none in common. Each fit starts from the log alone: a search for SOPDT, its
+/// fit, and that as the start of `kind`. \param done  called after each run
 [[nodiscard]] Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acquisition, std::size_t runs,
-                                        std::uint64_t first_seed, unsigned jobs,
-                                        const std::function<void()>& done = {});
+                                        std::uint64_t set, unsigned jobs, const std::function<void()>& done = {});
 
 /// The way from a record to a fit of `kind` without a start: FOPDT and SOPDT from a search; others from a fitted SOPDT,
 /// as the paper does. \param prepare  may change the form before the last fit
