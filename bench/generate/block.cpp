@@ -82,7 +82,6 @@ TechniqueText block_text(bool fused, bool fixed) {
         "        for (i = 0U; i < phase; ++i) {\n            --direct;\n            sum = " +
         accumulate(fused) +
         "(sum, *direct, own[i]);\n        }\n    }\n"
-        "    sum = @name@_start(newest) + sum;\n"
         "    S->past[4U * S->own + phase] = newest;\n"
         "    while (share != 0U) {\n"
         "        const size_t left = S->left;\n"
@@ -117,12 +116,16 @@ TechniqueText block_text(bool fused, bool fixed) {
     }
     text +=
         "        S->left = left - count;\n        share -= count;\n    }\n"
-        "    if (phase != 3U) {\n        S->phase = phase + 1U;\n    } else {\n"
-        "        for (i = 0U; i < 4U; ++i) {\n            S->ready[i] = S->coming[i];\n            S->coming[i] = 0;\n"
-        "        }\n        S->phase = 0U;\n        S->left = @NAME@_GROUPS;\n"
+        "    if (phase != 3U) {\n        S->phase = phase + 1U;\n    } else {\n";
+    for (int q = 0; q < 4; ++q) {  // a loop would become a call of memset
+        text += fmt::format("        S->ready[{0}] = S->coming[{0}];\n        S->coming[{0}] = 0;\n", q);
+    }
+    text +=
+        "        S->phase = 0U;\n        S->left = @NAME@_GROUPS;\n"
         "        S->own = S->own + 1U == @NAME@_GROUPS ? 0U : S->own + 1U;\n    }\n";
     return {.summary = "oldest first, one accumulator for each of four coming outputs" + rounded_once(fused),
             .sum = text,
+            .closing = "    sum = @name@_start(newest) + sum;\n",
             .pushes = true,
             .fused = fused};
 }

@@ -38,7 +38,7 @@ std::string finish(int shift) {
 
 }  // namespace
 
-FormatText floating_text(bool wide_data, bool wide_sum) {
+FormatText floating_text(bool wide_data, bool wide_sum, bool normal_table) {
     // The product of two f32 is exact in f64: fused or not, the sum has the same bits.
     const bool exact_product = wide_sum && !wide_data;
     const std::string keep = exact_product ? "" : "    @NAME@_KEEP(product);\n";
@@ -47,13 +47,27 @@ FormatText floating_text(bool wide_data, bool wide_sum) {
     text.summary = exact_product ? "single precision, sums in double precision"
                    : wide_data   ? "double precision"
                                  : "single precision";
-    text.helpers = {
+    // In software each conversion is a call; that of a coefficient, which is known to be normal, needs none.
+    const bool widens = exact_product && normal_table;
+    const std::string widened = widens ? "@name@_widen(a)" : "(@accumulator@)a";
+    if (widens) {
+        text.helpers.push_back(
+            {"widen", helper("double", "widen", "float a",
+                             "#if defined(@NAME@_SOFT_DOUBLE)\n"
+                             "    uint32_t bits;\n    uint64_t wide;\n    double widened;\n"
+                             "    memcpy(&bits, &a, sizeof bits);\n"
+                             "    wide = (uint64_t)((bits & 0x80000000U) | ((bits & 0x7FFFFFFFU) / 8U + 0x38000000U)) "
+                             "<< 32 | (uint32_t)(bits << 29);\n"
+                             "    memcpy(&widened, &wide, sizeof widened);\n"
+                             "    return widened;\n#else\n    return a;\n#endif\n")});
+    }
+    const std::vector<std::pair<std::string, std::string>> others = {
         {"start", helper("@accumulator@", "start", "@sample@ newest", "    return newest;\n")},
         {"product", helper("@accumulator@", "product", "@accumulator@ a, @accumulator@ b",
                            "    @accumulator@ product = a * b;\n    @NAME@_KEEP(product);\n    return product;\n")},
         {"multiply",
          helper("@accumulator@", "multiply", "@coefficient@ a, @sample@ x",
-                "    @accumulator@ product = (@accumulator@)a * (@accumulator@)x;\n" + keep + "    return product;\n")},
+                "    @accumulator@ product = " + widened + " * (@accumulator@)x;\n" + keep + "    return product;\n")},
         {"multiply_add", helper("@accumulator@", "multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
                                 "    return sum + @name@_multiply(a, x);\n")},
         // Adds to a number and keeps what the addition lost, for the next one.
@@ -66,13 +80,14 @@ FormatText floating_text(bool wide_data, bool wide_sum) {
         {"fused_multiply_add",
          helper("@accumulator@", "fused_multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
                 "    return " + fma + "(a, x, sum);\n")},
-        {"nest", helper("@accumulator@", "nest", "@sample@ x, @coefficient@ c, @accumulator@ inner",
-                        "    return @name@_product(c, inner) + x;\n")},
+        {"nest", helper("@accumulator@", "nest", "@sample@ x, @coefficient@ a, @accumulator@ inner",
+                        "    return @name@_product(" + (widens ? widened : "a") + ", inner) + x;\n")},
         {"fused_nest", helper("@accumulator@", "fused_nest", "@sample@ x, @coefficient@ c, @accumulator@ inner",
                               "    return " + fma + "(c, inner, x);\n")},
         {"finish", helper("@output@", "finish", "@name@_instance *S, @accumulator@ sum",
                           "    (void)S;\n    return (@output@)sum;\n")},
     };
+    text.helpers.insert(text.helpers.end(), others.begin(), others.end());
     text.scaling =
         std::string("No scaling: any input below overflow (about ") + (wide_data ? "1e308" : "1e38") +
         ").\nOverflow as in IEEE 754: no saturation; infinities and NaN pass through and stay in the past for the\n"

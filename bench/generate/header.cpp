@@ -185,9 +185,13 @@ const char* const keep_fixed = R"(#if defined(__GNUC__)
 // Before a loop in software double. In one that is unrolled each turn would call the addition from a place of its own,
 // and a core without a return stack guesses that it returns to the place before: a tenth more cycles.
 const char* const not_unrolled =
-    R"(#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8 && defined(__arm__) && \
-    !(defined(__ARM_FP) && (__ARM_FP & 8))
+    R"(#if defined(@NAME@_SOFT_DOUBLE) && !defined(__clang__) && __GNUC__ >= 8
 #pragma GCC unroll 1
+#endif
+)";
+
+const char* const soft_double = R"(#if defined(__GNUC__) && defined(__arm__) && !(defined(__ARM_FP) && (__ARM_FP & 8))
+#define @NAME@_SOFT_DOUBLE /* double precision takes calls */
 #endif
 )";
 
@@ -335,8 +339,12 @@ std::string step_body(const KernelData& data, std::size_t past) {
         return history.before + "    return @name@_finish(S, " + (data.nested ? "newest" : "@name@_start(newest)") +
                ");\n";
     }
-    const std::string body = history.before + data.technique_text.sum + history.behind +
-                             (data.technique_text.pushes ? "" : history.push) + "    return @name@_finish(S, sum);\n";
+    const TechniqueText& technique = data.technique_text;
+    const std::string push = technique.pushes ? "" : history.push;
+    const bool waits = data.accumulator != "double" && history.behind.empty();  // in software nothing runs meanwhile
+    const std::string body = history.before + technique.sum +
+                             (waits ? push + technique.closing : technique.closing + history.behind + push) +
+                             "    return @name@_finish(S, sum);\n";
     const bool has_head = history.fields.find(" head;") != std::string::npos;
     const bool has_index = body.find("i = ") != std::string::npos;
     return std::string(has_head ? "    size_t head = S->head;\n" : "") + (has_index ? "    size_t i;\n" : "") + body;
@@ -467,7 +475,7 @@ std::string make_header(const Spec& spec) {
                   {"includes", data.technique_text.fused ? "#include <math.h>\n" : ""},
                   {"fp_bit", wide_sum ? "8" : "4"},
                   {"fp_register", wide_sum ? "w" : "t"},
-                  {"rolled", wide_sum ? not_unrolled : ""},
+                  {"rolled", wide_sum ? fill(not_unrolled, {{"NAME", upper(name)}}) : ""},
                   {"word", smlad ? "smlad" : "smlald"},
                   {"wide", smlad ? "int32_t" : "int64_t"},
                   {"bits", wide_bits ? "uint64_t" : "uint32_t"},
@@ -492,6 +500,7 @@ std::string make_header(const Spec& spec) {
     text += fill(fixed ? guard_fixed : guard_floating, places);
     const bool uses = past > 0;
     text += uses && fixed && body.find("_KEEP(") != std::string::npos ? fill(keep_fixed, places) : "";
+    text += uses && wide_sum ? fill(soft_double, places) : "";
     text += uses && body.find("_KEEP_WORD(") != std::string::npos ? fill(keep_word, places) : "";
     if (uses) {
         text += fill("\n/* The coefficients. */\n@NAME@_TABLE_ATTRIBUTES\n", places) +

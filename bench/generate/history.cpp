@@ -8,6 +8,7 @@ const char* const clear = R"(    for (i = 0; i < @NAME@_SAMPLES; ++i) {
     }
 )";
 const char* const next_head = R"(    head = (head == 0U ? @NAME@_PAST : head) - 1U;
+    @NAME@_KEEP_WORD(head);
 )";
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
@@ -42,8 +43,8 @@ HistoryText history_text(glsum::Ring) {
                 "    @sample@ past[@NAME@_SAMPLES];\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
             .pieces = {{"S->past + head", "S->past + @NAME@_PAST", "", "(@NAME@_PAST - head)"},
-                       {"S->past", "S->past + head", "(@NAME@_PAST - head)", "@NAME@_PAST", true}},
-            .push = std::string(next_head) + "    S->past[head] = newest;\n    S->head = head;\n"};
+                       {"S->past", "S->past + head", "(@NAME@_PAST - head)", "@NAME@_PAST", "head != 0U"}},
+            .push = std::string(next_head) + "    S->head = head;\n    S->past[head] = newest;\n"};
 }
 
 HistoryText history_text(glsum::Mirror) {
@@ -54,7 +55,7 @@ HistoryText history_text(glsum::Mirror) {
             .reset = std::string("    S->head = 0U;\n") + clear,
             .pieces = {{"S->past + head", "S->past + head + @NAME@_PAST", "", "@NAME@_PAST"}},
             .push = std::string(next_head) +
-                    "    S->past[head] = newest;\n    S->past[head + @NAME@_PAST] = newest;\n    S->head = head;\n"};
+                    "    S->head = head;\n    S->past[head] = newest;\n    S->past[head + @NAME@_PAST] = newest;\n"};
 }
 
 HistoryText history_text(glsum::Modes) {
@@ -94,7 +95,7 @@ HistoryText history_text(glsum::Nested) {
                 "    @sample@ past[@NAME@_SAMPLES]; /* behind the samples the sums of 2, of 4, ...: one ring */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
             .pieces = {},
-            .push = replaced(next_head, "_PAST", "_SAMPLES") + "    S->past[head] = newest;\n    S->head = head;\n"};
+            .push = replaced(next_head, "_PAST", "_SAMPLES") + "    S->head = head;\n    S->past[head] = newest;\n"};
 }
 
 // kernels/glsum/history/delta.hpp.
@@ -145,17 +146,20 @@ HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_firs
     text.behind =
         std::string("    {\n        const uint32_t k = S->count;\n        if (k > @NAME@_PAST) {\n") +
         "            const @sample@ oldest = " + (past > 0 ? "S->past[head + @NAME@_PAST - 1U]" : "newest") + ";\n" +
-        (to_first ? "            @sample@ mean;\n" : "") + "            if (k != UINT32_MAX) {\n" +
+        (to_first ? "            @sample@ mean;\n" : "") +
+        "            if (k != UINT32_MAX) {\n                S->count = k + 1U;\n" +
         (to_first ? "                @name@_carry(S->mean, (S->tail[0] - S->mean[0]) / (@sample@)(k - @NAME@_PAST));\n"
                   : "") +
         "                @name@_carry(S->tail, @name@_product(@NAME@_IN_WINDOW + S->tail[0], @NAME@_MINUS_ORDER) / "
         "(@sample@)k);\n            }\n" +
         (to_first ? "            mean = S->mean[0];\n"
                     "            sum = @name@_multiply_add(sum, mean, oldest);\n"
-                    "            sum = @name@_multiply_add(sum, S->tail[0] - mean, S->first);\n        }\n"
+                    "            sum = @name@_multiply_add(sum, S->tail[0] - mean, S->first);\n        } else {\n"
+                    "            S->count = k + 1U;\n        }\n"
                     "        if (k == 0U) {\n            S->first = newest;\n        }\n"
-                  : "            sum = @name@_multiply_add(sum, S->tail[0], oldest);\n        }\n") +
-        "        S->count = k != UINT32_MAX ? k + 1U : k;\n    }\n";
+                  : "            sum = @name@_multiply_add(sum, S->tail[0], oldest);\n        } else {\n"
+                    "            S->count = k + 1U;\n        }\n") +
+        "    }\n";
     return text;
 }
 

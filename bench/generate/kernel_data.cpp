@@ -41,19 +41,20 @@ constexpr bool can_generate<glsum::Sum<H, T, F>> =
             glsum::FirFma, glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15,
                                                    glsum::Q15C31>;
 
-template <class Technique>
-TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts, bool q31,
-                      bool f32) {
+template <class Technique, class Format>
+TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
     using namespace glsum;
+    constexpr bool f32 = std::is_same_v<Format, F32>;
     if constexpr (one_of<Technique, Plain, PlainFma>) {
         return plain_text(history, std::is_same_v<Technique, PlainFma>);
     } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
         return oldest_text(history, std::is_same_v<Technique, OldestFma>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {
-        return multi_text(history, past, std::is_same_v<Technique, MultiFma>,
-                          q31                                           ? "dot_smlal"
-                          : f32 && !std::is_same_v<Technique, MultiFma> ? "dot_floats"
-                                                                        : "");
+        constexpr bool fused = std::is_same_v<Technique, MultiFma>;
+        return multi_text(history, past, fused, std::is_same_v<Format, F64>,
+                          std::is_same_v<Format, Q31> ? "dot_smlal"
+                          : f32 && !fused             ? "dot_floats"
+                                                      : "");
     } else if constexpr (one_of<Technique, Horner, HornerFma>) {
         return horner_text(history, std::is_same_v<Technique, HornerFma>);
     } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {
@@ -160,7 +161,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Ring> &&
                   std::is_same_v<typename K::FormatPart, glsum::Q15>) {
         // With its test last, GCC 12 keeps the 64-bit sum of SMLALBB in memory: two more instructions a tap.
-        data.history_text.pieces.front().may_be_empty = true;
+        data.history_text.tested_first = true;
     }
     if constexpr (has_modes) {
         data.technique_text = modes_text(data.past, data.modes, std::is_same_v<Technique, glsum::Compensated>,
@@ -180,8 +181,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
             nested_text(data.past, data.blocks, Format::fixed_point, std::is_same_v<Format, glsum::F64>);
         data.design_error = glsum::modes::design_blocks({order, horizon}, taps).error;
     } else {
-        data.technique_text = text_of<Technique>(data.history_text, past, shifts, std::is_same_v<Format, glsum::Q31>,
-                                                 std::is_same_v<Format, glsum::F32>);
+        data.technique_text = text_of<Technique, Format>(data.history_text, past, shifts);
     }
     if constexpr (Format::fixed_point) {
         data.scale = {Format::sample_bits, Format::coefficient_bits, state.scale.table_exponent,
@@ -194,7 +194,8 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.format_text = fixed_text(data.scale);
     } else {
         data.format_text =
-            floating_text(std::is_same_v<Sample, double>, std::is_same_v<typename Format::Accumulator, double>);
+            floating_text(std::is_same_v<Sample, double>, std::is_same_v<typename Format::Accumulator, double>,
+                          std::all_of(table.begin(), table.end(), [](auto a) { return std::isnormal(a); }));
     }
     data.error_bound = glsum::error_bound<K>(design, state, 1.0);
     std::vector<Sample> inputs;

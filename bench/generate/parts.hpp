@@ -22,9 +22,9 @@ namespace generate {
 struct Piece {
     std::string begin;
     std::string end;
-    std::string from;  ///< of its first coefficient in a table of one a tap; empty: 0
-    std::string to;    ///< behind its last one
-    bool may_be_empty = false;
+    std::string from;               ///< of its first coefficient in a table of one a tap; empty: 0
+    std::string to;                 ///< behind its last one
+    std::string unless_empty = {};  ///< condition under which it has a sample; empty: it always has
 };
 
 /// How a history is written.
@@ -34,6 +34,7 @@ struct HistoryText {
     std::string fields;         ///< of the instance
     std::string reset;          ///< statements of `init`
     std::vector<Piece> pieces;  ///< newest first
+    bool tested_first = false;  ///< loops over pieces that test before the first turn are the cheaper ones
     std::string push;           ///< statements that store `newest`
     std::string before = {};    ///< statements before the sum, which may change `newest`
     std::string behind = {};    ///< statements behind it, before `push`, which add to `sum`
@@ -42,11 +43,12 @@ struct HistoryText {
 /// How a technique is written.
 struct TechniqueText {
     std::string summary;
-    std::string sum;      ///< statements that end with the accumulator in `sum`
-    bool pushes = false;  ///< whether they store `newest` too
-    bool pairs = false;   ///< needs the words of two samples
-    bool fused = false;   ///< needs a fused multiply-add
-    std::string m7 = {};  ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
+    std::string sum;           ///< statements that end with the accumulator in `sum`, but for those of `closing`
+    std::string closing = {};  ///< behind the upkeep, which a core does while it waits for these
+    bool pushes = false;       ///< whether they store `newest` too
+    bool pairs = false;        ///< needs the words of two samples
+    bool fused = false;        ///< needs a fused multiply-add
+    std::string m7 = {};       ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
 };
 
 /// A file of kernels/glsum/m7, which a header holds as it is but for its names.
@@ -79,8 +81,10 @@ struct FormatText {
 
 [[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
-/// \param m7  the loop that gives the same bits; empty: none
-[[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, const std::string& m7);
+/// \param in_software  on some targets, of a history in one piece \param m7  the loop that gives the same bits; empty:
+/// none
+[[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, bool in_software,
+                                       const std::string& m7);
 [[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused);
 [[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused);
 [[nodiscard]] TechniqueText fir_text(bool fused, bool fixed);
@@ -101,7 +105,8 @@ struct FormatText {
 [[nodiscard]] TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed,
                                         bool in_software);
 
-[[nodiscard]] FormatText floating_text(bool wide_data, bool wide_sum);
+/// \param normal_table  no coefficient is zero, subnormal, infinite or NaN
+[[nodiscard]] FormatText floating_text(bool wide_data, bool wide_sum, bool normal_table);
 /// The constants of a fixed-point kernel's scale.
 struct FixedScale {
     int sample_bits;

@@ -8,12 +8,6 @@
 namespace generate {
 namespace {
 
-// A loop that begins with a test only where it may have nothing to do.
-std::string loop(const Piece& piece, const std::string& condition, const std::string& body) {
-    return "@rolled@" + (piece.may_be_empty ? "        while (" + condition + ") {\n" + body + "        }\n"
-                                            : "        do {\n" + body + "        } while (" + condition + ");\n");
-}
-
 // The samples x and coefficients a of a piece.
 std::string pointers(const std::string& x, const std::string& a) {
     return "        const @sample@ *x = " + x + ";\n        const @coefficient@ *a = @name@_table" +
@@ -22,10 +16,18 @@ std::string pointers(const std::string& x, const std::string& a) {
 
 // Over the pieces, from the newest sample on: the body takes *x and *a, which move on behind it.
 std::string newest_first(const HistoryText& history, const std::string& body) {
-    std::string text;
+    std::string text = history.tested_first ? "" : "    const @coefficient@ *a = @name@_table;\n";
     for (const Piece& piece : history.pieces) {
-        text += "    {\n" + pointers(piece.begin, piece.from) + "        const @sample@ *const end = " + piece.end +
-                ";\n" + loop(piece, "x != end", body + "            ++a;\n            ++x;\n") + "    }\n";
+        const std::string end = "        const @sample@ *const end = " + piece.end + ";\n@rolled@";
+        const std::string turn = body + "            ++a;\n            ++x;\n";
+        if (history.tested_first) {
+            text += "    {\n" + pointers(piece.begin, piece.from) + end + "        while (x != end) {\n" + turn +
+                    "        }\n    }\n";
+        } else {
+            text += (piece.unless_empty.empty() ? "    {\n" : "    if (" + piece.unless_empty + ") {\n") +
+                    "        const @sample@ *x = " + piece.begin + ";\n" + end + "        do {\n" + turn +
+                    "        } while (x != end);\n    }\n";
+        }
     }
     return text;
 }
@@ -66,12 +68,39 @@ TechniqueText plain_text(const HistoryText& history, bool fused) {
 TechniqueText oldest_text(const HistoryText& history, bool fused) {
     return {.summary = "oldest first, one accumulator" + rounded_once(fused),
             .sum = "    @accumulator@ sum = 0;\n" +
-                   oldest_first(history, "            sum = " + accumulate(fused) + "(sum, *a, *x);\n") +
-                   "    sum = @name@_start(newest) + sum;\n",
+                   oldest_first(history, "            sum = " + accumulate(fused) + "(sum, *a, *x);\n"),
+            .closing = "    sum = @name@_start(newest) + sum;\n",
             .fused = fused};
 }
 
-TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, const std::string& m7) {
+namespace {
+
+// One accumulator after the other. In software four in turn only cost: each of their additions returns to another place
+// than the one before, and a core without a return stack guesses wrong each time. In memory the sum takes two
+// instructions a tap, in registers that outlive calls four.
+std::string one_by_one(const Piece& piece) {
+    return "#if defined(@NAME@_SOFT_DOUBLE)\n    {\n        const @sample@ *const first = " + piece.begin +
+           ";\n        double s[4];\n"
+           "        for (i = 0; i < 4U; ++i) {\n"
+           "            const @sample@ *x = first + i;\n"
+           "            const @coefficient@ *a = @name@_table + i;\n"
+           "            double part = 0;\n"
+           "            __asm__(\"\" : \"+m\"(part));\n@rolled@"
+           "            do {\n"
+           "                const @sample@ sample = *x;\n"
+           "                x += 4;\n"
+           "                __asm__(\"\" : \"+r\"(x)); /* moved by the load */\n"
+           "                part = @name@_multiply_add(part, *a, sample);\n"
+           "                __asm__(\"\" : \"+m\"(part));\n"
+           "                a += 4;\n            } while (a < @name@_table + @NAME@_PAST);\n"
+           "            s[i] = part;\n        }\n"
+           "        s0 = s[0];\n        s1 = s[1];\n        s2 = s[2];\n        s3 = s[3];\n    }\n#else\n";
+}
+
+}  // namespace
+
+TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, bool in_software,
+                         const std::string& m7) {
     // A past of fewer than four has no groups: loops over them would only make compilers warn.
     const bool groups = past >= 4;
     const auto add = [&](int chain, int indent) {
@@ -98,25 +127,26 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
         pieces += "    {\n" + pointers(piece.begin, piece.from) + "        const size_t count = (size_t)(" + piece.end +
                   " - x);\n" + body + "    }\n";
     }
-    std::string sum =
-        "    @accumulator@ sum;\n    @accumulator@ s0 = 0;\n"
-        "    @accumulator@ s1 = 0;\n    @accumulator@ s2 = 0;\n    @accumulator@ s3 = 0;\n" +
-        pieces + "    sum = @name@_start(newest) + ((s0 + s1) + (s2 + s3));\n";
+    std::string sum = in_software && past >= 16 ? one_by_one(history.pieces.front()) + pieces + "#endif\n" : pieces;
     const bool on_m7 = !m7.empty() && past >= 16;  // a shorter loop over a constant costs less than to enter the other
     if (on_m7) {
         const bool floats = m7 == "dot_floats";
-        std::string own = floats ? "    float sum;\n    float s[4] = {0.0F, 0.0F, 0.0F, 0.0F};\n"
-                                 : "    @accumulator@ sum = @name@_start(newest);\n";
-        own += groups ? "    (void)i;\n" : "";
+        std::string own = groups ? "    (void)i;\n" : "";
+        own += floats ? "    {\n        float s[4] = {0.0F, 0.0F, 0.0F, 0.0F};\n" : "";
         for (const Piece& piece : history.pieces) {
-            own += "    {\n" + pointers(piece.begin, piece.from) + (floats ? "        " : "        sum += ") +
-                   "@name@_" + m7 + (floats ? "(s, " : "(") + "a, x, (size_t)(" + piece.end + " - x));\n    }\n";
+            own += (floats ? "        @name@_" + m7 + "(s, " : "    s0 += @name@_" + m7 + "(") + "@name@_table" +
+                   (piece.from.empty() ? "" : " + " + piece.from) + ", " + piece.begin + ", (size_t)(" + piece.end +
+                   " - (" + piece.begin + ")));\n";
         }
-        own += floats ? "    sum = @name@_start(newest) + ((s[0] + s[1]) + (s[2] + s[3]));\n" : "";
+        own += floats ? "        s0 = s[0];\n        s1 = s[1];\n        s2 = s[2];\n        s3 = s[3];\n    }\n" : "";
         sum = or_on_m7(own, sum);
     }
     return {.summary = "newest first, four accumulators in turn" + rounded_once(fused),
-            .sum = sum,
+            .sum =
+                "    @accumulator@ sum;\n    @accumulator@ s0 = 0;\n"
+                "    @accumulator@ s1 = 0;\n    @accumulator@ s2 = 0;\n    @accumulator@ s3 = 0;\n" +
+                sum,
+            .closing = "    sum = @name@_start(newest) + ((s0 + s1) + (s2 + s3));\n",
             .fused = fused,
             .m7 = on_m7 ? m7 : ""};
 }
@@ -131,15 +161,15 @@ TechniqueText compensated_text(const HistoryText& history) {
                              "            const @accumulator@ next = sum + term;\n"
                              "            const @accumulator@ term_part = next - sum;\n"
                              "            lost += (sum - (next - term_part)) + (term - term_part);\n"
-                             "            sum = next;\n") +
-                "    sum = sum + lost;\n"};
+                             "            sum = next;\n"),
+            .closing = "    sum = sum + lost;\n"};
 }
 
 TechniqueText horner_text(const HistoryText& history, bool fused) {
     return {.summary = "nested, oldest first, with the factors (j-1-v)/j" + rounded_once(fused),
             .sum = "    @accumulator@ sum = 0;\n" +
-                   oldest_first(history, "            sum = " + nest(fused) + "(*x, *a, sum);\n", " + 1U") +
-                   "    sum = " + nest(fused) + "(newest, @name@_table[0], sum);\n",
+                   oldest_first(history, "            sum = " + nest(fused) + "(*x, *a, sum);\n", " + 1U"),
+            .closing = "    sum = " + nest(fused) + "(newest, @name@_table[0], sum);\n",
             .fused = fused};
 }
 
@@ -169,9 +199,10 @@ TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bo
                             "t1;\n        t[2] = t2;\n        @name@_nest_floats(t, a, x, i / 4U);\n        t0 = "
                             "t[0];\n        t1 = t[1];\n        t2 = t[2];\n        t3 = t[3];\n    }\n",
                             loop)
-                      : loop) +
-               "    sum = @name@_start(newest) + ((@name@_product(a[0], t0) + @name@_product(a[1], t1)) +\n"
-               "                                  (@name@_product(a[2], t2) + @name@_product(a[3], t3)));\n",
+                      : loop),
+        .closing =
+            "    sum = @name@_start(newest) + ((@name@_product(a[0], t0) + @name@_product(a[1], t1)) +\n"
+            "                                  (@name@_product(a[2], t2) + @name@_product(a[3], t3)));\n",
         .fused = fused,
         .m7 = on_m7 ? "nest_floats" : ""};
 }

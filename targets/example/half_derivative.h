@@ -27,8 +27,8 @@
  * relative to the largest exact full-memory sum, the worst of step, ramp, sine1, sine5, sine50, noise, drive
  * Measured cost a sample of the kernel that this is made from: 1227.6 model cycles, at most 1289.2, for stm32f746-itcm
  *
- * Command: glsum generate --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
- * glsum 0.1.0, commit 4b998d9c9a7c0731f448e4a6ffd0e7ed861debf0
+ * Command: glsum generate --jobs 2 --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
+ * glsum 0.1.0, commit 63a81e95d8c93124b5777c62497c42a33e2c07c4 with changes
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
  * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
@@ -83,6 +83,11 @@
 #else
 #pragma STDC FP_CONTRACT OFF
 #define HALF_F32_KEEP(value) ((void)(value))
+#endif
+#if defined(__GNUC__)
+#define HALF_F32_KEEP_WORD(value) __asm__("" : "+r"(value))
+#else
+#define HALF_F32_KEEP_WORD(value) ((void)(value))
 #endif
 
 /* The coefficients. */
@@ -167,9 +172,9 @@ static inline float half_step_f32(half_f32_instance *S, float newest)
 {
     size_t head = S->head;
     float sum = half_f32_start(newest);
+    const float *a = half_f32_table;
     {
         const float *x = S->past + head;
-        const float *a = half_f32_table;
         const float *const end = S->past + HALF_F32_PAST;
         do {
             sum = half_f32_multiply_add(sum, *a, *x);
@@ -177,19 +182,19 @@ static inline float half_step_f32(half_f32_instance *S, float newest)
             ++x;
         } while (x != end);
     }
-    {
+    if (head != 0U) {
         const float *x = S->past;
-        const float *a = half_f32_table + (HALF_F32_PAST - head);
         const float *const end = S->past + head;
-        while (x != end) {
+        do {
             sum = half_f32_multiply_add(sum, *a, *x);
             ++a;
             ++x;
-        }
+        } while (x != end);
     }
     head = (head == 0U ? HALF_F32_PAST : head) - 1U;
-    S->past[head] = newest;
+    HALF_F32_KEEP_WORD(head);
     S->head = head;
+    S->past[head] = newest;
     return half_f32_finish(S, sum);
 }
 

@@ -19,9 +19,12 @@ expect 0 "ring_plain_q15 with 10 taps in" generate --order 0.5 --kernel ring_pla
 expect 0 "taps in" generate --order 0.5 --step-s 0.001 --max-error 0.1 --target m7 --samples 60 --out "$folder/b.h" --verify
 grep -q 'Runner-up' "$folder/b.h" || fail "expected the runner-up in the header"
 # No header costs more than its kernel, whatever the rest of groups and the scale.
-for design in '0.98319 51' '-0.5 62'; do
+for design in '0.5 100' '0.98319 51' '-0.5 62'; do
     set -- $design
     expect 0 "the kernel's" generate --order "$1" --kernel '*' --taps "$2" --verify
+    [ "$(grep -c "the kernel's" "$folder/said")" -ge 59 ] || fail "expected every kernel's header"
+    dearer=$(awk "/the kernel's/ && (\$6 > \$5 || \$9 > \$8)" "$folder/said")
+    [ -z "$dearer" ] || fail "expected no header of more instructions or cycles than its kernel, found $dearer"
 done
 expect 0 "the kernel's" generate --order 0.5 --kernel 'nested_*' --taps 300 --verify
 # The committed example, made again: all but where and by what it was made.
