@@ -9,6 +9,7 @@
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
 #include "bench/report/best.hpp"
+#include "bench/report/classic.hpp"
 #include "bench/report/report.hpp"
 #include "bench/result_file.hpp"
 #include "cli/commands.hpp"
@@ -57,8 +58,12 @@ void run(Options options) {
     }
     const auto groups = bench::group(input.results.rows);
     const auto costs = bench::report::costs_of(groups);
-    if (const auto best = bench::report::best_table(bench::report::curve_points(groups, costs), costs); !best.empty()) {
-        fmt::print("\n{}", best);
+    const auto points = bench::report::curve_points(groups, costs);
+    for (const std::string& table :
+         {bench::report::best_table(points, costs), bench::report::gain_table(points, costs)}) {
+        if (!table.empty()) {
+            fmt::print("\n{}", table);
+        }
     }
 }
 

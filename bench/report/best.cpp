@@ -6,16 +6,7 @@
 #include <algorithm>
 
 namespace bench::report {
-namespace {
-
-std::optional<double> ranked_cost(const CurvePoint& point, const Cost& cost) {
-    const Entry& entry = *point.entry;
-    return entry.error_max && entry.fault.empty() ? cost.of(entry) : std::nullopt;
-}
-
 bool is_window(const CurvePoint& point) { return point.group->taps.find('+') == std::string::npos; }
-
-}  // namespace
 
 std::vector<Best> best_of(const std::vector<CurvePoint>& points, const std::vector<Cost>& costs, std::size_t cost) {
     std::vector<std::string> orders;

@@ -14,6 +14,9 @@ namespace bench::report {
 /// Limits of `error_max`, the worst of the signals.
 inline constexpr std::array<double, 4> error_limits = {1e-2, 1e-3, 1e-4, 1e-6};
 
+/// Whether the point's length is a window's: not near taps with modes or blocks.
+[[nodiscard]] bool is_window(const CurvePoint& point);
+
 struct Best {
     std::string order;
     double limit;

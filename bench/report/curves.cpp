@@ -43,23 +43,24 @@ std::vector<Cost> costs_of(const std::vector<Group>& groups) {
     return costs;
 }
 
-std::vector<CurvePoint> curve_points(const std::vector<Group>& groups, const std::vector<Cost>& costs) {
-    std::vector<CurvePoint> points;
+std::optional<double> ranked_cost(const CurvePoint& point, const Cost& cost) {
+    const Entry& entry = *point.entry;
+    return entry.error_max && entry.fault.empty() ? cost.of(entry) : std::nullopt;
+}
+
+void set_fronts(std::vector<CurvePoint>& points, const std::vector<Cost>& costs) {
     std::map<std::string, std::vector<std::size_t>> by_order;
-    for (const Group& group : groups) {
-        for (const Entry& entry : group.entries) {
-            by_order[group.order].push_back(points.size());
-            points.push_back({&group, &entry, std::vector<bool>(costs.size())});
-        }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        by_order[points[i].group->order].push_back(i);
     }
     for (const auto& [order, members] : by_order) {
         for (std::size_t c = 0; c < costs.size(); ++c) {
             std::vector<Point> ranked;
             std::vector<std::size_t> at;
             for (const std::size_t i : members) {
-                const Entry& entry = *points[i].entry;
-                if (const auto cost = costs[c].of(entry); cost && entry.error_max && entry.fault.empty()) {
-                    ranked.push_back({*cost, *entry.error_max});
+                points[i].front[c] = false;
+                if (const auto cost = ranked_cost(points[i], costs[c])) {
+                    ranked.push_back({*cost, *points[i].entry->error_max});
                     at.push_back(i);
                 }
             }
@@ -69,6 +70,16 @@ std::vector<CurvePoint> curve_points(const std::vector<Group>& groups, const std
             }
         }
     }
+}
+
+std::vector<CurvePoint> curve_points(const std::vector<Group>& groups, const std::vector<Cost>& costs) {
+    std::vector<CurvePoint> points;
+    for (const Group& group : groups) {
+        for (const Entry& entry : group.entries) {
+            points.push_back({&group, &entry, std::vector<bool>(costs.size())});
+        }
+    }
+    set_fronts(points, costs);
     return points;
 }
 

@@ -29,8 +29,14 @@ struct CurvePoint {
     std::vector<bool> front;  ///< for each cost: nothing else of its order, at any length, is better (`on_front`)
 };
 
-/// Every entry of the groups, which must outlive the points. Fronts are of `error_max`, the worst of the signals;
-/// entries with a fault, without an error or without that cost are on none.
+/// What the point's entry costs; empty for one with a fault, without an error or without that cost: it is not ranked.
+[[nodiscard]] std::optional<double> ranked_cost(const CurvePoint& point, const Cost& cost);
+
+/// Sets each point's fronts anew: of `error_max`, the worst of the signals, among these points of its order. Those that
+/// are not ranked are on none.
+void set_fronts(std::vector<CurvePoint>& points, const std::vector<Cost>& costs);
+
+/// Every entry of the groups, which must outlive the points, with its fronts (`set_fronts`).
 [[nodiscard]] std::vector<CurvePoint> curve_points(const std::vector<Group>& groups, const std::vector<Cost>& costs);
 
 /// One line a point: order, kernel, taps, errors, truncation bound, costs with the model's band, fronts, fault.

@@ -4,6 +4,7 @@
 
 #include "bench/files.hpp"
 #include "bench/plot.hpp"
+#include "bench/report/classic.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
 #include "bench/results.hpp"
@@ -36,9 +37,13 @@ std::vector<std::filesystem::path> write_report(const Input& input, const Input*
         plot_error(groups, bounds, stem);
         beside(".svg");
         beside(".png");
+        const std::filesystem::path whole = stem;
         plot_costs(stem += "-cost", points, costs);
         beside("-cost.svg");
         beside("-cost.png");
+        plot_gains(std::filesystem::path(whole) += "-fronts", points, costs);
+        beside("-fronts.svg");
+        beside("-fronts.png");
     }
     return written;
 }

@@ -10,9 +10,10 @@ fail() { echo "$*"; failures=$((failures + 1)); }
 "$make_results" 4000 "$folder/a.json"
 expect 0 "Example:" report --help
 expect 0 "a.html" report "$folder/a.json"
-for file in a.html a.csv a.svg a.png a-curves.csv a-cost.svg a-cost.png; do
+for file in a.html a.csv a.svg a.png a-curves.csv a-cost.svg a-cost.png a-fronts.svg a-fronts.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
 done
+expect 0 "least cost at an error, before" report "$folder/a.json"
 [ "$(wc -l <"$folder/a.csv")" -eq 4001 ] || fail "expected a line a row in a.csv"
 grep -q '^<svg' "$folder/a.svg" || grep -q '<svg' "$folder/a.svg" || fail "expected SVG in a.svg"
 # No address outside the page: only the names of XML's own namespaces look like one.
