@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +49,7 @@ struct Gain {
 [[nodiscard]] std::string gain_table(const std::vector<CurvePoint>& points, const std::vector<Cost>& costs);
 
 /// Writes `stem`.svg and `stem`.png: for each of `gain_costs` a panel for each order with both fronts, and the factor
-/// between them at errors of 1e-2, 1e-4 and 1e-6. Errors of 0 have no place on the logarithmic axis. At most 24 orders.
+/// between them at errors of 1e-2, 1e-4 and 1e-6. Errors below 1e-9 are not shown. At most 24 orders, the first.
 /// \throws as `draw`
 void plot_gains(const std::filesystem::path& stem, const std::vector<CurvePoint>& points,
                 const std::vector<Cost>& costs);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "bench/gnuplot.hpp"
 #include "bench/report/best.hpp"
@@ -31,6 +33,8 @@ Line front_line(const std::vector<CurvePoint>& points, const std::string& order,
         }
     }
     std::sort(line.begin(), line.end());
+    line.erase(std::unique(line.begin(), line.end(), [](const auto& a, const auto& b) { return a.first == b.first; }),
+               line.end());  // of one cost the smallest error
     return line;
 }
 

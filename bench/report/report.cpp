@@ -37,13 +37,14 @@ std::vector<std::filesystem::path> write_report(const Input& input, const Input*
         plot_error(groups, bounds, stem);
         beside(".svg");
         beside(".png");
-        const std::filesystem::path whole = stem;
-        plot_costs(stem += "-cost", points, costs);
+        plot_costs(std::filesystem::path(stem) += "-cost", points, costs);
         beside("-cost.svg");
         beside("-cost.png");
-        plot_gains(std::filesystem::path(whole) += "-fronts", points, costs);
-        beside("-fronts.svg");
-        beside("-fronts.png");
+        if (!gain_costs(points, costs).empty()) {
+            plot_gains(stem += "-fronts", points, costs);
+            beside("-fronts.svg");
+            beside("-fronts.png");
+        }
     }
     return written;
 }

@@ -360,6 +360,16 @@ TEST(Report, WritesEveryFileEvenOfHostileNamesAndOddLengths) {
     std::filesystem::remove_all(folder);
 }
 
+TEST(Report, OfAFileWithoutCostsHasNoFronts) {
+    const auto folder = std::filesystem::path(testing::TempDir()) / "report_free";
+    Input input{"free.json", {}, {}};
+    input.results.rows = {bench::make_row("gl/a_b_c/order:0.5/taps:50/accuracy/signal:step", 1)};
+    input.results.rows[0]["error_max"] = 1e-2;
+    EXPECT_EQ(write_report(input, nullptr, folder / "page.html").size(), 7U);
+    EXPECT_FALSE(std::filesystem::exists(folder / "page-fronts.svg"));
+    std::filesystem::remove_all(folder);
+}
+
 TEST(Report, OfAFileWithoutAccuracyHasNoPictures) {
     const auto folder = std::filesystem::path(testing::TempDir()) / "report_other";
     Input input{"other.json", {}, {}};
