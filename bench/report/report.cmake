@@ -19,5 +19,5 @@ add_custom_command(OUTPUT ${parts}
     COMMAND ${CMAKE_COMMAND} -D OUT=${parts} -D FOLDER=${report} -D SCRIPTS=${script_list}
         -D D3=${GLSUM_D3} -D D3_VERSION=${d3_version} -P ${report}/embed.cmake
     DEPENDS ${report}/embed.cmake ${report}/page.html ${report}/page.css ${script_files} ${GLSUM_D3} VERBATIM)
-target_sources(glsum_bench PRIVATE report/best.cpp report/classic.cpp report/columns.cpp report/cost_plot.cpp report/curves.cpp
-    report/difference.cpp report/front.cpp report/gain_plot.cpp report/page.cpp report/report.cpp ${parts})
+target_sources(glsum_bench PRIVATE report/best.cpp report/classic.cpp report/columns.cpp report/cost_plot.cpp
+    report/curves.cpp report/difference.cpp report/front.cpp report/gain_plot.cpp report/page.cpp report/report.cpp ${parts})
