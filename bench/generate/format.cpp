@@ -31,9 +31,10 @@ std::string finish(int shift) {
             -shift, power(-shift));
     }
     return text +
-           "    if (value > INT32_MAX) {\n        ++S->saturations;\n        return INT32_MAX;\n    }\n"
-           "    if (value < INT32_MIN) {\n        ++S->saturations;\n        return INT32_MIN;\n    }\n"
-           "    return (int32_t)value;\n";
+           "    const int32_t narrow = (int32_t)value;\n"
+           "    if (narrow != value) {\n        ++S->saturations;\n"
+           "        return value < 0 ? INT32_MIN : INT32_MAX;\n    }\n"
+           "    return narrow;\n";
 }
 
 }  // namespace
