@@ -16,7 +16,11 @@ std::string power(int exponent) { return fmt::format("((int64_t)1 << {})", expon
 // sum 2^-shift to nearest, halves up, saturated to 32 bits: kernels/glsum/format/fixed.hpp, round_shift.
 std::string finish(int shift) {
     std::string text;
-    if (shift > 0) {
+    if (shift == 32) {
+        text =
+            "    /* The upper word and the bit below it. */\n"
+            "    const int64_t value = (int64_t)(int32_t)(sum >> 32) + (int64_t)((uint32_t)sum >> 31);\n";
+    } else if (shift > 0) {
         text = fmt::format(
             "    /* Not (sum + half) >> shift: sum + half may leave the 64 bits. */\n"
             "    const int64_t value = ((sum >> {}) + 1) >> 1;\n",
@@ -31,9 +35,10 @@ std::string finish(int shift) {
             -shift, power(-shift));
     }
     return text +
-           "    if (value > INT32_MAX) {\n        ++S->saturations;\n        return INT32_MAX;\n    }\n"
-           "    if (value < INT32_MIN) {\n        ++S->saturations;\n        return INT32_MIN;\n    }\n"
-           "    return (int32_t)value;\n";
+           "    const int32_t narrow = (int32_t)value;\n"
+           "    if (narrow != value) {\n        ++S->saturations;\n"
+           "        return value < 0 ? INT32_MIN : INT32_MAX;\n    }\n"
+           "    return narrow;\n";
 }
 
 }  // namespace

@@ -363,7 +363,8 @@ std::string m7_loop_of(const std::string& name) {
         text.replace(at, ours.size(), "@NAME@_");
     }
     return fmt::format(
-        "\n#if defined(__ARM_ARCH_7EM__) && defined(__GNUC__)\n#define @NAME@_M7\n{}@NAME@_STEP_ATTRIBUTES\n"
+        "\n#if defined(__ARM_ARCH_7EM__) && defined(__GNUC__) && !defined(__PIC__)\n#define "
+        "@NAME@_M7\n{}@NAME@_STEP_ATTRIBUTES\n"
         "@NAME@_{}(@name@_{}{})\n#endif\n",
         text, loop->macro, loop->name, loop->arguments);
 }

@@ -134,9 +134,9 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
         std::string own = groups ? "    (void)i;\n" : "";
         own += floats ? "    {\n        float s[4] = {0.0F, 0.0F, 0.0F, 0.0F};\n" : "";
         for (const Piece& piece : history.pieces) {
-            own += (floats ? "        @name@_" + m7 + "(s, " : "    s0 += @name@_" + m7 + "(") + "@name@_table" +
-                   (piece.from.empty() ? "" : " + " + piece.from) + ", " + piece.begin + ", (size_t)(" + piece.end +
-                   " - (" + piece.begin + ")));\n";
+            own += (floats ? "        @name@_" + m7 + "(s, " : "    s0 = @name@_" + m7 + "_onto(s0, ") +
+                   "@name@_table" + (piece.from.empty() ? "" : " + " + piece.from) + ", " + piece.begin +
+                   ", (size_t)(" + piece.end + " - (" + piece.begin + ")));\n";
         }
         own += floats ? "        s0 = s[0];\n        s1 = s[1];\n        s2 = s[2];\n        s3 = s[3];\n    }\n" : "";
         sum = or_on_m7(own, sum);
@@ -247,13 +247,16 @@ TechniqueText paired_text(bool wide) {
             .sum =
                 "    /* Words are read from even samples: a window that begins in the middle of a word has a table of "
                 "its own. */\n"
-                "    const int middle = (head & 1U) != 0U;\n"
-                "    const @coefficient@ *a = middle ? @name@_table + @NAME@_ALIGNED : @name@_table;\n"
-                "    const @sample@ *x = S->past + head - (middle ? 1 : 0);\n"
-                "    const size_t words = middle ? @NAME@_SHIFTED : @NAME@_ALIGNED;\n" +
+                "    const size_t middle = head & 1U; /* every other time, so no branch */\n"
+                "    const @coefficient@ *a = @name@_table + middle * @NAME@_ALIGNED;\n"
+                "    const @sample@ *x = S->past + (head - middle);\n"
+                "    const size_t words = @NAME@_ALIGNED + middle * (@NAME@_SHIFTED - @NAME@_ALIGNED);\n" +
                 std::string(wide ? "    int64_t sum = @name@_start(newest);\n"
                                  : "    int32_t sum = (int32_t)@name@_start(newest);\n") +
-                (wide ? or_on_m7("    (void)i;\n    sum += @name@_dot_smlald(a, x, words);\n", loop) : loop),
+                (wide ? or_on_m7("    (void)i;\n    sum = @name@_dot_smlald_onto(sum, a, x, words);\n"
+                                 "    head = S->head; /* again, for want of registers */\n",
+                                 loop)
+                      : loop),
             .pairs = true,
             .m7 = wide ? "dot_smlald" : ""};
 }

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__ARM_ARCH_7EM__) && defined(__GNUC__)
+#if defined(__ARM_ARCH_7EM__) && defined(__GNUC__) && !defined(__PIC__)
 /// Where there are loops in the order of a Cortex-M7's issue slots: the same sums, bit by bit.
 #define GLSUM_M7
 #include "glsum/m7/dot_floats.h"

@@ -58,13 +58,11 @@ struct Rounded {
         const std::int64_t limit = highest >> -shift;
         value = sum > limit ? highest + 1 : sum < -limit - 1 ? lowest - 1 : sum * (std::int64_t{1} << -shift);
     }
-    if (value > highest) {
-        return {static_cast<std::int32_t>(highest), true};
+    const auto narrow = static_cast<std::int32_t>(value);
+    if (narrow != value) {
+        return {static_cast<std::int32_t>(value < 0 ? lowest : highest), true};
     }
-    if (value < lowest) {
-        return {static_cast<std::int32_t>(lowest), true};
-    }
-    return {static_cast<std::int32_t>(value), false};
+    return {narrow, false};
 }
 
 template <class SampleInteger, class CoefficientInteger = SampleInteger>
@@ -162,6 +160,9 @@ struct Fixed {
     }
 
     static Accumulator start(Sample sample, const Scale& scale) {
+        if constexpr (sample_bits + coefficient_bits < 31) {  // 32 bits hold it
+            return static_cast<std::int32_t>(sample) * (std::int32_t{1} << (coefficient_bits - scale.table_exponent));
+        }
         // By a product of 32 bits, which -2^31 fits and 2^31 does not: a shift of 64 bits takes ten instructions.
         const auto minus_one =
             static_cast<std::int32_t>(0U - (std::uint32_t{1} << (coefficient_bits - scale.table_exponent)));
@@ -182,8 +183,13 @@ struct Fixed {
         return x + upper * (std::int64_t{1} << (32 - shift)) + ((lower + (std::int64_t{1} << (shift - 1))) >> shift);
     }
     static Output finish(Accumulator sum, Scale& scale) {
-        const Rounded rounded = round_shift(sum, scale.output_shift);
-        scale.saturations += rounded.saturated ? 1U : 0U;
+        // The shift of orders in (0, 2], one comparison away.
+        constexpr int usual = sample_bits + coefficient_bits - 30;
+        const Rounded rounded =
+            scale.output_shift == usual ? round_shift(sum, usual) : round_shift(sum, scale.output_shift);
+        if (rounded.saturated) [[unlikely]] {  // else the count would be loaded and stored at each step
+            ++scale.saturations;
+        }
         return rounded.value;
     }
 

@@ -1,68 +1,86 @@
 /* Sums of products of 32-bit words in the order of a Cortex-M7's issue slots. C99 and C++; generated headers hold this
  * very text.
  *
- *   int64_t name(const void *a, const void *x, size_t words)     sum of a[i] x[i]
+ *   int64_t name_onto(int64_t sum, const void *a, const void *x, size_t words)     sum + the sum of a[i] x[i]
  *
  * `accumulate` is "smlal" (Q31: a word is a number) or "smlald" (Q15: a word is two). Exact in 64 bits where the sum
  * fits, so its order says nothing about its bits. a and x at multiples of four bytes. Reads nothing beyond the words.
  *
  * Two words are three cycles, six issue slots with nothing lost: load x_0 and x_1, which lie in different banks of the
- * memory wherever they are; load a_0 while x_-2 a_-2 is accumulated; load a_1 while x_-1 a_-1 is. A pair is accumulated
- * one later than it is loaded, so the two halves of the registers alternate, and the first pair meets coefficients of
- * zero. 64 words a turn. The first turn is entered in its middle, by a jump that is the same at each call: the end of
- * a loop over what is left would be guessed wrong.
+ * memory wherever they are; accumulate x_-1 a_-1 and load a_1; accumulate x_0 a_0 and load a_2. A register is loaded
+ * anew beside its last use: five hold all that is under way, x_0, a_0, a_1, and x_1 of this pair and of the last.
  *
- * Basic assembly in a function without prologue: compilers take it to read and write any memory. */
+ * 64 words a turn, in halves whose offsets are the same: loads move the pointers, so that a turn has two slots beside
+ * its words. The first turn is entered in its middle, by a jump that is the same at each call: the end of a loop over
+ * what is left would be guessed wrong, as the end of this one is, for 6 cycles and not 8, since its flags are a turn
+ * old. A word is 12 bytes of code. An even count enters where a pair begins, with a_0 loaded and a_-1 zero; an odd one
+ * half a pair later, with x_1 loaded, whichever register that is, and x_0 zero. The a_2 of a turn's last pair is loaded
+ * in the next turn, which there may not be. Negative offsets and those behind have no narrow encoding.
+ *
+ * The loop saves no register: the caller says which ones change, and saves them with its own, at once. Words come in
+ * r4, since r12 belongs to a linker's long branches; r7 may be the caller's frame. Not for position-independent code,
+ * which may not name the loop. */
+#define GLSUM_HALF_TURN(accumulate)                                                                     \
+    "ldr.w r5, [r3, #4]\n"                                                                              \
+    "ldr r4, [r3], #128\n" accumulate " r0, r1, r6, r9\n"                                               \
+    "ldr r9, [r2, #-120]\n" accumulate " r0, r1, r4, r8\n"                                              \
+    "ldr r8, [r2, #-116]\n"                                                                             \
+    ".set .Lword, -120\n"                                                                               \
+    ".rept 7\n"                                                                                         \
+    "ldr r4, [r3, #.Lword]\n"                                                                           \
+    "ldr r6, [r3, #.Lword + 4]\n" accumulate " r0, r1, r5, r9\n"                                        \
+    "ldr r9, [r2, #.Lword + 8]\n" accumulate " r0, r1, r4, r8\n"                                        \
+    "ldr r8, [r2, #.Lword + 12]\n"                                                                      \
+    "ldr r4, [r3, #.Lword + 8]\n"                                                                       \
+    "ldr r5, [r3, #.Lword + 12]\n" accumulate " r0, r1, r6, r9\n"                                       \
+    "ldr r9, [r2, #.Lword + 16]\n" accumulate " r0, r1, r4, r8\n"                                       \
+    "ldr r8, [r2, #.Lword + 20]\n"                                                                      \
+    ".set .Lword, .Lword + 16\n"                                                                        \
+    ".endr\n"                                                                                           \
+    "ldr r4, [r3, #-8]\n"                                                                               \
+    "ldr r6, [r3, #-4]\n" accumulate " r0, r1, r5, r9\n"                                                \
+    "ldr r9, [r2], #128\n" accumulate " r0, r1, r4, r8\n"
 #define GLSUM_DOT_WORDS(name, accumulate)                                                               \
-    __attribute__((naked, noinline, aligned(8), unused)) static int64_t name(                           \
-        const void *a __attribute__((unused)), const void *x __attribute__((unused)),                   \
-        size_t words __attribute__((unused)))                                                           \
+    __attribute__((naked, noinline, aligned(8), unused)) static void name(void)                         \
     {                                                                                                   \
         __asm__ volatile(                                                                               \
-            "push {r4-r11, lr}\n"                                                                       \
-            "mov.w r3, #0\n"                                                                            \
-            "mov.w r12, #0\n"                                                                           \
-            "mov.w r6, #0\n"                                                                            \
-            "mov.w r7, #0\n"                                                                            \
-            "mov.w r10, #0\n"                                                                           \
-            "mov.w r11, #0\n"                                                                           \
-            "mov.w r8, #0\n"                                                                            \
-            "lsrs r2, r2, #1\n" /* pairs, and an odd word by itself */                                  \
-            "itt cs\n"                                                                                  \
-            "ldrcs r8, [r1], #4\n"                                                                      \
-            "ldrcs r9, [r0], #4\n"                                                                      \
-            "negs r4, r2\n" /* pairs that the first of the turns leaves out, 24 bytes of code each */   \
-            "adr r5, 2f\n"                                                                              \
+            "subs.w r12, r4, #1\n"                                                                      \
+            "bcc.w 3f\n"                                                                                \
+            "and r6, r12, #63\n" /* words of the first turn, less one */                                \
+            "mov.w r5, #12\n"                                                                           \
+            "and r9, r12, #31\n"                                                                        \
+            "adr.w r10, 2f + 757\n" /* the last of a turn's 64, and the bit of Thumb */                 \
             "and r4, r4, #31\n"                                                                         \
-            "add.w r2, r2, #31\n" accumulate " r3, r12, r8, r9\n"                                       \
-            "beq.w 3f\n"                                                                                \
-            "adds r5, r5, #1\n"                                                                         \
-            "mov.w lr, #24\n"                                                                           \
-            "lsrs r2, r2, #5\n"                                                                         \
-            "mla r5, r4, lr, r5\n"                                                                      \
-            "sub r0, r0, r4, lsl #3\n"                                                                  \
-            "sub r1, r1, r4, lsl #3\n"                                                                  \
-            "bx r5\n"                                                                                   \
+            "ldr.w r8, [r2]\n"                                                                          \
+            "add.w r2, r2, r9, lsl #2\n"                                                                \
+            "mls r10, r6, r5, r10\n"                                                                    \
+            "ldr.w r5, [r3]\n"                                                                          \
+            "lsrs.w r12, r12, #6\n" /* turns behind the first */                                        \
+            "ldr.w r6, [r3]\n"                                                                          \
+            "add.w r3, r3, r4, lsl #2\n"                                                                \
+            "mov.w r4, #0\n"                                                                            \
+            "mov.w r9, #0\n"                                                                            \
+            "bx r10\n"                                                                                  \
             ".balign 8\n"                                                                               \
-            "2:\n"                                                                                      \
-            ".set .Lword, 0\n"                                                                          \
-            ".rept 16\n"                                                                                \
-            "ldr.w r4, [r1, #.Lword]\n"                                                                 \
-            "ldr.w r5, [r1, #.Lword + 4]\n"                                                             \
-            "ldr.w r6, [r0, #.Lword]\n" accumulate " r3, r12, r8, r10\n"                                \
-            "ldr.w r7, [r0, #.Lword + 4]\n" accumulate " r3, r12, r9, r11\n"                            \
-            "ldr.w r8, [r1, #.Lword + 8]\n"                                                             \
-            "ldr.w r9, [r1, #.Lword + 12]\n"                                                            \
-            "ldr.w r10, [r0, #.Lword + 8]\n" accumulate " r3, r12, r4, r6\n"                            \
-            "ldr.w r11, [r0, #.Lword + 12]\n" accumulate " r3, r12, r5, r7\n"                           \
-            ".set .Lword, .Lword + 16\n"                                                                \
-            ".endr\n"                                                                                   \
-            "add.w r1, r1, #256\n"                                                                      \
-            "subs.w r2, r2, #1\n"                                                                       \
-            "add.w r0, r0, #256\n"                                                                      \
-            "bne.w 2b\n" accumulate " r3, r12, r8, r10\n" accumulate " r3, r12, r9, r11\n"              \
+            "1:\n"                                                                                      \
+            "ldr r8, [r2, #-124]\n"                                                                     \
+            "subs.w r12, r12, #1\n"                                                                     \
+            "2:\n" GLSUM_HALF_TURN(accumulate)                                                          \
+            "ldr r8, [r2, #-124]\n" GLSUM_HALF_TURN(accumulate)                                         \
+            "bne.w 1b\n" accumulate " r0, r1, r6, r9\n"                                                 \
             "3:\n"                                                                                      \
-            "mov r0, r3\n"                                                                              \
-            "mov r1, r12\n"                                                                             \
-            "pop {r4-r11, pc}\n");                                                                      \
+            "bx lr\n");                                                                                 \
+    }                                                                                                   \
+    __attribute__((always_inline, unused)) static inline int64_t name##_onto(                           \
+        int64_t sum, const void *a, const void *x, size_t words)                                        \
+    {                                                                                                   \
+        register int64_t sum_in __asm__("r0") = sum;                                                    \
+        register const void *a_in __asm__("r2") = a;                                                    \
+        register const void *x_in __asm__("r3") = x;                                                    \
+        register size_t words_in __asm__("r4") = words;                                                 \
+        __asm__ volatile("bl %c[loop]"                                                                  \
+                         : "+r"(sum_in), "+r"(a_in), "+r"(x_in), "+r"(words_in)                         \
+                         : [loop] "i"(name)                                                             \
+                         : "r5", "r6", "r8", "r9", "r10", "r12", "lr", "cc", "memory");                 \
+        return sum_in;                                                                                  \
     }

@@ -50,9 +50,9 @@ protected:
             }
             return Format::start(newest, scale) + ((s[0] + s[1]) + (s[2] + s[3]));
         } else if constexpr (words) {
-            auto sum = Format::start(newest, scale) + dsp::dot_smlal(table, window.newer, window.newer_count);
+            auto sum = dsp::dot_smlal_onto(Format::start(newest, scale), table, window.newer, window.newer_count);
             if (window.older_count != 0) {
-                sum += dsp::dot_smlal(table + window.newer_count, window.older, window.older_count);
+                sum = dsp::dot_smlal_onto(sum, table + window.newer_count, window.older, window.older_count);
             }
             return sum;
         }

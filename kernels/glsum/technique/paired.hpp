@@ -69,7 +69,7 @@ struct Paired : WeightTable {
         auto sum = static_cast<Sum>(Format::start(newest, scale));
 #if defined(GLSUM_M7)
         if constexpr (sizeof(Sum) == 8) {
-            return sum + dsp::dot_smlald(coefficients, samples, words);
+            return dsp::dot_smlald_onto(sum, coefficients, samples, words);
         }
 #endif
         for (std::size_t i = 0; i < words; ++i) {
