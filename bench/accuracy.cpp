@@ -101,7 +101,7 @@ struct Case {
             }
             return sums.at(static_cast<std::size_t>(std::ranges::find(windows, length.taps) - windows.begin()));
         }
-        auto& sums = of_designs[{dropped, (length.blocks ? "blocks " : "") + length.text()}];
+        auto& sums = of_designs[{dropped, named(length, design)}];
         if (sums.empty()) {
             sums = reference::sums_of(dropped, design, record);
         }

@@ -11,9 +11,11 @@
 #include "bench/reference/dropped.hpp"
 #include "glsum/history/nested.hpp"
 #include "glsum/registry.hpp"
+#include "glsum/weights.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "modes/fitted.hpp"
+#include "modes/integral.hpp"
 
 namespace bench {
 namespace {
@@ -33,10 +35,19 @@ struct Named {
     Discretisation weights;
     double order;        // v
     bool of_increments;  // then they are of order v - 1
+    bool adds_up;        // the slowest mode is a running sum
     [[nodiscard]] double of_weights() const { return of_increments ? order - 1.0 : order; }
     // a_0 ... a_last.
     [[nodiscard]] std::vector<double> to(std::size_t last) const {
-        std::vector<double> all = named_weights(weights, order, of_increments, last);
+        std::vector<double> all;
+        if (names_weights(weights)) {
+            all = named_weights(weights, order, of_increments, last);
+        } else {
+            for (glsum::Weights walk(of_weights()); all.size() < last;) {
+                walk.next();
+                all.push_back(walk.weight());
+            }
+        }
         all.insert(all.begin(), 1.0);
         return all;
     }
@@ -44,15 +55,27 @@ struct Named {
 };
 
 // An order's own weights are those of v - 1 over increments: the same whoever sums them.
-Named named_of(double order, double of_weights, Discretisation weights) {
-    return names_weights(weights) ? Named{weights, order, of_weights != order}
-                                  : Named{Discretisation::gl, of_weights, false};
+Named named_of(const std::string& kernel, double order, Discretisation weights) {
+    const double of_weights = order_of_weights(kernel, order);
+    const bool adds_up = bench::adds_up(kernel);
+    return names_weights(weights) ? Named{weights, order, of_weights != order, adds_up}
+                                  : Named{Discretisation::gl, of_weights, false, adds_up};
+}
+
+glsum::modes::Approximation approximation_of(const Named& named, std::size_t samples, std::size_t near_taps,
+                                             std::size_t modes) {
+    namespace design = glsum::modes;
+    return named.adds_up ? design::approximate_integral(named.to(samples), named.of_weights(), near_taps, modes)
+           : names_weights(named.weights)
+               ? design::approximate_fitted(named.to(samples), named.of_weights(), near_taps, modes)
+               : design::approximate({named.of_weights(), samples}, near_taps, modes);
 }
 
 // The shortest design for an error; empty if there is none.
 std::optional<Length> shortest(const Named& named, std::size_t samples, double error) {
     return remembered(std::tuple(named, samples, error), [&]() -> std::optional<Length> {
-        const auto found = names_weights(named.weights)
+        const auto found = named.adds_up ? glsum::modes::design_integral(named.to(samples), named.of_weights(), error)
+                           : names_weights(named.weights)
                                ? glsum::modes::design_fitted(named.to(samples), named.of_weights(), error)
                                : glsum::modes::design({named.of_weights(), samples}, error);
         return found ? std::optional(Length{found->cost(), false, found->modes.size()}) : std::nullopt;
@@ -90,6 +113,12 @@ bool has_modes(const std::string& kernel) {
     return of_history(kernel, false, []<class K>() { return glsum::keeps_modes<typename K::HistoryPart>; });
 }
 
+bool adds_up(const std::string& kernel) {
+    return find_of_history<bool>(kernel, false,
+                                 []<class K>() { return glsum::keeps_running_sum<typename K::HistoryPart>; })
+        .value_or(false);
+}
+
 bool has_blocks(const std::string& kernel) {
     return of_history(kernel, false, []<class K>() { return glsum::keeps_blocks<typename K::HistoryPart>; });
 }
@@ -102,7 +131,10 @@ double order_of_weights(const std::string& kernel, double order) {
 }
 
 bool serves(const std::string& kernel, double order) {
-    return of_history(kernel, glsum::order_in_range(order), [&]<class K>() { return K::order_in_range(order); });
+    return of_history(kernel, glsum::order_in_range(order), [&]<class K>() {
+        return K::order_in_range(order) &&
+               (!glsum::keeps_running_sum<typename K::HistoryPart> || glsum::modes::is_integral(order));
+    });
 }
 
 bool truncates(const std::string& kernel) {
@@ -112,8 +144,10 @@ bool truncates(const std::string& kernel) {
     });
 }
 
-Length length_with_modes(double order, std::size_t taps) {
-    return {taps, false, glsum::modes::modes_within(order, taps)};
+Length length_with_modes(const std::string& kernel, double order, std::size_t taps) {
+    return {
+        taps, false,
+        adds_up(kernel) ? glsum::modes::integral_modes_within(order, taps) : glsum::modes::modes_within(order, taps)};
 }
 
 Length length_with_blocks(double order, std::size_t taps, std::size_t samples) {
@@ -125,7 +159,7 @@ Length length_with_blocks(double order, std::size_t taps, std::size_t samples) {
 
 Length length_of(const std::string& kernel, double order, std::size_t taps, std::size_t samples) {
     return has_blocks(kernel)  ? length_with_blocks(order_of_weights(kernel, order), taps, samples)
-           : has_modes(kernel) ? length_with_modes(order_of_weights(kernel, order), taps)
+           : has_modes(kernel) ? length_with_modes(kernel, order_of_weights(kernel, order), taps)
                                : Length{taps};
 }
 
@@ -140,15 +174,11 @@ glsum::Design design_of(const std::string& kernel, double order, const Length& l
                         Discretisation weights) {
     glsum::Design design{order, length.taps};
     design.blocks = length.blocks.value_or(glsum::Blocks{});
-    const double of_weights = order_of_weights(kernel, order);
-    const Named named = named_of(order, of_weights, weights);
+    const Named named = named_of(kernel, order, weights);
     if (const std::size_t modes = length.modes.value_or(0); modes > 0) {
         const std::size_t near_taps = length.taps - 2 * modes;
-        design.modes = remembered(std::tuple(named, samples, length.taps, modes), [&] {
-            return names_weights(weights)
-                       ? glsum::modes::approximate_fitted(named.to(samples), of_weights, near_taps, modes).modes
-                       : glsum::modes::approximate({of_weights, samples}, near_taps, modes).modes;
-        });
+        design.modes = remembered(std::tuple(named, samples, length.taps, modes),
+                                  [&] { return approximation_of(named, samples, near_taps, modes).modes; });
     }
     if (names_weights(weights)) {
         const std::size_t count = glsum::reach_of(design) - 1;
@@ -156,6 +186,11 @@ glsum::Design design_of(const std::string& kernel, double order, const Length& l
                                     [&] { return named_weights(weights, order, named.of_increments, count); });
     }
     return design;
+}
+
+std::string named(const Length& length, const glsum::Design& design) {
+    const bool adds_up = !design.modes.empty() && design.modes.front().decay == 0.0;
+    return (length.blocks ? "blocks " : adds_up ? "running sum " : "") + length.text();
 }
 
 std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order) {
@@ -178,12 +213,12 @@ std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, do
         return lengths;
     }
     const double of_weights = order_of_weights(kernel, order);
-    if (!glsum::modes::has_tail(of_weights)) {
+    if (!adds_up(kernel) && !glsum::modes::has_tail(of_weights)) {
         return {};
     }
     if (lengths.empty()) {
         for (const double error : sweep.design_errors) {
-            if (const auto found = shortest(named_of(order, of_weights, sweep.weights), sweep.samples, error)) {
+            if (const auto found = shortest(named_of(kernel, order, sweep.weights), sweep.samples, error)) {
                 lengths.push_back(*found);
             }
         }

@@ -14,6 +14,9 @@ namespace bench {
 /// the registry.
 [[nodiscard]] bool has_modes(const std::string& kernel);
 
+/// Whether the slowest of a kernel's modes is a running sum: integrals alone. Of any other name no.
+[[nodiscard]] bool adds_up(const std::string& kernel);
+
 /// Whether a kernel keeps near taps and blocks in place of a window. \throws as has_modes.
 [[nodiscard]] bool has_blocks(const std::string& kernel);
 
@@ -27,8 +30,9 @@ namespace bench {
 /// \throws as has_modes.
 [[nodiscard]] bool truncates(const std::string& kernel);
 
-/// The length of a design of `taps` coefficients: `modes_within` of them are modes. The order is that of the weights.
-[[nodiscard]] Length length_with_modes(double order, std::size_t taps);
+/// The length of a design of `taps` coefficients: `modes_within` of them are modes. The order is that of the weights;
+/// of a name that is no kernel's as for `modes`.
+[[nodiscard]] Length length_with_modes(const std::string& kernel, double order, std::size_t taps);
 
 /// The same with blocks: those of `design_blocks` for a record of so many samples.
 [[nodiscard]] Length length_with_blocks(double order, std::size_t taps, std::size_t samples);
@@ -47,6 +51,9 @@ namespace bench {
 /// first.
 [[nodiscard]] glsum::Design design_of(const std::string& kernel, double order, const Length& length,
                                       std::size_t samples, Discretisation weights = Discretisation::gl);
+
+/// The length with what else tells designs of one order and length apart: blocks, or a running sum.
+[[nodiscard]] std::string named(const Length& length, const glsum::Design& design);
 
 /// The lengths at which a sweep measures a kernel. With a window: those without modes. With
 /// blocks: one for each of these but `full`, of as many coefficients. With modes: those with modes, or

@@ -346,8 +346,7 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
     std::map<std::tuple<double, std::string, reference::Dropped, Discretisation>, Weights> known;
     const auto weights_of = [&](const Timed& timed, reference::Dropped dropped, const glsum::Design& design,
                                 bool ends) {
-        auto& weights =
-            known[{timed.order, (timed.length.blocks ? "blocks " : "") + timed.length.text(), dropped, timed.weights}];
+        auto& weights = known[{timed.order, named(timed.length, design), dropped, timed.weights}];
         if (!weights) {
             weights = std::make_shared<const std::vector<reference::Real>>(
                 ends ? exact_weights(timed.weights, reference::Real(timed.order), design.taps)

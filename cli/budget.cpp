@@ -124,7 +124,7 @@ choose::Question to_question(const Budget& budget) {
     question.target = budget.target == "host" ? choose::Target::host : choose::Target::m7;
     const bool counts = question.target == choose::Target::host || (budget.max_instructions && budget.core.empty());
     question.core = counts ? "" : budget.core.empty() ? default_core : budget.core;
-    question.kernels = choose::kernels_of(question.target);
+    question.kernels = choose::kernels_of(question.target, question.conditions.order);
     question.max_error = budget.max_error;
     question.max_cycles = budget.max_cycles;
     question.max_instructions = budget.max_instructions;

@@ -128,6 +128,11 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
     };
     // With modes a length of taps is parted as a design of so many has them.
     constexpr bool with_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+    if (glsum::keeps_running_sum<typename K::HistoryPart>) {
+        refuse(fmt::format(
+            "{}: expected a kernel modes_...: a running sum is for integrals, and a plant's orders are above 0",
+            K::name()));
+    }
     if (glsum::keeps_increments<typename K::HistoryPart> && glsum::keeps_modes<typename K::HistoryPart>) {
         refuse(fmt::format("{}: expected increments and a kernel modes_..., which is the same sum", K::name()));
     }

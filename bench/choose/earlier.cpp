@@ -59,7 +59,7 @@ std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::
     const bench::Length written = bench::as_counted(key.kernel, *length);
     const double of_weights = bench::order_of_weights(key.kernel, order);
     const bench::Length counted = written.blocks ? bench::length_with_blocks(of_weights, written.taps, samples)
-                                                 : bench::length_with_modes(of_weights, written.taps);
+                                                 : bench::length_with_modes(key.kernel, of_weights, written.taps);
     const bool asked_for = counted.text() == written.text();
     return asked_for ? std::optional(written.taps) : std::nullopt;
 }

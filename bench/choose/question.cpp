@@ -6,6 +6,7 @@
 
 #include "bench/choose/earlier.hpp"
 #include "bench/context.hpp"
+#include "bench/designs.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/failure.hpp"
 
@@ -60,11 +61,13 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
 
 }  // namespace
 
-std::vector<std::string> kernels_of(Target target) {
+std::vector<std::string> kernels_of(Target target, double order) {
     std::vector<std::string> kernels;
     glsum::Registry::for_each([&]<class K>() {
-        if (!std::is_same_v<K, glsum::Null> && (target == Target::host || !K::host_only)) {
-            kernels.emplace_back(K::name());
+        const std::string name(K::name());
+        const bool of_another_order = bench::adds_up(name) && !bench::serves(name, order);
+        if (!std::is_same_v<K, glsum::Null> && (target == Target::host || !K::host_only) && !of_another_order) {
+            kernels.push_back(name);
         }
     });
     return kernels;

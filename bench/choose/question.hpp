@@ -41,8 +41,8 @@ struct Answer {
     bench::Json context;             ///< the conditions of this run
 };
 
-/// Kernels that run on a target: all but `null`, on the m7 without the host's own.
-[[nodiscard]] std::vector<std::string> kernels_of(Target target);
+/// Kernels that run on a target: all but `null`, on the m7 without the host's own, those of integrals for these alone.
+[[nodiscard]] std::vector<std::string> kernels_of(Target target, double order);
 
 /// \param board  needed for the target m7; on the host it only says whether a file's rows are of this build
 /// \throws glsum::Failure (bad input) for limits that do not suit the target; (missing) without a board for the target

@@ -305,9 +305,13 @@ std::string constants(const Spec& spec, const KernelData& data) {
             "#define @NAME@_IN_WINDOW ({}) /* a_0 + ... + a_(L-1) */\n#define @NAME@_MINUS_ORDER ({}) /* -v */\n",
             real_literal(data.inputs.type, data.in_window), real_literal(data.inputs.type, data.minus_order));
     }
-    if (data.modes > 0) {
+    if (data.running_weight) {
+        text += fmt::format("#define @NAME@_RUNNING_WEIGHT {} /* of the running sum */\n",
+                            real_literal(data.inputs.type, *data.running_weight));
+    }
+    if (data.decaying > 0) {
         text += fmt::format("#define @NAME@_MODES {}U              /* decaying averages of what lies behind these */\n",
-                            data.modes);
+                            data.decaying);
     }
     if (data.groups) {
         text += fmt::format("#define @NAME@_GROUPS {}U             /* of four samples */\n", *data.groups);
@@ -503,7 +507,7 @@ std::string make_header(const Spec& spec) {
     text += uses && fixed && body.find("_KEEP(") != std::string::npos ? fill(keep_fixed, places) : "";
     text += uses && wide_sum ? fill(soft_double, places) : "";
     text += uses && body.find("_KEEP_WORD(") != std::string::npos ? fill(keep_word, places) : "";
-    if (uses) {
+    if (uses && !(data.table.reals.empty() && data.table.integers.empty())) {
         text += fill("\n/* The coefficients. */\n@NAME@_TABLE_ATTRIBUTES\n", places) +
                 array(places["coefficient"], name + "_table",
                       data.pairs ? words(data.table.integers) : literals(data.table));

@@ -122,6 +122,21 @@ HistoryText increments_text(const HistoryText& kept, bool fixed) {
     return text;
 }
 
+// kernels/glsum/history/integral.hpp.
+HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples) {
+    HistoryText text = modes;
+    text.summary = "the newest samples as they are, all older ones as decaying averages and a running sum";
+    text.fields =
+        "    @sample@ total[2]; /* x of all samples behind the near ones; what its additions lost */\n" + modes.fields;
+    text.reset = modes.reset + "    S->total[0] = 0;\n    S->total[1] = 0;\n";
+    text.before = std::string("    const @sample@ added = ") +
+                  (near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest") +
+                  ";\n    const @sample@ total = S->total[0];\n    const @sample@ lost = S->total[1];\n"
+                  "    const @sample@ grown = total + added;\n    const @sample@ part = grown - total;\n";
+    text.before += "    S->total[0] = grown;\n    S->total[1] = lost + ((total - (grown - part)) + (added - part));\n";
+    return text;
+}
+
 // kernels/glsum/history/tail.hpp.
 HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first) {
     HistoryText text = window;

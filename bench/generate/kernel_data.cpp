@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <bit>
+#include <cmath>
 #include <span>
 #include <type_traits>
 
@@ -12,6 +13,7 @@
 #include "bench/row.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
+#include "glsum/weights.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "qemu/failure.hpp"
@@ -33,8 +35,8 @@ template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Nested, glsum::Block, glsum::MirrorDelta,
-           glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integral, glsum::Nested, glsum::Block,
+           glsum::MirrorDelta, glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
     (is_paired<T> ||
      one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
             glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
@@ -74,6 +76,7 @@ template <class History>
 HistoryText text_of_history(History history, std::size_t, bool) {
     return history_text(history);
 }
+HistoryText text_of_history(glsum::Integral, std::size_t, bool) { return history_text(glsum::Modes{}); }
 template <class Kept>
 HistoryText text_of_history(glsum::Delta<Kept>, std::size_t, bool fixed) {
     return increments_text(history_text(Kept{}), fixed);
@@ -114,6 +117,16 @@ std::uint64_t bits_of(Output output) {
     }
 }
 
+// a_0 ... a_N of the order.
+std::vector<double> weights_to(double order, std::size_t last) {
+    std::vector<double> weights = {1.0};
+    for (glsum::Weights walk(order); weights.size() <= last;) {
+        walk.next();
+        weights.push_back(walk.weight());
+    }
+    return weights;
+}
+
 template <class K>
 KernelData describe(double order, std::size_t taps, std::size_t horizon, const std::vector<double>& reals,
                     std::size_t calls) {
@@ -147,6 +160,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     data.output = c_type<Output>();
     data.past = past - 2 * design.modes.size() - design.blocks.count;
     data.modes = design.modes.size();
+    data.decaying = data.modes;
     data.blocks = design.blocks;
     data.samples_held = glsum::past_needed<K>(design);
     data.table = numbers(table);
@@ -164,14 +178,25 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.history_text.tested_first = true;
     }
     if constexpr (has_modes) {
-        data.technique_text = modes_text(data.past, data.modes, std::is_same_v<Technique, glsum::Compensated>,
+        if (glsum::keeps_running_sum<typename K::HistoryPart> && data.modes > 0) {
+            --data.decaying;
+        }
+        data.technique_text = modes_text(data.past, data.decaying, std::is_same_v<Technique, glsum::Compensated>,
                                          Format::fixed_point, std::is_same_v<Format, glsum::F64>);
-        const double of_weights = increments ? order - 1.0 : order;
         const double largest = increments ? 2.0 : 1.0;  // of what is kept
         data.design_error =
             data.modes == 0
                 ? 0.0
-                : largest * glsum::modes::approximate({of_weights, horizon}, data.past + 1, data.modes).error;
+                : largest * glsum::modes::error_of(weights_to(increments ? order - 1.0 : order, horizon), data.past + 1,
+                                                   {design.modes.begin(), design.modes.end()}, INFINITY);
+        if constexpr (glsum::keeps_running_sum<typename K::HistoryPart>) {
+            if (data.modes > 0) {
+                data.running_weight = static_cast<double>(state.weight);
+                data.history_text = running_sum_text(data.history_text, data.past);
+                data.technique_text.closing =
+                    "    sum = @name@_multiply_add(sum, @NAME@_RUNNING_WEIGHT, total + lost);\n";
+            }
+        }
     } else if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Block>) {
         data.groups = glsum::Block::groups(past);
         data.technique_text = block_text(K::fused, Format::fixed_point);

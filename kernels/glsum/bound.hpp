@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "glsum/delta_bound.hpp"
+#include "glsum/integral_bound.hpp"
 #include "glsum/kernel.hpp"
 #include "glsum/modes_bound.hpp"
 #include "glsum/nested_bound.hpp"
@@ -55,9 +56,9 @@ inline constexpr std::size_t longest_record = 1'000'000;
 /// input, |x| <= peak (in fixed point also peak < 1), so that the rounding of the input counts too.
 /// With modes or blocks the exact sum is that of the design's own taps and exponentials or blocks; of increments, and
 /// of a window with a guessed tail, it is the sum that their history states, with exact weights. Derivation:
-/// modes_bound.hpp, nested_bound.hpp, delta_bound.hpp, tail_bound.hpp, and the headers of the technique (floating
-/// point) and of format/fixed.hpp. Absolute, before h^-v. \param samples  of the record, for kernels whose weights are
-/// carried along it; others do not look at it
+/// modes_bound.hpp, nested_bound.hpp, delta_bound.hpp, integral_bound.hpp, tail_bound.hpp, and the headers of the
+/// technique (floating point) and of format/fixed.hpp. Absolute, before h^-v. \param samples  of the record, for
+/// kernels whose weights are carried along it; others do not look at it
 template <class K>
 [[nodiscard]] double error_bound(const Design& design, const typename K::State& state, double peak,
                                  std::size_t samples = longest_record) {
@@ -66,6 +67,10 @@ template <class K>
     if constexpr (keeps_increments<typename K::HistoryPart>) {
         return delta_error_bound<K>(design, peak, [&](const Design& inner, double largest) {
             return error_bound<typename K::Inner>(inner, state, largest);
+        });
+    } else if constexpr (keeps_running_sum<typename K::HistoryPart>) {
+        return integral_error_bound<K>(design, peak, samples, [&](const Design& inner) {
+            return error_bound<typename K::Inner>(inner, state, peak, samples);
         });
     } else if constexpr (guesses_tail<typename K::HistoryPart>) {
         constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();

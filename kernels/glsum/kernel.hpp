@@ -15,7 +15,7 @@ namespace glsum {
 /// A decaying exponential that stands for far taps: behind the first K its part of the weight of index j is
 /// weight (1 - decay)^(j-K).
 struct Mode {
-    double decay;   ///< d = 1 - r in (0, 1]; r itself would lose the slow modes in single precision
+    double decay;   ///< d = 1 - r in (0, 1]; r itself would lose the slow modes in single precision. 0: a running sum
     double weight;  ///< w
 };
 
@@ -33,7 +33,8 @@ struct Design {
     double order;      ///< v, in (-2, 2]
     std::size_t taps;  ///< L >= 1: coefficients, a_0 included; a mode counts as two, a block as one
     /// For a kernel whose history is `modes`: M exponentials behind the first K = L - 2M taps, K >= 1. Without any it
-    /// ends where a window of L taps does. A kernel that keeps a window does not look at them. They are copied.
+    /// ends where a window of L taps does. For `modessum` the first decays by 0, for others none does. A kernel
+    /// that keeps a window does not look at them. They are copied.
     std::span<const Mode> modes = {};
     /// In place of the order's own weights, any others: a_1, a_2, ... as many as the taps before the modes need. So one
     /// kernel sums the merged table of a model of several orders, or weights of another discretisation. Empty: those of

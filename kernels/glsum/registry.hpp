@@ -8,6 +8,7 @@
 #include "glsum/history/mirror.hpp"
 #include "glsum/history/ring.hpp"
 #include "glsum/history/shift.hpp"
+#include "glsum/integral_sum.hpp"
 #include "glsum/kernel.hpp"
 #include "glsum/modes_sum.hpp"
 #include "glsum/nested_sum.hpp"

@@ -93,6 +93,23 @@ TEST(Accuracy, SignalsWithoutFormulaHaveNoDiscretisation) {
     }
 }
 
+TEST(Accuracy, RoundingIsAgainstTheKernelsOwnDesign) {
+    // Of one length, with and without a running sum; with blocks of as many coefficients.
+    bench::Sweep sweep;
+    sweep.kernels = {"modes_plain_f64", "modessum_plain_f64", "nested_plain_f64"};
+    sweep.orders = {-0.5};
+    sweep.lengths = {bench::parse_length("1+6", 400).value(), {13}};
+    sweep.signals = {"noise"};
+    sweep.samples = 400;
+    const std::vector<std::size_t> cases = {0};
+    std::size_t rows = 0;
+    for (const bench::Json& row : bench::measure_accuracy(sweep, cases).at(0)) {
+        EXPECT_LE(row.at("rounding_error_max").get<double>(), 1e-14) << row;
+        ++rows;
+    }
+    EXPECT_EQ(rows, 3U);
+}
+
 TEST(Accuracy, ShortRecordsAreMeasured) {
     for (const std::size_t samples : {2U, 3U, 7U}) {
         for (const auto& row : discretisation(0.5, {"step"}, samples)) {

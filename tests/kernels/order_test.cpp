@@ -36,7 +36,7 @@ private:
     static constexpr std::string_view word = K::TechniquePart::word;
     static constexpr bool fused = word.ends_with("fma");
     // Without modes, which have a test of their own, nothing is compensated: that is of their states.
-    static constexpr bool is_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
+    static constexpr bool is_modes = glsum::keeps_modes<typename K::HistoryPart>;
     static constexpr std::string_view form = is_modes ? "plain" : fused ? word.substr(0, word.size() - 3) : word;
 
     static Wide accumulate(Wide sum, Wide a, Wide x) {

@@ -1,0 +1,65 @@
+// Designs with a running sum: their certificate by definition, their cost, and the weight that a level is added up
+// with.
+#include "modes/integral.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "glsum/weights.hpp"
+#include "modes/design.hpp"
+
+namespace {
+
+using glsum::Mode;
+
+std::vector<double> weights_to(double order, std::size_t last) {
+    std::vector<double> weights = {1.0};
+    for (glsum::Weights walk(order); weights.size() <= last;) {
+        walk.next();
+        weights.push_back(walk.weight());
+    }
+    return weights;
+}
+
+TEST(IntegralDesignTest, KeepsTheErrorItIsAskedFor) {
+    for (const double order : {-0.2, -0.5, -0.8, -1.0}) {
+        for (const std::size_t horizon : {600U, 5000U}) {
+            const std::vector<double> weights = weights_to(order, horizon);
+            for (const double error : {1e-1, 1e-3}) {
+                const auto found = glsum::modes::design_integral(weights, order, error);
+                ASSERT_TRUE(found.has_value()) << order << " " << horizon;
+                EXPECT_LE(found->error, error);
+                // By the definition, in long double.
+                std::vector<long double> terms;
+                for (const Mode& mode : found->modes) {
+                    terms.push_back(mode.weight);
+                }
+                long double missed = 0.0L;
+                for (std::size_t j = found->near_taps; j <= horizon; ++j) {
+                    long double sum = 0.0L;
+                    for (std::size_t m = 0; m < terms.size(); ++m) {
+                        sum += terms[m];
+                        terms[m] *= 1.0L - static_cast<long double>(found->modes[m].decay);
+                    }
+                    missed += std::fabs(weights[j] - sum);
+                }
+                EXPECT_NEAR(static_cast<double>(missed), found->error, 1e-9 + 1e-6 * error);
+                if (order != -1.0) {
+                    EXPECT_GT(found->modes.front().weight, 0.2 * weights.back());
+                    EXPECT_LT(found->modes.front().weight, 2.0 * weights.back());
+                    // A running sum for the slowest mode costs a mode more at most, here and there beside a tap.
+                    const auto decaying = glsum::modes::design({order, horizon}, error);
+                    ASSERT_TRUE(decaying.has_value());
+                    EXPECT_LE(found->cost(), decaying->cost() + 3) << order << " " << horizon << " " << error;
+                } else {
+                    EXPECT_EQ(found->cost(), 3U);
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
