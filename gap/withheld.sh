@@ -34,6 +34,10 @@ sensor_saturation sensor_saturation.limit=0.7
 missed_counts missed_counts.sizes=0.04 missed_counts.at_s=8
 dropped_samples dropped_samples.rate=0.1
 sampling_jitter sampling_jitter.half_width_s=0.015
+input_curve input_curve.curvature=0.6 input_curve.reference=0.1
+direction_dependent_friction direction_dependent_friction.force_up=0.01
+output_curve output_curve.curvature=0.15
+encoder_quantisation encoder_quantisation.step=0.05
 '
 
 stand() {
@@ -41,7 +45,7 @@ stand() {
 }
 stand --experiment staircase --seed 1 --out "$folder/plain.csv" --model "$folder/m.json"
 
-printf '%-22s %-60s %7s %7s %7s\n' withheld verdict before after 'at best'
+printf '%-28s %-60s %7s %7s %7s\n' withheld verdict before after 'at best'
 printf '%s\n' "$sizes" | while read -r effect settings; do
     [ -n "$effect" ] || continue
     if [ $# -gt 0 ]; then
@@ -60,5 +64,5 @@ printf '%s\n' "$sizes" | while read -r effect settings; do
     verdict=$(sed -n 's/^verdict: //p' "$folder/said" | cut -c 1-60)
     gaps=$(sed -n 's/^gap, .*: \([0-9.]*\) before, \([0-9.]*\) after, \([0-9.]*\) at best$/\1 \2 \3/p' "$folder/said")
     # shellcheck disable=SC2086
-    printf '%-22s %-60s %7s %7s %7s\n' "$effect" "$verdict" $gaps
+    printf '%-28s %-60s %7s %7s %7s\n' "$effect" "$verdict" $gaps
 done

@@ -322,7 +322,7 @@ std::string floating_modes(std::size_t modes, bool compensated, bool in_software
     }
     if (modes > 1) {
         // Whole, as long as that is short; of many each turn saves less than its instructions cost to fetch.
-        text += unrolled(modes < 18 ? 8 : 2) + "        for (i = @NAME@_MODES / 2U; i > 0U; --i) {\n" +
+        text += unrolled(modes < 18 ? 8 : compensated ? 10 : 2) + "        for (i = @NAME@_MODES / 2U; i > 0U; --i) {\n" +
                 modes_at_once(2, compensated) + on(2) + "        }\n";
     }
     return text;

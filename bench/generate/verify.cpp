@@ -42,7 +42,7 @@ void run(const std::string& command) {
     }
 }
 
-// The flags of the firmware that say for which core, and how hard to optimise. Not its -ffp-contract: the header must
+// The flags of the firmware that say for which core, how hard to optimise, and where functions begin. Not its -ffp-contract: the header must
 // hold without.
 std::string target_flags(const qemu::Board& board) {
     const std::filesystem::path path = board.measure_elf.parent_path() / "build_info.json";
@@ -54,7 +54,7 @@ std::string target_flags(const qemu::Board& board) {
     std::istringstream words(info["flags"].get<std::string>());
     std::string flags;
     for (std::string word; words >> word;) {
-        flags += word.starts_with("-m") || word.starts_with("-O") ? " " + word : "";
+        flags += word.starts_with("-m") || word.starts_with("-O") || word.starts_with("-falign") ? " " + word : "";
     }
     return flags;
 }
