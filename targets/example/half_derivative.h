@@ -27,10 +27,10 @@
  * relative to the largest exact full-memory sum, the worst of step, ramp, sine1, sine5, sine50, noise, drive
  * Measured cost a sample of the kernel that this is made from: 1227.6 model cycles, at most 1289.2, for stm32f746-itcm
  *
- * Command: glsum generate --jobs 2 --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
- * glsum 0.1.0, commit 63a81e95d8c93124b5777c62497c42a33e2c07c4 with changes
+ * Command: glsum generate --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
+ * glsum 0.1.0, commit d61c04f0514914501fb27aa0c2f7fd8bd0c3966a
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
- * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
+ * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -falign-functions=8 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
  *
  * Licence: the terms of glsum itself.
