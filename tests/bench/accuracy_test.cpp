@@ -102,12 +102,12 @@ TEST(Accuracy, RoundingIsAgainstTheKernelsOwnDesign) {
     sweep.signals = {"noise"};
     sweep.samples = 400;
     const std::vector<std::size_t> cases = {0};
-    std::size_t rows = 0;
-    for (const bench::Json& row : bench::measure_accuracy(sweep, cases).at(0)) {
+    const auto rows = bench::measure_accuracy(sweep, cases);
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].size(), 3U);
+    for (const bench::Json& row : rows[0]) {
         EXPECT_LE(row.at("rounding_error_max").get<double>(), 1e-14) << row;
-        ++rows;
     }
-    EXPECT_EQ(rows, 3U);
 }
 
 TEST(Accuracy, ShortRecordsAreMeasured) {
