@@ -28,9 +28,9 @@ Approximation fitted(const Projection& poles, const std::vector<double>& weights
     return found;
 }
 
-// At v = -1 every weight is 1.
+// At v = -1 every weight is 1, and those of higher order come near to that.
 Approximation running_sum(const std::vector<double>& weights, std::size_t near_taps) {
-    const std::vector<Mode> modes{{0.0, weights[near_taps]}};
+    const std::vector<Mode> modes{{0.0, weights.back()}};
     return {near_taps, modes, error_of(weights, near_taps, modes, INFINITY)};
 }
 
@@ -51,7 +51,12 @@ Approximation approximate_integral(const std::vector<double>& weights, double or
 
 std::optional<Approximation> design_integral(const std::vector<double>& weights, double order, double error) {
     if (order == -1.0) {
-        return running_sum(weights, 1);
+        for (std::size_t near_taps = 1; near_taps < weights.size(); ++near_taps) {
+            if (Approximation found = running_sum(weights, near_taps); found.error <= error) {
+                return found;
+            }
+        }
+        return std::nullopt;
     }
     for (const std::size_t near_taps : {least_near_taps(order), least_near_taps(order) + 1}) {
         const Projection poles = poles_of(order, near_taps, weights.size() - 1);

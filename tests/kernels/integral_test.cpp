@@ -62,4 +62,20 @@ TEST(IntegralDesignTest, KeepsTheErrorItIsAskedFor) {
     }
 }
 
+TEST(IntegralDesignTest, OfOrderMinusOneTakesTheTapsThatHigherOrdersNeed) {
+    // BDF2 to the power -1: a_j = 1 - (1/3)^(j+1), but for the scale that 1 = a_0 sets.
+    std::vector<double> weights;
+    for (int j = 0; j <= 600; ++j) {
+        weights.push_back(1.5 * (1.0 - std::pow(3.0, -(j + 1))));
+    }
+    ASSERT_DOUBLE_EQ(weights.front(), 1.0);
+    for (const double error : {1e-1, 1e-3, 1e-6}) {
+        const auto found = glsum::modes::design_integral(weights, -1.0, error);
+        ASSERT_TRUE(found.has_value());
+        EXPECT_LE(found->error, error);
+        EXPECT_GT(3.0 * found->error, 0.99 * error);  // no tap too many
+        EXPECT_EQ(found->modes.size(), 1U);
+    }
+}
+
 }  // namespace
