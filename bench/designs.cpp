@@ -11,7 +11,6 @@
 #include "bench/reference/dropped.hpp"
 #include "glsum/history/nested.hpp"
 #include "glsum/registry.hpp"
-#include "glsum/weights.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "modes/fitted.hpp"
@@ -39,15 +38,10 @@ struct Named {
     [[nodiscard]] double of_weights() const { return of_increments ? order - 1.0 : order; }
     // a_0 ... a_last.
     [[nodiscard]] std::vector<double> to(std::size_t last) const {
-        std::vector<double> all;
-        if (names_weights(weights)) {
-            all = named_weights(weights, order, of_increments, last);
-        } else {
-            for (glsum::Weights walk(of_weights()); all.size() < last;) {
-                walk.next();
-                all.push_back(walk.weight());
-            }
+        if (!names_weights(weights)) {
+            return glsum::modes::weights_to(of_weights(), last);
         }
+        std::vector<double> all = named_weights(weights, order, of_increments, last);
         all.insert(all.begin(), 1.0);
         return all;
     }

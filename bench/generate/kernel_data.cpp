@@ -13,7 +13,6 @@
 #include "bench/row.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
-#include "glsum/weights.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "qemu/failure.hpp"
@@ -117,16 +116,6 @@ std::uint64_t bits_of(Output output) {
     }
 }
 
-// a_0 ... a_N of the order.
-std::vector<double> weights_to(double order, std::size_t last) {
-    std::vector<double> weights = {1.0};
-    for (glsum::Weights walk(order); weights.size() <= last;) {
-        walk.next();
-        weights.push_back(walk.weight());
-    }
-    return weights;
-}
-
 template <class K>
 KernelData describe(double order, std::size_t taps, std::size_t horizon, const std::vector<double>& reals,
                     std::size_t calls) {
@@ -187,8 +176,8 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.design_error =
             data.modes == 0
                 ? 0.0
-                : largest * glsum::modes::error_of(weights_to(increments ? order - 1.0 : order, horizon), data.past + 1,
-                                                   {design.modes.begin(), design.modes.end()}, INFINITY);
+                : largest * glsum::modes::error_of(glsum::modes::weights_to(increments ? order - 1.0 : order, horizon),
+                                                   data.past + 1, {design.modes.begin(), design.modes.end()}, INFINITY);
         if constexpr (glsum::keeps_running_sum<typename K::HistoryPart>) {
             if (data.modes > 0) {
                 data.running_weight = static_cast<double>(state.weight);

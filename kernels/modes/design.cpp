@@ -5,7 +5,6 @@
 #include <map>
 #include <numbers>
 
-#include "glsum/weights.hpp"
 #include "modes/projection.hpp"
 
 namespace glsum::modes {
@@ -14,17 +13,6 @@ namespace {
 // How fine the trapezoid is, below every error that is designed for. It then has more than `most_modes` nodes, whatever
 // the horizon.
 constexpr double mixture_error = 1e-10;
-
-// a_0 ... a_N.
-std::vector<double> weights_to(double order, std::size_t horizon) {
-    std::vector<double> weights = {1.0};
-    weights.reserve(horizon + 1);
-    for (Weights walk(order); weights.size() <= horizon;) {
-        walk.next();
-        weights.push_back(walk.weight());
-    }
-    return weights;
-}
 
 Projection projection_of(const Tail& tail, std::size_t near_taps) {
     return {tail_nodes(tail.order, near_taps, tail.horizon, mixture_error), tail.horizon};

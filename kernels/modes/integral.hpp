@@ -12,7 +12,8 @@ namespace glsum::modes {
 /// Whether the order is that of an integral whose weights do not grow: -1 <= v < 0.
 [[nodiscard]] bool is_integral(double order);
 
-/// M of a design of L = K + 2M coefficients, the running sum among them: 1 at v = -1, `modes_within` between, 0 for what is no integral.
+/// M of a design of L = K + 2M coefficients, the running sum among them: 1 at v = -1, `modes_within` between, 0 for
+/// what is no integral.
 [[nodiscard]] std::size_t integral_modes_within(double order, std::size_t taps);
 
 /// a_0 ... a_(K-1) as they are, and behind them `modes` exponentials: those of the order's own tail (design.hpp) with

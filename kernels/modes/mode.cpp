@@ -2,7 +2,19 @@
 
 #include <cmath>
 
+#include "glsum/weights.hpp"
+
 namespace glsum::modes {
+
+std::vector<double> weights_to(double order, std::size_t last) {
+    std::vector<double> weights = {1.0};
+    weights.reserve(last + 1);
+    for (Weights walk(order); weights.size() <= last;) {
+        walk.next();
+        weights.push_back(walk.weight());
+    }
+    return weights;
+}
 
 double error_of(const std::vector<double>& weights, std::size_t near_taps, const std::vector<Mode>& modes,
                 double enough) {

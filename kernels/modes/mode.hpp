@@ -20,6 +20,9 @@ struct Approximation {
     [[nodiscard]] std::size_t cost() const { return near_taps + 2 * modes.size(); }
 };
 
+/// a_0 ... a_N of an order.
+[[nodiscard]] std::vector<double> weights_to(double order, std::size_t last);
+
 /// sum_{j=K..N} |weights[j] - sum_m w_m (1 - d_m)^(j-K)|, N the last index of `weights`; it stops once beyond `enough`.
 [[nodiscard]] double error_of(const std::vector<double>& weights, std::size_t near_taps, const std::vector<Mode>& modes,
                               double enough);

@@ -8,21 +8,12 @@
 
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
-#include "glsum/weights.hpp"
 #include "modes/integral.hpp"
 
 namespace {
 
 using glsum::Mode;
-
-std::vector<double> weights_to(double order, std::size_t last) {
-    std::vector<double> weights = {1.0};
-    for (glsum::Weights walk(order); weights.size() <= last;) {
-        walk.next();
-        weights.push_back(walk.weight());
-    }
-    return weights;
-}
+using glsum::modes::weights_to;
 
 template <class K>
 struct Line {

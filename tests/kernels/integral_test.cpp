@@ -8,21 +8,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "glsum/weights.hpp"
 #include "modes/design.hpp"
 
 namespace {
 
 using glsum::Mode;
-
-std::vector<double> weights_to(double order, std::size_t last) {
-    std::vector<double> weights = {1.0};
-    for (glsum::Weights walk(order); weights.size() <= last;) {
-        walk.next();
-        weights.push_back(walk.weight());
-    }
-    return weights;
-}
+using glsum::modes::weights_to;
 
 TEST(IntegralDesignTest, KeepsTheErrorItIsAskedFor) {
     for (const double order : {-0.2, -0.5, -0.8, -1.0}) {
