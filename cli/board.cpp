@@ -1,6 +1,7 @@
 #include "cli/board.hpp"
 
 #include "bench/build_info.hpp"
+#include "bench/files.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -27,6 +28,10 @@ std::optional<qemu::Board> board_if_there() {
 
 std::optional<qemu::Board> board_for(const choose::Question& question) {
     return question.target == choose::Target::m7 ? built_board() : board_if_there();
+}
+
+std::vector<qemu::MeasuredCycles> read_measured_cycles(const std::filesystem::path& path) {
+    return qemu::parse_measured_cycles(bench::read_file(path, qemu::MeasuredLimits::bytes), path.string());
 }
 
 }  // namespace cli

@@ -1,11 +1,13 @@
-// The emulated board that was built beside this program.
+// The emulated board that was built beside this program, and the files of measured cycles that it is held to.
 #pragma once
 
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "bench/choose/question.hpp"
 #include "qemu/firmware.hpp"
+#include "qemu/measured_cycles.hpp"
 
 namespace cli {
 
@@ -24,5 +26,8 @@ inline constexpr const char* default_core = "stm32f746-itcm";
 
 /// The board where a question needs it, else the board if it is there.
 [[nodiscard]] std::optional<qemu::Board> board_for(const choose::Question& question);
+
+/// \throws glsum::Failure (bad input) as `qemu::parse_measured_cycles`, or where the file cannot be read.
+[[nodiscard]] std::vector<qemu::MeasuredCycles> read_measured_cycles(const std::filesystem::path& path);
 
 }  // namespace cli

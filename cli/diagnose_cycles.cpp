@@ -193,7 +193,7 @@ void run_blind(const Options& options) {
     std::map<std::string, std::pair<std::size_t, std::size_t>> right;  // of each kind, of how many
     for (std::size_t c = 0; c < secrets.size(); ++c) {
         const std::filesystem::path file = options.out / (names[c] + ".csv");
-        const auto measured = qemu::read_measured_cycles(file);
+        const auto measured = read_measured_cycles(file);
         const gap::cycles::Explanation found = gap::cycles::explain(
             question_of(measured, core, program.cores_folder),
             [&](const auto& variants) { return qemu::predict(program, file, measured, variants); });
@@ -221,7 +221,7 @@ void run(const Options& options) {
         run_blind(options);
         return;
     }
-    const std::vector<qemu::MeasuredCycles> rows = qemu::read_measured_cycles(options.measured);
+    const std::vector<qemu::MeasuredCycles> rows = read_measured_cycles(options.measured);
     const qemu::SiliconProgram program = built_program();
     const auto predict = [&](const std::vector<qemu::CoreVariant>& variants) {
         return qemu::predict(program, options.measured, rows, variants);

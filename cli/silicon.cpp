@@ -53,7 +53,7 @@ void print_sets(const timing::CoreFile& core, const std::vector<qemu::MeasuredCy
 }
 
 void run(const Options& options) {
-    const std::vector<qemu::MeasuredCycles> rows = qemu::read_measured_cycles(options.file);
+    const std::vector<qemu::MeasuredCycles> rows = read_measured_cycles(options.file);
     const qemu::Board board = built_board();
     const qemu::SiliconProgram program{board.measure_elf.parent_path() / "silicon.elf", board.plugin, board.cores,
                                        board.emulator};

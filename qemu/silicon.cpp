@@ -3,12 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 #include <tuple>
 
 #include "qemu/elf.hpp"
@@ -32,90 +29,7 @@ const std::map<std::string, std::uint32_t> most_taps_of_loops{
 #undef GLSUM_LOOP
 };
 
-std::vector<std::string> split(const std::string& line) {
-    std::vector<std::string> cells;
-    std::istringstream in(line);
-    for (std::string cell; std::getline(in, cell, ',');) {
-        const auto first = cell.find_first_not_of(" \t\r");
-        const auto last = cell.find_last_not_of(" \t\r");
-        cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
-    }
-    if (line.ends_with(',')) {
-        cells.emplace_back();
-    }
-    return cells;
-}
-
-template <class Number>
-Number to_number(const std::string& cell, const std::string& place, const char* column, double lowest, double highest) {
-    Number number{};
-    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), number);
-    if (error != std::errc{} || end != cell.data() + cell.size() || !(static_cast<double>(number) >= lowest) ||
-        !(static_cast<double>(number) <= highest)) {
-        throw Failure(Exit::bad_input, fmt::format("{}: {}: expected a number from {} to {}, found \"{}\"", place,
-                                                   column, lowest, highest, cell));
-    }
-    return number;
-}
-
-std::string one_of(const std::string& cell, const std::string& place, const char* column,
-                   const std::vector<std::string>& words) {
-    if (std::find(words.begin(), words.end(), cell) == words.end()) {
-        throw Failure(Exit::bad_input,
-                      fmt::format("{}: {}: expected {}, found \"{}\"", place, column, fmt::join(words, ", "), cell));
-    }
-    return cell;
-}
-
 }  // namespace
-
-std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& file) {
-    std::ifstream in(file);
-    if (!in) {
-        throw Failure(Exit::bad_input, fmt::format("{}: cannot read", file.string()));
-    }
-    std::map<std::string, std::size_t> columns;
-    std::size_t width = 0;
-    std::vector<MeasuredCycles> rows;
-    unsigned number = 0;
-    for (std::string text; std::getline(in, text);) {
-        ++number;
-        if (text.find_first_not_of(" \t\r") == std::string::npos || text.starts_with('#')) {
-            continue;
-        }
-        const std::string place = fmt::format("{}:{}", file.string(), number);
-        const std::vector<std::string> cells = split(text);
-        if (columns.empty()) {
-            for (std::size_t i = 0; i < cells.size(); ++i) {
-                columns[cells[i]] = i;
-            }
-            width = cells.size();
-            for (const char* column : {"kernel", "code", "data", "maintenance", "taps", "cycles"}) {
-                if (!columns.contains(column)) {
-                    throw Failure(Exit::bad_input,
-                                  fmt::format("{}: expected the column {}, found \"{}\"", place, column, text));
-                }
-            }
-            continue;
-        }
-        if (cells.size() != width) {
-            throw Failure(Exit::bad_input, fmt::format("{}: expected {} cells, found {}", place, width, cells.size()));
-        }
-        const auto cell = [&](const char* column) { return cells[columns.at(column)]; };
-        rows.push_back({cell("kernel"), one_of(cell("code"), place, "code", {"flash_cached", "flash", "itcm"}),
-                        one_of(cell("data"), place, "data", {"dtcm", "axi"}),
-                        one_of(cell("maintenance"), place, "maintenance", {"0", "1"}) == "1",
-                        to_number<std::uint32_t>(cell("taps"), place, "taps", 1, 1e6),
-                        to_number<double>(cell("cycles"), place, "cycles", 1, 1e12), number});
-        if (columns.contains("instructions")) {
-            rows.back().instructions = to_number<double>(cell("instructions"), place, "instructions", 1, 1e12);
-        }
-    }
-    if (rows.empty()) {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected rows of measured cycles, found none", file.string()));
-    }
-    return rows;
-}
 
 std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program, const std::filesystem::path& file,
                                                   const std::vector<MeasuredCycles>& rows,

@@ -1,33 +1,16 @@
-// Measured cycle counts, and what the timing model predicts for them.
+// What the timing model predicts for measured cycle counts.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "qemu/emulator.hpp"
+#include "qemu/measured_cycles.hpp"
 #include "qemu/timing/timing_log.hpp"
 
 namespace qemu {
-
-/// One row of a measured file: kernel,code,data,maintenance,taps,cycles; further columns are allowed.
-struct MeasuredCycles {
-    std::string kernel;
-    std::string code;  ///< flash_cached, flash or itcm
-    std::string data;  ///< dtcm or axi
-    bool maintenance;  ///< a cache clean and invalidate lies inside the timing
-    std::uint32_t taps;
-    double cycles;
-    unsigned line;
-    std::optional<double> instructions = {};  ///< of a call, where the file has that column
-};
-
-/// \throws glsum::Failure (bad input) with file and line for a column that is missing, a ragged row, a word or number
-/// that
-///         is none, and a file without rows
-[[nodiscard]] std::vector<MeasuredCycles> read_measured_cycles(const std::filesystem::path& file);
 
 /// A core file, with its placement replaced by each row's.
 struct CoreVariant {

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <string_view>
 
 #include "gap/flexible.hpp"
+#include "gap/pattern.hpp"
 
 namespace gap {
 namespace {
@@ -18,13 +20,20 @@ constexpr double parting_advantage = 6.0;
 // An effect takes at least so much of the gap: a twentieth of the base's rms; a further one of what can be closed.
 constexpr double material_share = 0.04;
 // More than so much of the closable squared gap left, and foreseeable: something else is missing.
-constexpr double unexplained_share = 0.08;
+constexpr double unexplained_share = 0.025;
 // More than so much of the gap left, and slow. A given model is the drive's but for what is looked for; a form that was
 // fitted to it has a few coefficients, and its own misfit stays.
 constexpr double slow_share = 0.1;
 constexpr double slow_share_of_a_form = 0.5;
 // A fitted form's own misfit: within so much of the rms, or half the noise, it is none of the drive's effects.
 constexpr double misfit_share = 0.11;
+// A burst so many times louder than what is usual, of a gap of which at least so much is left.
+constexpr double burst_ratio = 50.0;
+constexpr double burst_share = 0.03;
+// A wave that stands out so far in every record, holds so much of what is left there, and is none of the input's.
+constexpr double wave_ratio = 300.0;
+constexpr double wave_share = 0.25;
+constexpr double wave_of_input = 30.0;
 // What is left over what differs from sample to sample: sensors' noise is seldom so coloured.
 constexpr double usual_ratio = 7.0;
 
@@ -131,12 +140,9 @@ public:
             name_the_quantum(after);
         }
         if (is_no_noise(after)) {
-            decision_.outcome = Outcome::unknown;
-            decision_.effects.clear();
-            decision_.confidence = std::min(decision_.confidence, 0.7);
-            decision_.notes.emplace_back(
-                "what is left is slow and many times what differs from sample to sample: no noise of a sensor, and "
-                "nothing listed explains it");
+            nothing_listed("slow and many times what differs from sample to sample");
+        } else if (const std::string pattern = pattern_of_what_is_left(after); !pattern.empty()) {
+            nothing_listed(pattern);
         }
         doubt_what_does_not_belong(after);
         return decision_;
@@ -210,6 +216,57 @@ private:
         const bool events = std::any_of(trained.effects.begin(), trained.effects.end(),
                                         [](const Effect* effect) { return effect->kind == Kind::event; });
         return events || over_noise(study_, rms_of(study_, all_residuals(study_, trained))) > 4.0;
+    }
+
+    void nothing_listed(std::string_view what_is_left) {
+        decision_.outcome = Outcome::unknown;
+        decision_.effects.clear();
+        decision_.confidence = std::min(decision_.confidence, 0.7);
+        decision_.notes.push_back(
+            fmt::format("what is left is {}: no noise of a sensor, and nothing listed explains it", what_is_left));
+    }
+
+    // A burst or a wave that stands out; empty: neither.
+    [[nodiscard]] std::string pattern_of_what_is_left(double after) const {
+        const Ranked& chosen = ranking_[decision_.chosen];
+        // A fitted form's own misfit follows the input. These effects make noise uneven by nature: readings that are
+        // held, clipped, rounded, or taken at other times, far off only where the output moves.
+        const bool uneven = study_.base.refit || study_.scales.held_share > 0.0 ||
+                            chosen.trained.has("sampling_jitter") || chosen.trained.has("encoder_quantisation") ||
+                            chosen.trained.has("dropped_samples") || chosen.trained.has("sensor_saturation");
+        const double step = 0.29 * validation_.scales.quantum;
+        const double least = square(std::max(step, validation_.least_deviation));
+        for (std::size_t r = 0; r < chosen.residuals.size() && !uneven; ++r) {
+            const Burst burst = loudest_burst(validation_.courses[r].record(), chosen.residuals[r],
+                                              validation_.counts[r], 0.5 * validation_.scales.time_constant_s, least);
+            if (burst.ratio > burst_ratio && after > burst_share * decision_.base_gap) {
+                return fmt::format("{:.0f} times as loud from {:.4g} s on as in the usual stretch",
+                                   std::sqrt(burst.ratio), burst.at_s);
+            }
+        }
+        return wave_of_what_is_left(chosen);
+    }
+
+    [[nodiscard]] std::string wave_of_what_is_left(const Ranked& chosen) const {
+        const Wave wave = clearest_wave(validation_.courses.front().record(), chosen.residuals.front());
+        const auto everywhere = [&](const Study& study, const std::vector<std::vector<double>>& residuals) {
+            for (std::size_t r = 0; r < residuals.size(); ++r) {
+                const Record& record = study.courses[r].record();
+                const Wave left = wave_at(record, residuals[r], wave.hz);
+                if (left.over_neighbours < wave_ratio || left.share < wave_share ||
+                    wave_at(record, record.input, wave.hz).over_neighbours > wave_of_input) {
+                    return false;
+                }
+            }
+            return true;
+        };
+        const bool found = wave.over_neighbours > wave_ratio && everywhere(validation_, chosen.residuals) &&
+                           everywhere(study_, all_residuals(study_, chosen.trained));
+        return found ? fmt::format(
+                           "a wave of {:.3g} Hz, {:.0f} % of its squares, in every record, and "
+                           "the input has none there",
+                           wave.hz, 100.0 * wave.share)
+                     : "";
     }
 
     // That readings are multiples of a step is a fact of the log; here it is also most of what is left.

@@ -17,7 +17,7 @@ using Json = nlohmann::json;
 [[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
 
 // Every parameter of every effect has a name in it: bounds and starts do not matter here.
-Scales any_scales() { return {1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1e3, 1.0, 1.0, 1.0, 100, 1.0, 1.0, true}; }
+Scales any_scales() { return {1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1e3, 1.0, 1.0, 1.0, 2, 100, 1.0, 1.0, true}; }
 
 std::vector<double> values_of(const Effect& effect, const Json& parameters, const std::string& name) {
     std::vector<double> values;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 namespace gap {
 namespace {
@@ -52,6 +53,11 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     scales.time_constant_s = time_constant_of(model, records.front());
     scales.speed_max = scales.output_span / scales.time_constant_s;
     scales.force = std::fabs(model.gain) * scales.input_max;
+    std::set<double> orders;
+    for (const drive::Term& term : model.denominator) {
+        orders.insert(std::max(0.0, term.order));
+    }
+    scales.orders = orders.size() - orders.count(0.0);
     scales.quantum = found.quantum;
     scales.held_share = found.held_share;
     scales.input_levels = found.levels;

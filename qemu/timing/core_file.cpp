@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include <toml++/toml.h>
 
@@ -119,11 +118,20 @@ struct Collected {
     std::string text;
 };
 
+constexpr std::size_t most_bytes = 1u << 20;
+
 std::string read_text(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
+    std::string text(most_bytes + 1, '\0');
+    in.read(text.data(), static_cast<std::streamsize>(text.size()));
+    text.resize(static_cast<std::size_t>(in.gcount()));
+    if (in.bad() || (text.empty() && !in.eof())) {
+        throw Failure(Exit::bad_input, file.string() + ": cannot read");
+    }
+    if (text.size() > most_bytes) {
+        throw Failure(Exit::bad_input, file.string() + ": expected a core file of at most 1 MiB");
+    }
+    return text;
 }
 
 void read_rivals(const toml::node& node, Collected& into) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "gap/drive/start.hpp"
 #include "qemu/failure.hpp"
@@ -172,6 +173,64 @@ TEST(Verdict, OfWhatIsNotListedIsUnknown) {
     EXPECT_EQ(answer.decision.outcome, Outcome::unknown) << text_of(answer);
     EXPECT_TRUE(answer.decision.effects.empty());
     EXPECT_LT(answer.decision.noise_floor, 0.7 * answer.decision.base_gap);
+}
+
+// Both records with something added to the readings, a function of time.
+template <class Added>
+gap::Answer ask_with(const Added& added) {
+    gap::Question question =
+        gap_test::question_of({}, {.seed = 33}, {.experiment = "prbs", .low_duty = 0.02, .seed = 34});
+    for (auto* records : {&question.train, &question.validate}) {
+        for (std::size_t i = 0; i < records->front().size(); ++i) {
+            records->front().output[i] += added(records->front().time_s[i]);
+        }
+    }
+    return gap::diagnose(question, [](const std::string&) {});
+}
+
+TEST(Verdict, OfAWaveThatTheInputDoesNotHaveIsUnknown) {
+    const gap::Answer answer =
+        ask_with([](double t) { return 0.006 * std::sin(2.0 * std::numbers::pi * 1.3 * t + 0.5); });
+    EXPECT_EQ(answer.decision.outcome, Outcome::unknown) << text_of(answer);
+    EXPECT_THAT(answer.notes, Contains(HasSubstr("a wave of 1.3 Hz"))) << text_of(answer);
+}
+
+TEST(Verdict, OfABurstThatNothingListedMakesIsUnknown) {
+    const gap::Answer answer =
+        ask_with([](double t) { return t > 5.0 && t < 5.4 ? 0.05 * std::sin(2.0 * std::numbers::pi * 7.0 * t) : 0.0; });
+    EXPECT_EQ(answer.decision.outcome, Outcome::unknown) << text_of(answer);
+    EXPECT_THAT(answer.notes, Contains(HasSubstr("times as loud from"))) << text_of(answer);
+}
+
+// Every order by as much, each in proportion, the highest alone: drives differ in each of these ways.
+TEST(Verdict, NamesOrdersThatDifferInAnyWay) {
+    const drive::Model given = gap::model_of(gap_test::linear_form());
+    const double highest = drive::highest_order(given.denominator);
+    for (const double power : {0.0, 1.0, 8.0}) {
+        gap::Scenario real;
+        real.model = given;
+        for (drive::Term& term : real.model.denominator) {
+            const double share = power == 0.0 ? 1.0 : power == 1.0 ? term.order / highest : term.order == highest;
+            term.order -= term.order > 0.0 ? 0.1 * share : 0.0;
+        }
+        gap::Question question =
+            gap_test::question_of({}, {.seed = 35}, {.experiment = "prbs", .low_duty = 0.02, .seed = 36});
+        for (auto* records : {&question.train, &question.validate}) {
+            gap::Record& record = records->front();
+            const gap::Course course(record, 8);
+            gap::Scenario plain;
+            plain.model = given;
+            const std::vector<double> usual = gap::simulate(plain, course);
+            const std::vector<double> moved = gap::simulate(real, course);
+            for (std::size_t i = 0; i < record.size(); ++i) {
+                record.output[i] += moved[i] - usual[i];
+            }
+        }
+        const gap::Answer answer = gap::diagnose(question, [](const std::string&) {});
+        ASSERT_THAT(names(answer), ElementsAre("order_error")) << power << text_of(answer);
+        EXPECT_NEAR(gap_test::find(answer, "order_error.shift")->value, -0.1, 0.01) << power;
+        EXPECT_EQ(gap_test::find(answer, "order_error.power")->value, power);
+    }
 }
 
 TEST(Verdict, OfAnEffectThatIsTakenOffTheListIsNotAnother) {

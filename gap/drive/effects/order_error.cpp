@@ -1,5 +1,5 @@
-// The orders of the denominator differ, all by the same share of themselves.
-// A shift s makes each order a (1 + s / highest order), so that the highest moves by s.
+// The orders of the denominator differ, the highest by the shift s, each a by s (a / highest)^power: all alike, in
+// proportion, or the highest alone. Which of these it is the record says, once: the power is no number to be fitted.
 #include <algorithm>
 #include <cmath>
 
@@ -11,14 +11,19 @@ const Effect& order_error();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
-    return {{"shift", "1", -0.5, 0.5, 0.0, {-0.1, 0.1}}};
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    const bool one = scales.orders < 2;
+    return {{"shift", "1", -0.5, 0.5, 0.0, {-0.1, 0.1}},
+            {"power", "1", 0.0, 8.0, 0.0, one ? std::vector{0.0} : std::vector{0.0, 0.0, 1.0, 1.0, 8.0, 8.0}, true}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
+void add(Scenario& scenario, std::span<const double> values) {
+    constexpr double least = 0.05;  // an order of 0 would be another term
     const double highest = drive::highest_order(scenario.model.denominator);
     for (drive::Term& term : scenario.model.denominator) {
-        term.order *= 1.0 + values[0] / highest;
+        if (term.order > 0.0) {
+            term.order = std::max(least, term.order + values[0] * std::pow(term.order / highest, values[1]));
+        }
     }
 }
 

@@ -72,6 +72,8 @@ TEST(CoreFile, DamageIsNamedWithFileAndLine) {
     EXPECT_NE(message_after(base, "[rows.read]", "[rows.reads]").find("reads.accumulator: no such row"),
               std::string::npos);
     EXPECT_NE(message_after(base, "[rows.read]", "[rows.read").find("_cortex-m7.toml:"), std::string::npos);
+    EXPECT_NE(message_after(base, "# ", std::string(1u << 20, '#')).find("_cortex-m7.toml: expected a core file of at"),
+              std::string::npos);
     EXPECT_NE(message_after(base, "store_data = ", "# ").find("expected the row read.store_data"), std::string::npos);
     EXPECT_NE(message_after(base, "fits = false", "fits = 0").find("fits: expected true or false"), std::string::npos);
     EXPECT_NE(

@@ -3,18 +3,15 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <string>
 
 #include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
 
 namespace {
 
 std::string message_of(const std::string& text) {
-    const qemu::Scratch scratch;
-    std::ofstream(scratch.file("m.csv")) << text;
     try {
-        (void)qemu::read_measured_cycles(scratch.file("m.csv"));
+        (void)qemu::parse_measured_cycles(text, "m.csv");
     } catch (const glsum::Failure& failure) {
         EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
         return failure.what();
@@ -25,10 +22,9 @@ std::string message_of(const std::string& text) {
 constexpr const char* header = "# measured by hand\nkernel,code,data,maintenance,taps,cycles,board\n";
 
 TEST(MeasuredCycles, ReadsRowsCommentsAndFurtherColumns) {
-    const qemu::Scratch scratch;
-    std::ofstream(scratch.file("m.csv")) << header << "a_b_f32,flash_cached,dtcm,0,5,59.5,mine\n\n"
-                                         << "a_b_f32,itcm,axi,1,100,914,mine\n";
-    const auto rows = qemu::read_measured_cycles(scratch.file("m.csv"));
+    std::string text = header;
+    text += "a_b_f32,flash_cached,dtcm,0,5,59.5,mine\n\na_b_f32,itcm,axi,1,100,914,mine\n";
+    const auto rows = qemu::parse_measured_cycles(text, "m.csv");
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_EQ(rows[0].kernel, "a_b_f32");
     EXPECT_EQ(rows[0].cycles, 59.5);
@@ -59,6 +55,15 @@ TEST(MeasuredCycles, SaysFileLineExpectedAndFound) {
     EXPECT_NE(message_of("kernel,code,data,taps,cycles\n").find("m.csv:1: expected the column maintenance"),
               std::string::npos);
     EXPECT_NE(message_of(header).find("found none"), std::string::npos);
+    EXPECT_NE(message_of("kernel,code,data,maintenance,taps,cycles,taps\n").find("m.csv:1: expected each column once"),
+              std::string::npos);
+    EXPECT_NE(message_of(std::string(100, ',')).find("m.csv:1: expected at most 100 columns, found 101"),
+              std::string::npos);
+    std::string long_file = header;
+    for (std::size_t i = 0; i <= qemu::MeasuredLimits::rows; ++i) {
+        long_file += "a,itcm,dtcm,0,5,59,x\n";
+    }
+    EXPECT_NE(message_of(long_file).find("m.csv:100003: expected at most 100000 rows"), std::string::npos);
 }
 
 TEST(MeasuredCycles, TheLineGoesThroughPointsThatLieOnOne) {

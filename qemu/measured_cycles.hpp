@@ -1,0 +1,35 @@
+// Files of measured cycle counts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace qemu {
+
+/// One row of a measured file: kernel,code,data,maintenance,taps,cycles; further columns are allowed.
+struct MeasuredCycles {
+    std::string kernel;
+    std::string code;  ///< flash_cached, flash or itcm
+    std::string data;  ///< dtcm or axi
+    bool maintenance;  ///< a cache clean and invalidate lies inside the timing
+    std::uint32_t taps;
+    double cycles;
+    unsigned line;
+    std::optional<double> instructions = {};  ///< of a call, where the file has that column
+};
+
+struct MeasuredLimits {
+    static constexpr std::size_t bytes = 64u << 20;
+    static constexpr std::size_t rows = 100'000;
+    static constexpr std::size_t columns = 100;
+};
+
+/// \param name  begins every message
+/// \throws glsum::Failure (bad input) with file and line for a column that is missing or there twice, a ragged row, a
+///         word or number that is none, too many rows or columns, and a file without rows
+[[nodiscard]] std::vector<MeasuredCycles> parse_measured_cycles(const std::string& text, const std::string& name);
+
+}  // namespace qemu
