@@ -29,7 +29,7 @@ constexpr double slow_share_of_a_form = 0.5;
 constexpr double misfit_share = 0.11;
 // A burst so many times louder than what is usual, of a gap of which at least so much is left.
 constexpr double burst_ratio = 50.0;
-constexpr double burst_share = 0.03;
+constexpr double burst_share = 0.04;
 // A wave that stands out so far in every record, holds so much of what is left there, and is none of the input's.
 constexpr double wave_ratio = 300.0;
 constexpr double wave_share = 0.25;
