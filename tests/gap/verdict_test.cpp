@@ -116,6 +116,15 @@ TEST(Verdict, NamesJitterBesideAnotherEffect) {
     EXPECT_THAT(names(answer), ElementsAre("input_saturation + sampling_jitter"));
 }
 
+// A chirp passes a threshold between two logged levels: the misfit must lead there.
+TEST(Verdict, FindsAThresholdThatAChirpPasses) {
+    const gap::Answer answer = ask({{"start_up_threshold.threshold", 0.0453}}, {.experiment = "chirp", .seed = 63},
+                                   {.experiment = "chirp", .duty = 0.09, .seed = 64});
+    ASSERT_EQ(answer.decision.outcome, Outcome::attributed) << text_of(answer);
+    EXPECT_THAT(names(answer), ElementsAre("start_up_threshold"));
+    EXPECT_NEAR(gap_test::find(answer, "start_up_threshold.threshold")->value, 0.0453, 5e-4) << text_of(answer);
+}
+
 // A step of a tenth of the output's span hides what moves less, and says exactly which values a reading stands for.
 TEST(Verdict, NamesACoarseEncoderAloneAndBesideAnotherEffect) {
     const gap::Answer alone = ask({{"encoder_quantisation.step", 0.1}}, 7);
