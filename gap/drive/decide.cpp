@@ -21,6 +21,7 @@ constexpr double parting_advantage = 6.0;
 constexpr double material_share = 0.04;
 // More than so much of the closable squared gap left, and foreseeable: something else is missing.
 constexpr double unexplained_share = 0.025;
+constexpr double unexplained_share_of_a_form = 0.08;
 // More than so much of the gap left, and slow. A given model is the drive's but for what is looked for; a form that was
 // fitted to it has a few coefficients, and its own misfit stays.
 constexpr double slow_share = 0.1;
@@ -120,10 +121,11 @@ public:
                 "without physics",
                 100.0 * flexible.explained));
         }
+        const double tolerated = study_.base.refit ? unexplained_share_of_a_form : unexplained_share;
         // Three effects that still leave what can be foreseen are an expansion of something else, not its causes.
         const bool expansion = ranking_[chosen].trained.effects.size() >= 3;
         const bool misfit = study_.base.refit && chosen == none && after - left < misfit_share * after;
-        if (foreseeable && !misfit && (unexplained > unexplained_share || expansion) &&
+        if (foreseeable && !misfit && (unexplained > tolerated || expansion) &&
             after - left > 0.02 * decision_.base_gap) {
             decision_.outcome = Outcome::unknown;
             decision_.confidence = std::clamp(0.5 + 0.5 * unexplained, 0.5, 0.95);
