@@ -108,7 +108,9 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     }
     ranked.gap_after = rms_of(validation, left) / output_deviation(validation);
     ranked.gap_after = std::isfinite(ranked.gap_after) ? ranked.gap_after : 1e6;  // it ran away
-    const double slow = std::max(rms_of(validation, ranked.residuals), (within_steps ? 0.05 : 0.29) * step) /
+    // What ran away has no finite rms, and scores that are no numbers have no order.
+    const double left_rms = rms_of(validation, ranked.residuals);
+    const double slow = std::max(std::isfinite(left_rms) ? left_rms : 1e6, (within_steps ? 0.05 : 0.29) * step) /
                         output_deviation(validation);
     ranked.penalty =
         penalty_of(ranked.candidate, validation) + (by_size ? 0.0 : blocks * std::log(std::clamp(slow, 1e-9, 1e6)));

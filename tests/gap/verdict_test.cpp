@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "gap/drive/question.hpp"
+#include "gap/drive/ranking.hpp"
 #include "gap/drive/start.hpp"
 #include "qemu/failure.hpp"
 #include "stand_case.hpp"
@@ -100,6 +102,21 @@ TEST(Verdict, OfAPerfectModelIsNoGapWhateverTheNoise) {
             EXPECT_EQ(answer.decision.outcome, Outcome::no_gap) << experiment << '\n' << text_of(answer);
         }
     }
+}
+
+TEST(Ranking, OfWhatRanAwayIsANumberAndLast) {
+    const gap::Question question = gap_test::question_of({}, {.seed = 37}, {.experiment = "prbs", .seed = 38});
+    const gap::Ground ground = gap::prepare(question);
+    const gap::Candidate none = gap::fit(ground.study, {}, {}, nullptr);
+    const gap::Whitener whitener = gap::whitener_of(ground.study, none);
+    const gap::Ranked usual = gap::validated(ground.validation, none, whitener, nullptr, false);
+    gap::Ranked away = usual;
+    for (double& residual : away.residuals.front()) {
+        residual = std::nan("");
+    }
+    gap::judge(away, ground.validation, whitener);
+    EXPECT_TRUE(std::isfinite(away.score()));
+    EXPECT_LT(away.score(), usual.score());
 }
 
 TEST(Verdict, OfTwoEffectsIsTheirPair) {
