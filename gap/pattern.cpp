@@ -49,7 +49,8 @@ Spectrum spectrum_of(const Record& record, std::span<const double> values) {
 }
 
 Wave line_of(const Spectrum& spectrum, std::size_t line) {
-    std::vector<double> beside;
+    std::vector<double> below;
+    std::vector<double> above;
     double own = 0.0;
     const std::size_t last = std::min(line + neighbours, spectrum.squares.size() - 1);
     for (std::size_t m = line > neighbours ? line - neighbours : 1; m <= last; ++m) {
@@ -57,10 +58,11 @@ Wave line_of(const Spectrum& spectrum, std::size_t line) {
         if (away <= own_lines) {
             own += spectrum.squares[m];
         } else {
-            beside.push_back(spectrum.squares[m]);
+            (m < line ? below : above).push_back(spectrum.squares[m]);
         }
     }
-    const double usual = median_of(beside);
+    // The louder side: what falls with the frequency is no line.
+    const double usual = std::max(below.empty() ? 0.0 : median_of(below), above.empty() ? 0.0 : median_of(above));
     return {static_cast<double>(line) / spectrum.length_s, usual > 0.0 ? spectrum.squares[line] / usual : 0.0,
             spectrum.all > 0.0 ? own / spectrum.all : 0.0};
 }

@@ -22,8 +22,9 @@ struct Burst {
 
 struct Wave {
     double hz = 0.0;
-    double over_neighbours = 0.0;  ///< power of its line over the median of thirty beside it; 0: too short a record
-    double share = 0.0;            ///< of the squares, the mean left out
+    double over_neighbours =
+        0.0;  ///< power of its line over the median of fifteen below or above, the greater; 0: too short a record
+    double share = 0.0;  ///< of the squares, the mean left out
 };
 
 /// The line of the spectrum that stands out most, of at least six waves in the record. Noise of any colour stays below

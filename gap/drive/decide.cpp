@@ -7,6 +7,7 @@
 #include <optional>
 #include <string_view>
 
+#include "gap/drive/outside.hpp"
 #include "gap/flexible.hpp"
 #include "gap/pattern.hpp"
 
@@ -146,6 +147,7 @@ public:
         } else if (const std::string pattern = pattern_of_what_is_left(after); !pattern.empty()) {
             nothing_listed(pattern);
         }
+        doubt_events();
         doubt_what_does_not_belong(after);
         return decision_;
     }
@@ -226,6 +228,23 @@ private:
         decision_.confidence = std::min(decision_.confidence, 0.7);
         decision_.notes.push_back(
             fmt::format("what is left is {}: no noise of a sensor, and nothing listed explains it", what_is_left));
+    }
+
+    // What a drive does itself, record after record, is no event from outside: another cause, that nothing listed is.
+    void doubt_events() {
+        const Ranked& chosen = ranking_[decision_.chosen];
+        if (decision_.outcome != Outcome::attributed && decision_.outcome != Outcome::ambiguous) {
+            return;
+        }
+        const std::string doubt = doubt_of_events(study_, chosen.trained, validation_, chosen.candidate);
+        if (doubt.empty()) {
+            return;
+        }
+        decision_.outcome = Outcome::unknown;
+        decision_.effects.clear();
+        decision_.confidence = std::min(decision_.confidence, 0.7);
+        decision_.notes.push_back(
+            fmt::format("{}: an event from outside does not, and nothing else listed explains it", doubt));
     }
 
     // A burst or a wave that stands out; empty: neither.

@@ -75,7 +75,7 @@ TEST(Pattern, AWaveIsFoundByItsFrequencyAndShare) {
             values[i] += 7.0 + 2.0 * std::sin(2.0 * std::numbers::pi * hz * record.time_s[i]);
         }
         const gap::Wave wave = gap::clearest_wave(record, values);
-        EXPECT_NEAR(wave.hz, hz, 0.5 / (interval_s * samples)) << hz;
+        EXPECT_NEAR(wave.hz, hz, 1.0 / (interval_s * samples)) << hz;
         EXPECT_NEAR(wave.share, 2.0 / 3.0, 0.07) << hz;
         EXPECT_GT(wave.over_neighbours, 300.0) << hz;
         // Elsewhere there is none; a frequency between two lines finds the nearer one.

@@ -60,7 +60,7 @@ library_of() {
         gap/*) echo gap/libglsum_gap.a ;;
         qemu/timing/*) echo qemu/timing/libglsum_timing.a ;;
         qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
-        qemu/marked_timer.cpp | qemu/modelled_calls.cpp | qemu/software_double.cpp) echo qemu/libglsum_qemu.a ;;
+        qemu/marked_timer.cpp | qemu/measured_cycles.cpp | qemu/modelled_calls.cpp | qemu/software_double.cpp) echo qemu/libglsum_qemu.a ;;
         qemu/*) echo qemu/libglsum_stream.a ;;
         *) echo "plant.sh: no library is known for $1" >&2; exit 2 ;;
     esac
@@ -75,7 +75,7 @@ tests_of() {
         drive/*) echo drive_tests ;;
         gap/cycles/*) echo gap_cycles_tests ;;
         gap/*) echo gap_tests ;;
-        qemu/timing/*) echo timing_tests ;;
+        qemu/timing/* | qemu/measured_cycles.cpp) echo timing_tests ;;
         *) echo qemu_tests bench_tests ;;
     esac
 }

@@ -1,0 +1,126 @@
+#include "gap/drive/outside.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace gap {
+namespace {
+
+constexpr double large = 0.03;        // of the greatest input: a move
+constexpr double at_the_end = 0.02;   // of the record's length
+constexpr double settling = 3.0;      // time constants
+constexpr double incredible = 0.006;  // so few true events begin with the input by chance
+
+double length_of(const Record& record) { return record.time_s.back() - record.time_s.front(); }
+
+// From the first stamp on: where the held input moves by much at once, the record's begin included.
+std::vector<double> moves_of(const Record& record) {
+    double most = 0.0;
+    for (const double u : record.input) {
+        most = std::max(most, std::fabs(u));
+    }
+    std::vector<double> moves;
+    double before = 0.0;
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        if (std::fabs(record.input[i] - before) > large * most) {
+            moves.push_back(record.time_s[i] - record.time_s.front());
+        }
+        before = record.input[i];
+    }
+    return moves;
+}
+
+// A disturbance, or the first of some jumps; nothing: it was not found in this record.
+std::optional<Happening> happening_of(const std::vector<FreeParameter>& own, const std::string& effect) {
+    const auto value = [&](const char* name) {
+        const auto found = std::find_if(own.begin(), own.end(),
+                                        [&](const FreeParameter& one) { return one.name == effect + "." + name; });
+        return found == own.end() ? std::optional<double>() : found->value;
+    };
+    const auto from_s = value("from_s");
+    const auto at_s = value("at_s");
+    const auto size = value("size");
+    if ((!from_s && !at_s) || !size || *size == 0.0) {
+        return std::nullopt;
+    }
+    return Happening{from_s ? *from_s : *at_s, value("to_s")};
+}
+
+}  // namespace
+
+double chance_of_meeting(const Record& record, double time_s, double delay_s) {
+    const double length_s = length_of(record);
+    std::vector<double> moves = moves_of(record);
+    double nearest_s = length_s;
+    for (double& move : moves) {
+        move += delay_s;
+        nearest_s = std::min(nearest_s, std::fabs(time_s - move));
+    }
+    nearest_s = std::max(nearest_s, 0.5 * record.usual_interval_s);
+    double covered_s = 0.0;
+    double until_s = 0.0;
+    for (const double move : moves) {  // they rise
+        const double from_s = std::max(until_s, move - nearest_s);
+        const double to_s = std::min(length_s, move + nearest_s);
+        covered_s += std::max(0.0, to_s - from_s);
+        until_s = std::max(until_s, to_s);
+    }
+    return moves.empty() ? 1.0 : std::min(1.0, covered_s / length_s);
+}
+
+double joint_chance(std::span<const double> chances) {
+    double product = 1.0;
+    for (const double chance : chances) {
+        product *= std::max(chance, 1e-12);
+    }
+    double term = product;
+    double sum = 0.0;
+    for (std::size_t k = 0; k < chances.size(); ++k) {
+        sum += term;
+        term *= -std::log(product) / static_cast<double>(k + 1);
+    }
+    return chances.empty() ? 1.0 : sum;
+}
+
+bool lasts_throughout(const Record& record, const Happening& happening, double settling_s) {
+    const std::vector<double> moves = moves_of(record);
+    const double first_s = moves.empty() ? 0.0 : moves.front();
+    return happening.to_s && *happening.to_s > (1.0 - at_the_end) * length_of(record) &&
+           happening.from_s < first_s + settling_s;
+}
+
+std::string doubt_of_events(const Study& study, const Candidate& trained, const Study& validation,
+                            const Candidate& validated) {
+    const double delay_s = model_of(study.base.form).delay_s;
+    const double settling_s = delay_s + settling * study.scales.time_constant_s;
+    for (const Effect* effect : trained.effects) {
+        if (effect->kind != Kind::event) {
+            continue;
+        }
+        std::vector<double> chances;
+        for (const auto& [of, candidate] : {std::pair(&study, &trained), std::pair(&validation, &validated)}) {
+            for (std::size_t r = 0; r < candidate->own.size(); ++r) {
+                const Record& record = of->courses[r].record();
+                const auto happening = happening_of(candidate->own[r], effect->name);
+                if (happening && lasts_throughout(record, *happening, settling_s)) {
+                    return fmt::format("{} of {} begins with the input and is still there at the end", effect->name,
+                                       record.name);
+                }
+                if (happening) {
+                    chances.push_back(chance_of_meeting(record, happening->from_s, delay_s));
+                }
+            }
+        }
+        const double chance = joint_chance(chances);
+        if (chance < incredible) {
+            return fmt::format("{} begins with a move of the input in every record, by chance once in {:.2g}",
+                               effect->name, 1.0 / chance);
+        }
+    }
+    return "";
+}
+
+}  // namespace gap

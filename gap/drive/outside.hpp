@@ -1,0 +1,32 @@
+// Whether an event that was found comes from outside, as its effect says: what begins with the input, record after
+// record, or lasts from its first move to the end, is something that the drive does itself.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gap/drive/candidate.hpp"
+
+namespace gap {
+
+/// A record's event, in seconds from its first stamp.
+struct Happening {
+    double from_s;
+    std::optional<double> to_s;  ///< of a disturbance
+};
+
+/// By which chance a time drawn at random lies as near to a large move of the input, a dead time later, as this one.
+/// 1: the input never moves at once, or always.
+[[nodiscard]] double chance_of_meeting(const Record& record, double time_s, double delay_s);
+
+/// Of several such chances, by which they come out as small together, by Fisher's method.
+[[nodiscard]] double joint_chance(std::span<const double> chances);
+
+/// Whether it begins within `settling_s` of the input's first move, or before, and is still there at the record's end.
+[[nodiscard]] bool lasts_throughout(const Record& record, const Happening& happening, double settling_s);
+
+/// What speaks against the events of a candidate being such, for a note; empty: nothing, or it has none.
+[[nodiscard]] std::string doubt_of_events(const Study& study, const Candidate& trained, const Study& validation,
+                                          const Candidate& validated);
+
+}  // namespace gap

@@ -1,0 +1,82 @@
+// Events that begin with the input, or never end, are none.
+#include "gap/drive/outside.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "gap/verdict.hpp"
+#include "stand_case.hpp"
+
+namespace {
+
+// 20 s at 100 Hz; the input steps up at 5 s and down at 12 s.
+gap::Record stepped() {
+    gap::Record record;
+    for (int i = 0; i <= 2000; ++i) {
+        record.time_s.push_back(100.0 + 0.01 * i);
+        record.input.push_back(i >= 500 && i < 1200 ? 1.0 : 0.0);
+    }
+    record.usual_interval_s = 0.01;
+    return record;
+}
+
+TEST(Outside, ChanceIsTheShareOfTheRecordThatIsAsNear) {
+    const gap::Record record = stepped();
+    EXPECT_NEAR(gap::chance_of_meeting(record, 5.1, 0.0), 4 * 0.1 / 20.0, 1e-9);
+    EXPECT_NEAR(gap::chance_of_meeting(record, 5.6, 0.5), 4 * 0.1 / 20.0, 1e-9);    // a dead time later
+    EXPECT_NEAR(gap::chance_of_meeting(record, 11.9, 0.0), 4 * 0.1 / 20.0, 1e-9);   // before counts as after
+    EXPECT_NEAR(gap::chance_of_meeting(record, 5.0, 0.0), 4 * 0.005 / 20.0, 1e-9);  // no nearer than half an interval
+    // Windows meet in the middle, and end with the record.
+    EXPECT_NEAR(gap::chance_of_meeting(record, 9.0, 0.0), (6.0 + 6.0) / 20.0, 1e-9);
+    EXPECT_NEAR(gap::chance_of_meeting(record, 1.0, 0.0), 15.0 / 20.0, 1e-9);
+    EXPECT_NEAR(gap::chance_of_meeting(record, 19.0, 0.0), 1.0, 0.06);
+    gap::Record still = record;
+    still.input.assign(still.input.size(), 0.0);
+    EXPECT_EQ(gap::chance_of_meeting(still, 5.0, 0.0), 1.0);
+}
+
+TEST(Outside, JointChanceIsFishers) {
+    EXPECT_DOUBLE_EQ(gap::joint_chance(std::vector{0.3}), 0.3);
+    // Of two: p (1 - ln p), p their product.
+    EXPECT_NEAR(gap::joint_chance(std::vector{0.1, 0.05}), 0.005 * (1.0 - std::log(0.005)), 1e-12);
+    EXPECT_DOUBLE_EQ(gap::joint_chance(std::vector{1.0, 1.0, 1.0}), 1.0);
+    EXPECT_EQ(gap::joint_chance({}), 1.0);
+}
+
+TEST(Outside, WhatLastsThroughoutIsNoEvent) {
+    const gap::Record record = stepped();
+    EXPECT_TRUE(gap::lasts_throughout(record, {5.4, 20.0}, 0.5));
+    EXPECT_TRUE(gap::lasts_throughout(record, {0.0, 19.7}, 0.5));
+    EXPECT_FALSE(gap::lasts_throughout(record, {5.6, 20.0}, 0.5));
+    EXPECT_FALSE(gap::lasts_throughout(record, {5.4, 19.5}, 0.5));
+    EXPECT_FALSE(gap::lasts_throughout(record, {5.4, std::nullopt}, 0.5));  // a jump
+}
+
+// A spring that is harder the further it is bent: under one level a force as long as the level.
+TEST(Verdict, OfAForceThatComesWithTheInputIsUnknown) {
+    const auto verdict = [](double from_s, double to_s) {
+        gap::Question question = gap_test::question_of({}, {.experiment = "step", .seed = 65},
+                                                       {.experiment = "step", .duty = 0.08, .seed = 66});
+        for (auto* records : {&question.train, &question.validate}) {
+            gap::Record& record = records->front();
+            const gap::Course course(record, 4);
+            gap::Scenario plain;
+            plain.model = gap::model_of(gap_test::linear_form());
+            gap::Scenario pushed = plain;
+            pushed.forces.pushes.push_back({from_s, to_s, -0.004});
+            const std::vector<double> usual = gap::simulate(plain, course);
+            const std::vector<double> moved = gap::simulate(pushed, course);
+            for (std::size_t i = 0; i < record.size(); ++i) {
+                record.output[i] += moved[i] - usual[i];
+            }
+        }
+        return gap::diagnose(question, [](const std::string&) {});
+    };
+    const gap::Answer event = verdict(7.0, 9.0);
+    EXPECT_EQ(gap_test::names(event), std::vector<std::string>{"load_disturbance"}) << gap::to_text(event);
+    const gap::Answer always = verdict(0.15, 1.2);
+    EXPECT_NE(always.decision.outcome, gap::Outcome::attributed) << gap::to_text(always);
+}
+
+}  // namespace
