@@ -217,9 +217,7 @@ private:
         // A cause whose size the training hardly tells may miss elsewhere; one that leaves much where it was fitted,
         // too, is not the only one. Events are fitted to each record.
         const Candidate& trained = ranking_[decision_.chosen].trained;
-        const bool events = std::any_of(trained.effects.begin(), trained.effects.end(),
-                                        [](const Effect* effect) { return effect->kind == Kind::event; });
-        return events || over_noise(study_, rms_of(study_, all_residuals(study_, trained))) > 4.0;
+        return has_events(trained) || over_noise(study_, rms_of(study_, all_residuals(study_, trained))) > 4.0;
     }
 
     void nothing_listed(std::string_view what_is_left) {
@@ -230,21 +228,41 @@ private:
             fmt::format("what is left is {}: no noise of a sensor, and nothing listed explains it", what_is_left));
     }
 
-    // What a drive does itself, record after record, is no event from outside: another cause, that nothing listed is.
+    // What a drive does itself, record after record, is no event from outside: it is the alternative without one, if
+    // there is any, or something that is not listed.
     void doubt_events() {
-        const Ranked& chosen = ranking_[decision_.chosen];
-        if (decision_.outcome != Outcome::attributed && decision_.outcome != Outcome::ambiguous) {
-            return;
-        }
-        const std::string doubt = doubt_of_events(study_, chosen.trained, validation_, chosen.candidate);
+        std::string doubt = doubt_of(decision_.chosen);
+        const bool of_chosen = !doubt.empty();
+        std::erase_if(decision_.effects, [&](std::size_t i) {
+            const std::string own = of_chosen || !has_events(ranking_[i].trained) ? "" : doubt_of(i);
+            doubt = doubt.empty() ? own : doubt;
+            return !own.empty() || (of_chosen && has_events(ranking_[i].trained));
+        });
         if (doubt.empty()) {
             return;
         }
-        decision_.outcome = Outcome::unknown;
-        decision_.effects.clear();
         decision_.confidence = std::min(decision_.confidence, 0.7);
-        decision_.notes.push_back(
-            fmt::format("{}: an event from outside does not, and nothing else listed explains it", doubt));
+        if (decision_.effects.empty()) {
+            decision_.outcome = Outcome::unknown;
+            decision_.notes.push_back(
+                fmt::format("{}: an event from outside does not, and nothing else listed explains it", doubt));
+            return;
+        }
+        decision_.chosen = decision_.effects.front();
+        decision_.outcome = decision_.effects.size() == 1 ? Outcome::attributed : Outcome::ambiguous;
+        decision_.notes.push_back(fmt::format("{}: an event from outside does not", doubt));
+    }
+
+    // What speaks against an alternative's events; empty: nothing, or there is none to name.
+    [[nodiscard]] std::string doubt_of(std::size_t i) const {
+        return decision_.effects.empty()
+                   ? ""
+                   : doubt_of_events(study_, ranking_[i].trained, validation_, ranking_[i].candidate);
+    }
+
+    static bool has_events(const Candidate& candidate) {
+        return std::any_of(candidate.effects.begin(), candidate.effects.end(),
+                           [](const Effect* effect) { return effect->kind == Kind::event; });
     }
 
     // A burst or a wave that stands out; empty: neither.
