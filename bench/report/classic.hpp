@@ -32,7 +32,7 @@ struct Gain {
 };
 
 /// For each order of `all`, in the order of appearance, and each of `error_limits`. \param classic  `classic_points` of
-/// `all` \param cost  index into `costs`
+/// `all` \param cost  index into `costs` \return looks into both, which must outlive it
 [[nodiscard]] std::vector<Gain> gains(const std::vector<CurvePoint>& classic, const std::vector<CurvePoint>& all,
                                       const std::vector<Cost>& costs, std::size_t cost);
 
