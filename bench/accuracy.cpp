@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "bench/designs.hpp"
+#include "bench/exact_weights.hpp"
 #include "bench/host_line.hpp"
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
@@ -117,18 +118,66 @@ double largest_difference(const reference::Sums& one, const reference::Sums& oth
     return largest;
 }
 
+// What a kernel made of a record, and what it needs. All that depends on its type: the rest is compiled once.
+struct Run {
+    glsum::Status status;
+    std::vector<double> sums;
+    std::optional<std::uint32_t> saturations;
+    std::size_t effective_taps;
+    std::size_t macs;
+    std::size_t coefficient_bytes;
+    std::size_t state_bytes;
+};
+
 template <class K>
-Json measure(const Case& test, const Length& length, const reference::Sums& same_length, double amplitude) {
+Run run(const glsum::Design& design, const std::vector<double>& record, double amplitude) {
+    HostLine<K> line(design);
+    Run found{line.status(), {}, {}, 0, 0, 0, 0};
+    if (found.status != glsum::Status::ok) {
+        return found;
+    }
+    found.sums.reserve(record.size());
+    for (const double sample : record) {
+        // Powers of two: the scaled record and its exact sums are exact too.
+        found.sums.push_back(line.step_real(amplitude * sample) / amplitude);
+    }
+    if constexpr (K::FormatPart::fixed_point) {
+        found.saturations = line.state().scale.saturations;
+    }
+    found.effective_taps = line.effective_taps();
+    found.macs = K::multiplications(design.taps);
+    found.coefficient_bytes = line.coefficient_bytes();
+    found.state_bytes = line.state_bytes();
+    return found;
+}
+
+struct Kernel {
+    std::string name;
+    reference::Dropped dropped;
+    Run (*run)(const glsum::Design& design, const std::vector<double>& record, double amplitude);
+};
+
+// Of the registry, in its order: all but `null`, which sums nothing.
+std::vector<Kernel> kernels() {
+    std::vector<Kernel> all;
+    glsum::Registry::for_each([&]<class K>() {
+        if constexpr (!std::is_same_v<K, glsum::Null>) {
+            all.push_back({std::string(K::name()), reference::dropped_by<typename K::HistoryPart>(), run<K>});
+        }
+    });
+    return all;
+}
+
+Json measure(const Case& test, const Kernel& kernel, const Length& length, const glsum::Design& design,
+             const reference::Sums& same_length, double amplitude) {
     std::string aspect = "accuracy/signal:" + test.signal;
     if (amplitude != 1.0) {
         aspect += fmt::format("/amplitude:{}", amplitude);
     }
-    Json row = make_row(row_name(std::string(K::name()), test.order, length, aspect), test.record.size());
-    const glsum::Design design =
-        design_of(std::string(K::name()), test.order, length, test.record.size(), test.weights);
-    HostLine<K> line(design);
-    if (line.status() != glsum::Status::ok) {
-        mark_error(row, to_text(line.status()));
+    Json row = make_row(row_name(kernel.name, test.order, length, aspect), test.record.size());
+    const Run found = kernel.run(design, test.record, amplitude);
+    if (found.status != glsum::Status::ok) {
+        mark_error(row, to_text(found.status));
         return row;
     }
     const reference::Sums& full = test.exact.back();
@@ -136,12 +185,10 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
     double squares = 0.0;
     double rounding = 0.0;
     for (std::size_t k = 0; k < test.record.size(); ++k) {
-        // Powers of two: the scaled record and its exact sums are exact too.
-        const double sum = line.step_real(amplitude * test.record[k]) / amplitude;
-        const double error = full[k].error_of(sum);
+        const double error = full[k].error_of(found.sums[k]);
         largest = std::max(largest, std::fabs(error));
         squares += error * error;
-        rounding = std::max(rounding, std::fabs(same_length[k].error_of(sum)));
+        rounding = std::max(rounding, std::fabs(same_length[k].error_of(found.sums[k])));
     }
     const double rms = std::sqrt(squares / static_cast<double>(test.record.size()));
     if (!(test.peak > 0.0) || !std::isfinite(largest) || !std::isfinite(rms)) {
@@ -156,16 +203,16 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
         row["discretisation_error_max"] = test.discretisation->largest / test.peak;
         row["discretisation_error_late_max"] = test.discretisation->late / test.peak;
     }
-    if constexpr (K::FormatPart::fixed_point) {
-        row["saturations"] = line.state().scale.saturations;
+    if (found.saturations) {
+        row["saturations"] = *found.saturations;
     }
     if (length.window()) {
-        row["effective_taps"] = line.effective_taps();
+        row["effective_taps"] = found.effective_taps;
     }
     row["horizon_samples"] = length.modes ? test.record.size() : std::min(glsum::reach_of(design), test.record.size());
-    row["macs_per_sample"] = K::multiplications(length.taps);
-    row["coefficient_bytes"] = line.coefficient_bytes();
-    row["state_bytes"] = line.state_bytes();
+    row["macs_per_sample"] = found.macs;
+    row["coefficient_bytes"] = found.coefficient_bytes;
+    row["state_bytes"] = found.state_bytes;
     return row;
 }
 
@@ -174,30 +221,28 @@ Json measure(const Case& test, const Length& length, const reference::Sums& same
 std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::vector<std::size_t>& cases) {
     const std::size_t signals = sweep.signals.size();
     std::vector<std::vector<Json>> rows(cases.size());
+    const std::vector<Kernel> all = kernels();
     Progress progress("accuracy", cases.size());
     parallel_for(cases.size(), sweep.jobs, [&](std::size_t i) {
         Case test(sweep, sweep.orders.at(cases[i] / signals), sweep.signals[cases[i] % signals]);
-        glsum::Registry::for_each([&]<class K>() {
-            if constexpr (!std::is_same_v<K, glsum::Null>) {
-                const std::string kernel(K::name());
-                if (std::find(sweep.kernels.begin(), sweep.kernels.end(), kernel) == sweep.kernels.end()) {
-                    return;
-                }
-                for (const Length& length : lengths_of(sweep, kernel, test.order)) {
-                    const reference::Sums& exact =
-                        test.exact_of(reference::dropped_by<typename K::HistoryPart>(), length,
-                                      design_of(kernel, test.order, length, test.record.size(), test.weights));
-                    rows[i].push_back(measure<K>(test, length, exact, 1.0));
-                    if (length.taps == amplitude_taps && length.window() &&
-                        std::find(std::begin(amplitude_signals), std::end(amplitude_signals), test.signal) !=
-                            std::end(amplitude_signals)) {
-                        for (const double amplitude : {0x1p-4, 0x1p-8}) {
-                            rows[i].push_back(measure<K>(test, length, exact, amplitude));
-                        }
+        for (const Kernel& kernel : all) {
+            if (std::find(sweep.kernels.begin(), sweep.kernels.end(), kernel.name) == sweep.kernels.end()) {
+                continue;
+            }
+            for (const Length& length : lengths_of(sweep, kernel.name, test.order)) {
+                const glsum::Design design =
+                    design_of(kernel.name, test.order, length, test.record.size(), test.weights);
+                const reference::Sums& exact = test.exact_of(kernel.dropped, length, design);
+                rows[i].push_back(measure(test, kernel, length, design, exact, 1.0));
+                if (length.taps == amplitude_taps && length.window() &&
+                    std::find(std::begin(amplitude_signals), std::end(amplitude_signals), test.signal) !=
+                        std::end(amplitude_signals)) {
+                    for (const double amplitude : {0x1p-4, 0x1p-8}) {
+                        rows[i].push_back(measure(test, kernel, length, design, exact, amplitude));
                     }
                 }
             }
-        });
+        }
         progress.advance();
     });
     return rows;

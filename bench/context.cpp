@@ -99,7 +99,7 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
     context["weights"] = to_text(sweep.weights);
     Json first_weights = Json::object();
     for (const double order : sweep.orders) {
-        first_weights[fmt::format("{}", order)] = static_cast<double>(first_weight(sweep.weights, order));
+        first_weights[fmt::format("{}", order)] = rounded_first_weight(sweep.weights, order);
     }
     context["first_weights"] = std::move(first_weights);  // w_0: the derivative is w_0 h^-v S
     std::vector<std::string> taps;

@@ -3,29 +3,11 @@
 #include <algorithm>
 
 #include "bench/host_line.hpp"
-#include "bench/reference/bdf.hpp"
-#include "bench/reference/sums.hpp"
 #include "glsum/registry.hpp"
 #include "modes/bdf.hpp"
 
 namespace bench {
 namespace {
-
-// p of bdf<p>; 0 for the others.
-unsigned steps_of(Discretisation discretisation) {
-    switch (discretisation) {
-        case Discretisation::gl:
-        case Discretisation::shifted:
-            return 0;
-        case Discretisation::bdf2:
-            return 2;
-        case Discretisation::bdf3:
-            return 3;
-        case Discretisation::bdf4:
-            return 4;
-    }
-    return 0;
-}
 
 // As the kernel itself says: by what it answers to a design that names weights.
 template <class K>
@@ -57,22 +39,22 @@ std::optional<Discretisation> parse_discretisation(std::string_view text) {
                : std::optional(static_cast<Discretisation>(found - discretisation_names.begin()));
 }
 
+unsigned steps_of(Discretisation discretisation) {
+    switch (discretisation) {
+        case Discretisation::gl:
+        case Discretisation::shifted:
+            return 0;
+        case Discretisation::bdf2:
+            return 2;
+        case Discretisation::bdf3:
+            return 3;
+        case Discretisation::bdf4:
+            return 4;
+    }
+    return 0;
+}
+
 bool names_weights(Discretisation discretisation) { return steps_of(discretisation) > 0; }
-
-reference::Real first_weight(Discretisation discretisation, const reference::Real& order) {
-    return names_weights(discretisation) ? reference::bdf_first_weight(steps_of(discretisation), order)
-                                         : reference::Real(1);
-}
-
-reference::Real lag_steps(Discretisation discretisation, const reference::Real& order) {
-    return discretisation == Discretisation::shifted ? reference::Real(order / 2) : reference::Real(0);
-}
-
-std::vector<reference::Real> exact_weights(Discretisation discretisation, const reference::Real& order,
-                                           std::size_t count) {
-    return names_weights(discretisation) ? reference::bdf_weights(steps_of(discretisation), order, count)
-                                         : reference::weights(order, count);
-}
 
 std::vector<double> named_weights(Discretisation discretisation, double order, bool of_increments, std::size_t count) {
     const unsigned steps = steps_of(discretisation);

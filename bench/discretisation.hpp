@@ -8,8 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/reference/real.hpp"
-
 namespace bench {
 
 /// The sum S_k = sum_j a_j x_(k-j), a_0 = 1, stands for w_0^-1 h^v D^v x(t_k - lag h).
@@ -29,15 +27,11 @@ inline constexpr std::array<std::string_view, 5> discretisation_names = {"gl", "
 /// Whether its weights are not those of the order, so that a design must name them.
 [[nodiscard]] bool names_weights(Discretisation discretisation);
 
-/// w_0.
-[[nodiscard]] reference::Real first_weight(Discretisation discretisation, const reference::Real& order);
+/// p of bdf<p>; 0 for the others.
+[[nodiscard]] unsigned steps_of(Discretisation discretisation);
 
-/// The lag in steps: v / 2 where shifted, which for v < 0 is a lead, else 0.
-[[nodiscard]] reference::Real lag_steps(Discretisation discretisation, const reference::Real& order);
-
-/// a_0 ... a_(count-1), in 50 digits.
-[[nodiscard]] std::vector<reference::Real> exact_weights(Discretisation discretisation, const reference::Real& order,
-                                                         std::size_t count);
+/// w_0, rounded to double.
+[[nodiscard]] double rounded_first_weight(Discretisation discretisation, double order);
 
 /// a_1 ... a_count of one that names its weights, as a design has them; over increments a_0 + ... + a_j instead.
 /// \throws std::out_of_range for one that names none

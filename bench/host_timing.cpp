@@ -19,6 +19,7 @@
 
 #include "bench/cycle_counter.hpp"
 #include "bench/designs.hpp"
+#include "bench/exact_weights.hpp"
 #include "bench/host_line.hpp"
 #include "bench/peers/peer.hpp"
 #include "bench/progress.hpp"
@@ -89,6 +90,23 @@ private:
     T* object_;
 };
 
+// Checks the output `found` of sample k and counts the cycles.
+void report(benchmark::State& state, const std::vector<reference::Real>& weights, std::size_t k, double found,
+            double bound, std::uint64_t cycles) {
+    std::vector<double> newest_first;
+    for (std::size_t j = 0; j < weights.size(); ++j) {
+        newest_first.push_back(stream()[(k - j) % stream_samples]);
+    }
+    const double error = std::fabs(reference::Exact(reference::sum(weights, newest_first)).error_of(found));
+    if (!(error <= bound)) {
+        state.SkipWithError(fmt::format("wrong answer: error {} beyond its bound {}", error, bound).c_str());
+        return;
+    }
+    state.counters["cycles_per_sample"] = static_cast<double>(cycles) / static_cast<double>(state.iterations());
+    state.counters["ns_per_sample"] =
+        benchmark::Counter(1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
 // Runs `step` on the stream for as long as Google Benchmark wants, then checks the output that follows.
 // step: sample index -> output, as a real; expected_error: its bound; rest: empties a past that never ends otherwise,
 // nothing where the weights are all of it.
@@ -126,20 +144,7 @@ double time_line(benchmark::State* state, const std::vector<Sample>& samples,
             step(samples[(k - j) % stream_samples]);
         }
     }
-    std::vector<double> newest_first;
-    for (std::size_t j = 0; j < weights.size(); ++j) {
-        newest_first.push_back(stream()[(k - j) % stream_samples]);
-    }
-    const double found = to_real(step(samples[k % stream_samples]));
-    const double error = std::fabs(reference::Exact(reference::sum(weights, newest_first)).error_of(found));
-    if (!(error <= bound)) {
-        state->SkipWithError(fmt::format("wrong answer: error {} beyond its bound {}", error, bound).c_str());
-        return 0.0;
-    }
-    const auto iterations = static_cast<double>(state->iterations());
-    state->counters["cycles_per_sample"] = static_cast<double>(cycles) / iterations;
-    state->counters["ns_per_sample"] =
-        benchmark::Counter(1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+    report(*state, weights, k, to_real(step(samples[k % stream_samples])), bound, cycles);
     return 0.0;
 }
 
@@ -189,6 +194,26 @@ double time_kernel(benchmark::State* state, const glsum::Design& design, const s
         set_sizes(state, K::multiplications(design.taps), line.coefficient_bytes(), line.state_bytes());
         return ns;
     }
+}
+
+// What a kernel's type gives to its timing; the rest is compiled once.
+struct Kernel {
+    std::string_view name;
+    reference::Dropped dropped;
+    bool (*ends_with_window)(const glsum::Design& design);
+    double (*time)(benchmark::State* state, const glsum::Design& design, const std::vector<reference::Real>& weights);
+};
+
+std::vector<Kernel> kernels() {
+    std::vector<Kernel> all;
+    glsum::Registry::for_each([&]<class K>() {
+        reference::Dropped dropped{};
+        if constexpr (requires { typename K::HistoryPart; }) {
+            dropped = reference::dropped_by<typename K::HistoryPart>();
+        }
+        all.push_back({K::name(), dropped, ends_with_window<K>, time_kernel<K>});
+    });
+    return all;
 }
 
 // A peer's coefficients, a_0 = 1 included.
@@ -309,7 +334,7 @@ void initialise(const std::vector<std::string>& flags, bool quick_default) {
     static std::vector<std::string> words;  // Google Benchmark keeps the pointer to the first
     words = {"glsum bench"};
     if (quick_default) {
-        words.emplace_back("--benchmark_min_time=0.05");
+        words.emplace_back("--benchmark_min_time=0.02");
     }
     words.insert(words.end(), flags.begin(), flags.end());
     std::vector<char*> argv;
@@ -335,7 +360,7 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
     }
     words.insert(words.end(), flags.begin(), flags.end());  // the later ones count
     initialise(words, true);
-    const auto add = [&](const Timed& timed, auto work) {
+    const auto add = [&](const Timed& timed, const std::function<double(benchmark::State*)>& work) {
         auto* registered = benchmark::RegisterBenchmark(row_name(timed.name, timed.order, timed.length, "host").c_str(),
                                                         [work](benchmark::State& state) { work(&state); });
         if (repetitions > 1) {
@@ -354,19 +379,17 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
         }
         return weights;
     };
+    const std::vector<Kernel> all = kernels();
     for (const Timed& timed : cases) {
-        glsum::Registry::for_each([&]<class K>() {
-            if (K::name() == timed.name) {
+        for (const Kernel& kernel : all) {
+            if (kernel.name == timed.name) {
                 const glsum::Design design = design_of(timed.name, timed.order, timed.length, samples, timed.weights);
-                reference::Dropped dropped{};
-                if constexpr (requires { typename K::HistoryPart; }) {
-                    dropped = reference::dropped_by<typename K::HistoryPart>();
-                }
-                const Weights weights = weights_of(timed, dropped, design, ends_with_window<K>(design));
-                add(timed,
-                    [design, weights](benchmark::State* state) { return time_kernel<K>(state, design, *weights); });
+                const Weights weights = weights_of(timed, kernel.dropped, design, kernel.ends_with_window(design));
+                add(timed, [&kernel, design, weights](benchmark::State* state) {
+                    return kernel.time(state, design, *weights);
+                });
             }
-        });
+        }
         for (const Peer& peer : peers()) {
             if (peer.name == timed.name) {
                 const Weights weights =

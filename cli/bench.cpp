@@ -8,19 +8,15 @@
 #include <optional>
 #include <thread>
 
-#include "bench/build_info.hpp"
 #include "bench/files.hpp"
 #include "bench/peers/peer.hpp"
 #include "bench/run.hpp"
 #include "bench/signals.hpp"
 #include "bench/table.hpp"
 #include "bench/target_rows.hpp"
-#include "cli/bench_drive.hpp"
-#include "cli/bench_equal_cost.hpp"
-#include "cli/bench_horizons.hpp"
-#include "cli/bench_records.hpp"
 #include "cli/board.hpp"
-#include "cli/commands.hpp"
+#include "cli/checks.hpp"
+#include "cli/command.hpp"
 #include "cli/finish_run.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/failure.hpp"
@@ -35,10 +31,6 @@ constexpr std::size_t most_taps = 1'000'000;  // as bench::parse_length has it
 
 struct Options {
     bool quick = false;
-    bool drive = false;
-    std::vector<std::string> records;
-    std::vector<std::string> equal_cost;
-    std::vector<std::string> horizons;
     std::vector<std::string> kernels{"*"};
     std::vector<double> orders;
     std::vector<std::string> taps;
@@ -76,24 +68,6 @@ std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std
     std::stable_sort(lengths.begin(), lengths.end(),
                      [](const bench::Length& a, const bench::Length& b) { return a.taps < b.taps; });
     return lengths;
-}
-
-void check_orders(const std::vector<double>& orders) {
-    for (const double order : orders) {
-        if (!glsum::order_in_range(order)) {
-            throw Failure(Exit::bad_input, fmt::format("--orders: expected a number in (-2, 2], found {}", order));
-        }
-    }
-}
-
-void check_signals(const std::vector<std::string>& signals) {
-    for (const std::string& signal : signals) {
-        if (std::find(std::begin(bench::signal_names), std::end(bench::signal_names), signal) ==
-            std::end(bench::signal_names)) {
-            throw Failure(Exit::bad_input, fmt::format("--signals: expected some of {}, found {}",
-                                                       fmt::join(bench::signal_names, ", "), signal));
-        }
-    }
 }
 
 std::vector<std::string> targets_of(const Options& options) {
@@ -172,11 +146,7 @@ bench::Sweep to_sweep(const Options& options) {
     }
     check_signals(sweep.signals);
     sweep.targets = targets_of(options);
-    for (const std::string& target : sweep.targets) {
-        if (target != "host" && target != "m7") {
-            throw Failure(Exit::bad_input, fmt::format("--targets: expected host, m7 or both, found {}", target));
-        }
-    }
+    check_targets(sweep.targets);
     sweep.cores.clear();
     for (const std::string& core : options.cores) {
         if (std::find(sweep.cores.begin(), sweep.cores.end(), core) == sweep.cores.end()) {
@@ -209,52 +179,11 @@ bench::Sweep to_sweep(const Options& options) {
 }
 
 std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
-    const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
     // Not latest.json: what reads that expects a whole run.
-    return results / (shard ? fmt::format("shard-{}-of-{}.json", shard->index, shard->count) : "latest.json");
+    return results_folder() / (shard ? fmt::format("shard-{}-of-{}.json", shard->index, shard->count) : "latest.json");
 }
 
-void run(const Options& options, const PassedOn& flags) {
-    if (!options.records.empty()) {
-        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
-        check_orders(options.orders);
-        check_signals(options.signals);
-        RecordBench records{.records = options.records,
-                            .orders = options.orders,
-                            .signals = options.signals,
-                            .out = options.out.empty() ? results / "records.json" : options.out};
-        records.repetitions = options.repetitions.value_or(records.repetitions);
-        run_record_bench(records);
-        return;
-    }
-    if (!options.equal_cost.empty()) {
-        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
-        check_orders(options.orders);
-        check_signals(options.signals);
-        run_equal_cost_bench({options.equal_cost, options.orders, options.signals, options.quick, options.jobs,
-                              options.out.empty() ? results / "equal-cost.json" : options.out});
-        return;
-    }
-    if (!options.horizons.empty()) {
-        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
-        check_orders(options.orders);
-        const std::vector<std::string> targets = targets_of(options);
-        const bool modelled = std::find(targets.begin(), targets.end(), "m7") != targets.end();
-        run_horizon_bench({options.horizons, options.orders, modelled ? default_core : "",
-                           options.out.empty() ? results / "horizons.json" : options.out});
-        return;
-    }
-    if (options.drive) {
-        if (options.weights != Options().weights) {
-            throw Failure(Exit::bad_input, "--weights: only without --drive, whose models have writings of their own");
-        }
-        const std::filesystem::path results = std::filesystem::path(build_info::source_folder) / "results";
-        std::vector<std::string> cores = options.cores;
-        std::erase(cores, bench::count_only);
-        run_drive_bench({options.kernels, options.taps, targets_of(options), cores, options.quick, options.jobs,
-                         options.out.empty() ? results / "drive.json" : options.out});
-        return;
-    }
+void run(const Options& options, const std::vector<std::string>& flags) {
     const bench::Sweep sweep = to_sweep(options);
     const std::optional<bench::Shard> shard =
         options.shard ? std::optional(bench::parse_shard(*options.shard)) : std::nullopt;
@@ -277,87 +206,48 @@ void run(const Options& options, const PassedOn& flags) {
 
 }  // namespace
 
-void add_bench(CLI::App& app, const PassedOn& passed_on) {
+void add_options(CLI::App& command, const Words& words) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand(
-        "bench", "Measure every kernel: accuracy, host time, Cortex-M7 instructions and modelled cycles");
-    command->footer(
+    command.footer(
         "Flags --benchmark_... go to Google Benchmark.\n"
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");
-    command->add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
-    command->add_flag("--drive", options->drive,
-                      "Instead of sums, whole models (10) to (12) stepped at 1 kHz: writes results/drive.json");
-    CLI::Option* records =
-        command
-            ->add_option("--records", options->records,
-                         "Instead of sums of a window, full memory over whole records of so many samples, at once and "
-                         "sample by sample, beside FFTW: 100000,1000000. Writes results/records.json")
-            ->delimiter(',');
-    CLI::Option* equal_cost =
-        command
-            ->add_option("--equal-cost", options->equal_cost,
-                         "Instead of all that, what so many multiplications a sample buy: windows, guessed tails, "
-                         "blocks, modes and Oustaloup's filter side by side: 16,24,32. Writes results/equal-cost.json")
-            ->delimiter(',');
-    CLI::Option* horizons =
-        command
-            ->add_option("--horizons", options->horizons,
-                         "Instead of all that, what an error over a past of so many samples costs, with a window, with "
-                         "blocks and with modes: 600,5000,50000,1000000. Writes results/horizons.json")
-            ->delimiter(',');
-    command->add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
-    command->add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
+    command.add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
+    command.add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
     command
-        ->add_option("--taps", options->taps,
-                     "Lengths: numbers, full (as many as the record has samples), and of kernels with modes 2+7: two "
-                     "taps and seven modes (default of these: the shortest that keep 1e-2, 1e-3, 1e-4 and 1e-6; quick: "
-                     "1e-4 alone)")
+        .add_option("--taps", options->taps,
+                    "Lengths: numbers, full (as many as the record has samples), and of kernels with modes 2+7: two "
+                    "taps and seven modes (default of these: the shortest that keep 1e-2, 1e-3, 1e-4 and 1e-6; quick: "
+                    "1e-4 alone)")
         ->delimiter(',');
-    command->add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
+    command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
         ->delimiter(',');
     command
-        ->add_option("--targets", options->targets,
-                     "host, m7 or both (default: both; with --weights that name their own, host)")
+        .add_option("--targets", options->targets,
+                    "host, m7 or both (default: both; with --weights that name their own, host)")
         ->delimiter(',');
     command
-        ->add_option("--core", options->cores,
-                     "Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation serves "
-                     "all")
+        .add_option("--core", options->cores,
+                    "Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation serves "
+                    "all")
         ->delimiter(',')
         ->capture_default_str();
     command
-        ->add_option("--weights", options->weights,
-                     "Which weights the kernels sum: gl, bdf2, bdf3, bdf4 (of that order for signals that start "
-                     "smoothly), or shifted: those of gl, for the derivative v h / 2 earlier")
+        .add_option("--weights", options->weights,
+                    "Which weights the kernels sum: gl, bdf2, bdf3, bdf4 (of that order for signals that start "
+                    "smoothly), or shifted: those of gl, for the derivative v h / 2 earlier")
         ->capture_default_str();
-    command->add_option("--shard", options->shard,
-                        "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "
-                        "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");
+    command.add_option("--shard", options->shard,
+                       "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "
+                       "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");
     command
-        ->add_option("--repetitions", options->repetitions,
-                     "Time each kernel so often, 2 ms each, all in random turns: what gate and compare judge by")
+        .add_option("--repetitions", options->repetitions,
+                    "Time each kernel so often, 2 ms each, all in random turns: what gate and compare judge by")
         ->check(CLI::Range(1, 10000));
-    command->add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
-    command->add_option("--out", options->out,
-                        "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
-    for (const char* other :
-         {"--quick", "--drive", "--kernels", "--taps", "--targets", "--core", "--shard", "--weights"}) {
-        records->excludes(other);
-        if (std::string(other) != "--quick") {
-            equal_cost->excludes(other);
-        }
-        if (std::string(other) != "--targets") {
-            horizons->excludes(other);
-        }
-    }
-    equal_cost->excludes(records);
-    horizons->excludes(records);
-    horizons->excludes(equal_cost);
-    horizons->excludes("--signals");
-    for (CLI::Option* one : {equal_cost, horizons}) {
-        one->excludes("--repetitions");
-    }
-    command->callback([options, &passed_on] { run(*options, passed_on); });
+    command.add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
+    command.add_option("--out", options->out,
+                       "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
+    command.callback([options, &words] { run(*options, words.passed_on); });
 }
 
 }  // namespace cli

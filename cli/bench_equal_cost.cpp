@@ -1,6 +1,10 @@
-#include "cli/bench_equal_cost.hpp"
-
+// glsum bench equal-cost: what a number of multiplications a sample buys, kernel by kernel and beside Oustaloup's
+// filter.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <thread>
 
 #include "bench/context.hpp"
 #include "bench/equal_cost.hpp"
@@ -8,17 +12,27 @@
 #include "bench/result_file.hpp"
 #include "bench/signals.hpp"
 #include "bench/sweep.hpp"
+#include "cli/checks.hpp"
+#include "cli/command.hpp"
 #include "cli/rising.hpp"
 
 namespace cli {
-void run_equal_cost_bench(const EqualCostBench& options) {
+namespace {
+
+struct Options {
+    std::vector<std::string> costs{"16", "24", "32"};  ///< multiplications a sample, in any order
+    std::vector<double> orders = bench::EqualCost().orders;
+    std::vector<std::string> signals{std::begin(bench::signal_names), std::end(bench::signal_names)};
+    bool quick = false;
+    unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+    std::filesystem::path out = results_folder() / "equal-cost.json";
+};
+
+void run(const Options& options) {
     bench::EqualCost wanted;
     wanted.costs = to_rising(options.costs, {"--equal-cost", "multiplications", 4, 600});
-    wanted.orders = options.orders.empty() ? wanted.orders : options.orders;
+    wanted.orders = options.orders;
     wanted.signals = options.signals;
-    if (wanted.signals.empty()) {
-        wanted.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
-    }
     wanted.samples = options.quick ? 1000 : wanted.samples;
     wanted.jobs = options.jobs;
     bench::check_writable(options.out);
@@ -41,6 +55,31 @@ void run_equal_cost_bench(const EqualCostBench& options) {
     stem.replace_extension();
     bench::plot_equal_cost(wanted, rows, stem);
     fmt::print("\n{} rows in {}, drawn in {}.svg and .png\n", rows.size(), options.out.string(), stem.string());
+}
+
+}  // namespace
+
+void add_options(CLI::App& command, const Words&) {
+    auto options = std::make_shared<Options>();
+    command.footer(
+        "bench --equal-cost N,N is the same command.\n"
+        "Example: glsum bench equal-cost 16,24,32 --orders 0.5 --out my.json");
+    command.add_option("multiplications,--equal-cost", options->costs, "A sample, 4 to 600")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',')->capture_default_str();
+    command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_flag("--quick", options->quick, "Records of 1000 samples instead of 5000");
+    command.add_option("--jobs", options->jobs, "Threads at once")->check(CLI::Range(1, 1024));
+    command.add_option("--out", options->out,
+                       "Result file (default: results/equal-cost.json); .svg and .png are drawn beside it");
+    command.callback([options] {
+        check_orders(options->orders);
+        check_signals(options->signals);
+        run(*options);
+    });
 }
 
 }  // namespace cli

@@ -1,5 +1,5 @@
-#include "cli/bench_horizons.hpp"
-
+// glsum bench horizons: what an error over a longer and longer past costs, with a window, with blocks and with modes.
+// Writes rows `horizon/<kernel>/order:<v>/error:<e>/samples:<N>` and draws them beside.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +17,8 @@
 #include "bench/sweep.hpp"
 #include "bench/target_rows.hpp"
 #include "cli/board.hpp"
+#include "cli/checks.hpp"
+#include "cli/command.hpp"
 #include "cli/rising.hpp"
 #include "drive/whole_record.hpp"
 #include "glsum/registry.hpp"
@@ -31,6 +33,14 @@ namespace {
 using bench::Json;
 using glsum::Exit;
 using glsum::Failure;
+
+struct Options {
+    std::vector<std::string> horizons{"600", "5000", "50000", "1000000"};  ///< numbers of samples, in any order
+    std::vector<double> orders{0.2, 0.5, 0.9, 1.5, -0.5};                  ///< in (-1, 2), not whole
+    std::vector<std::string> targets{"host", "m7"};
+    std::string core;  ///< of the timing model; empty: none, multiplications alone
+    std::filesystem::path out = results_folder() / "horizons.json";
+};
 using glsum::modes::Approximation;
 using WithModes = glsum::Sum<glsum::Modes, glsum::Plain, glsum::F64>;
 
@@ -205,11 +215,9 @@ void measure_cycles(std::vector<Cost>& all, const std::string& core) {
     }
 }
 
-}  // namespace
-
-void run_horizon_bench(const HorizonBench& options) {
+void run(const Options& options) {
     const std::vector<std::size_t> horizons = to_rising(options.horizons, {"--horizons", "samples", 100, 10'000'000});
-    const std::vector<double> orders = options.orders.empty() ? std::vector{0.2, 0.5, 0.9, 1.5, -0.5} : options.orders;
+    const std::vector<double>& orders = options.orders;
     for (const double order : orders) {
         if (!glsum::modes::has_tail(order)) {
             throw Failure(Exit::bad_input,
@@ -294,6 +302,33 @@ void run_horizon_bench(const HorizonBench& options) {
     if (wrong > 0) {
         throw Failure(Exit::check_failed, fmt::format("{} designs err more than they promise; they are marked", wrong));
     }
+}
+
+}  // namespace
+
+void add_options(CLI::App& command, const Words&) {
+    auto options = std::make_shared<Options>();
+    command.footer(
+        "bench --horizons N,N is the same command.\n"
+        "Example: glsum bench horizons 600,5000 --orders 0.5 --targets host");
+    command.add_option("samples,--horizons", options->horizons, "Pasts, 100 to 10000000 samples")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-1, 2) that are not whole")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--targets", options->targets, "host alone leaves out modelled cycles")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--out", options->out,
+                       "Result file (default: results/horizons.json); .svg and .png are drawn beside it");
+    command.callback([options] {
+        check_orders(options->orders);
+        check_targets(options->targets);
+        const bool modelled = std::ranges::find(options->targets, "m7") != options->targets.end();
+        options->core = modelled ? default_core : "";
+        run(*options);
+    });
 }
 
 }  // namespace cli

@@ -1,5 +1,5 @@
-#include "cli/bench_records.hpp"
-
+// glsum bench records: sums over whole records with full memory, at once and sample by sample, beside one plain
+// convolution. Writes rows `record/<how>/order:<v>/samples:<N>/host`.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +19,8 @@
 #include "bench/reference/sums.hpp"
 #include "bench/result_file.hpp"
 #include "bench/signals.hpp"
+#include "cli/checks.hpp"
+#include "cli/command.hpp"
 #include "cli/rising.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/real_transform.hpp"
@@ -33,6 +35,14 @@ using bench::FftwConvolution;
 using bench::Json;
 using glsum::Exit;
 using glsum::Failure;
+
+struct Options {
+    std::vector<std::string> records{"100000", "1000000"};       ///< numbers of samples, in any order
+    std::vector<double> orders{0.5, -0.5};                       ///< in (-2, 2]
+    std::vector<std::string> signals{"step", "sine5", "noise"};  ///< that errors are the worst of
+    unsigned repetitions = 9;
+    std::filesystem::path out = results_folder() / "records.json";
+};
 using Window = glsum::Sum<glsum::Mirror, glsum::Multi, glsum::F64>;
 
 constexpr std::size_t fewest_samples = 1000;
@@ -280,14 +290,11 @@ std::string to_table(double order, const std::vector<Size>& sizes) {
     return text;
 }
 
-}  // namespace
-
-void run_record_bench(const RecordBench& options) {
+void run(const Options& options) {
     const std::vector<std::size_t> samples =
         to_rising(options.records, {"--records", "samples", fewest_samples, most_samples});
-    const std::vector<double> orders = options.orders.empty() ? std::vector{0.5, -0.5} : options.orders;
-    const std::vector<std::string> signals =
-        options.signals.empty() ? std::vector<std::string>{"step", "sine5", "noise"} : options.signals;
+    const std::vector<double>& orders = options.orders;
+    const std::vector<std::string>& signals = options.signals;
     bench::check_writable(options.out);
     std::string text = fmt::format(
         "Sums with full memory over whole records in double: median of {} interleaved turns, processor time; {}.\n"
@@ -343,6 +350,31 @@ void run_record_bench(const RecordBench& options) {
     if (wrong > 0) {
         throw Failure(Exit::check_failed, fmt::format("{} rows are wrong; they are marked", wrong));
     }
+}
+
+}  // namespace
+
+void add_options(CLI::App& command, const Words&) {
+    auto options = std::make_shared<Options>();
+    command.footer(
+        "bench --records N,N is the same command.\n"
+        "Example: glsum bench records 100000,1000000 --orders 0.5 --out my.json");
+    command.add_option("samples,--records", options->records, "Lengths of the records, 1000 to 10000000")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',')->capture_default_str();
+    command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--repetitions", options->repetitions, "Interleaved turns, whose median is taken")
+        ->check(CLI::Range(1, 10000))
+        ->capture_default_str();
+    command.add_option("--out", options->out, "Result file (default: results/records.json)");
+    command.callback([options] {
+        check_orders(options->orders);
+        check_signals(options->signals);
+        run(*options);
+    });
 }
 
 }  // namespace cli

@@ -26,10 +26,6 @@ std::optional<qemu::Board> board_if_there() {
     }
 }
 
-std::optional<qemu::Board> board_for(const choose::Question& question) {
-    return question.target == choose::Target::m7 ? built_board() : board_if_there();
-}
-
 std::vector<qemu::MeasuredCycles> read_measured_cycles(const std::filesystem::path& path) {
     return qemu::parse_measured_cycles(bench::read_file(path, qemu::MeasuredLimits::bytes), path.string());
 }

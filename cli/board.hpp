@@ -5,7 +5,6 @@
 #include <optional>
 #include <vector>
 
-#include "bench/choose/question.hpp"
 #include "qemu/firmware.hpp"
 #include "qemu/measured_cycles.hpp"
 
@@ -23,9 +22,6 @@ inline constexpr const char* default_core = "stm32f746-itcm";
 
 /// Nothing where it throws.
 [[nodiscard]] std::optional<qemu::Board> board_if_there();
-
-/// The board where a question needs it, else the board if it is there.
-[[nodiscard]] std::optional<qemu::Board> board_for(const choose::Question& question);
 
 /// \throws glsum::Failure (bad input) as `qemu::parse_measured_cycles`, or where the file cannot be read.
 [[nodiscard]] std::vector<qemu::MeasuredCycles> read_measured_cycles(const std::filesystem::path& path);

@@ -141,4 +141,8 @@ choose::Question to_question(const Budget& budget) {
     return question;
 }
 
+std::optional<qemu::Board> board_for(const choose::Question& question) {
+    return question.target == choose::Target::m7 ? built_board() : board_if_there();
+}
+
 }  // namespace cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "bench/choose/question.hpp"
+#include "qemu/firmware.hpp"
 
 namespace cli {
 
@@ -37,5 +38,8 @@ std::shared_ptr<Budget> add_budget(CLI::App& command);
 
 /// Checks what was typed. \throws glsum::Failure (bad input) naming the option, what was expected and found.
 [[nodiscard]] choose::Question to_question(const Budget& budget);
+
+/// The board where a question needs it, else the board if it is there.
+[[nodiscard]] std::optional<qemu::Board> board_for(const choose::Question& question);
 
 }  // namespace cli

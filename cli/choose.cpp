@@ -10,7 +10,7 @@
 #include "bench/files.hpp"
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -63,19 +63,18 @@ void run(const Budget& budget, const std::string& json) {
 
 }  // namespace
 
-void add_choose(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("choose", "The cheapest kernel, length and format within a budget");
-    auto budget = add_budget(*command);
+void add_options(CLI::App& command, const Words&) {
+    auto budget = add_budget(command);
     auto json = std::make_shared<std::string>();
     for (const char* needed : {"--step-s", "--target"}) {
-        command->get_option(needed)->required();
+        command.get_option(needed)->required();
     }
-    command->add_option("--json", *json, "Writes the answer there too");
+    command.add_option("--json", *json, "Writes the answer there too");
     auto against = std::make_shared<Check>();
-    command->add_option("--check-against-brute-force", against->budgets,
-                        "Draws so many budgets and compares the search with a plain loop over every kernel and length");
-    command->add_option("--seed", against->seed, "Of the budgets drawn")->capture_default_str();
-    command->footer(
+    command.add_option("--check-against-brute-force", against->budgets,
+                       "Draws so many budgets and compares the search with a plain loop over every kernel and length");
+    command.add_option("--seed", against->seed, "Of the budgets drawn")->capture_default_str();
+    command.footer(
         "Records are sampled at --step-s: sines and the drive's response are the same signals at other instants; "
         "step,\n"
         "ramp (from 0 to 0.9 over the record) and noise have no time of their own. Sines that --step-s cannot show "
@@ -84,7 +83,7 @@ void add_choose(CLI::App& app) {
         "Exit status: 0 something fits; 1 nothing does, with the nearest miss; 2 wrong use; 3 something is missing.\n"
         "Example: glsum choose --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --clock-hz 216e6 --rate-hz "
         "1000");
-    command->callback([budget, json, against] {
+    command.callback([budget, json, against] {
         if (against->budgets > 0) {
             check(*budget, *against);
         } else {

@@ -6,7 +6,7 @@
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
 #include "bench/gate/compare.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -49,24 +49,23 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_compare(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("compare", "Two runs side by side: any counter, ratios, no verdict");
-    command->footer(
+    command.footer(
         "Host times with repetitions in both files are compared as the gate does: against its anchor, with bounds.\n"
         "Exit status: 0 compared, 2 a file is broken, 4 the two runs cannot be compared.\n"
         "Example: glsum compare before.json after.json --counters '*instructions*'");
-    command->add_option("A", options->a, "Result file")->required();
-    command->add_option("B", options->b, "Result file")->required();
-    command->add_option("--rows", options->rows, "Globs of row names")->delimiter(',')->capture_default_str();
-    command->add_option("--counters", options->counters, "Globs of counters")->delimiter(',')->capture_default_str();
-    command->add_option("--show", options->shown, "How many of the largest changes")->capture_default_str();
-    command->add_option("--thresholds", options->thresholds, "Rules that say which direction is better");
-    command->add_flag("--force", options->force, "Compare what is not comparable");
-    options->json = command->add_option("--json", options->json_file, "Every pair; to standard output without FILE")
+    command.add_option("A", options->a, "Result file")->required();
+    command.add_option("B", options->b, "Result file")->required();
+    command.add_option("--rows", options->rows, "Globs of row names")->delimiter(',')->capture_default_str();
+    command.add_option("--counters", options->counters, "Globs of counters")->delimiter(',')->capture_default_str();
+    command.add_option("--show", options->shown, "How many of the largest changes")->capture_default_str();
+    command.add_option("--thresholds", options->thresholds, "Rules that say which direction is better");
+    command.add_flag("--force", options->force, "Compare what is not comparable");
+    options->json = command.add_option("--json", options->json_file, "Every pair; to standard output without FILE")
                         ->expected(0, 1)
                         ->type_name("[FILE]");
-    command->callback([options] { run(*options); });
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -10,7 +10,7 @@
 #include "bench/progress.hpp"
 #include "bench/sha256.hpp"
 #include "cli/blind.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/diagnose_cycles.hpp"
 #include "cli/drive_files.hpp"
 #include "gap/drive/diagnose.hpp"
@@ -156,31 +156,28 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_diagnose(CLI::App& app) {
-    CLI::App* command =
-        app.add_subcommand("diagnose", "Where simulation and measurement part, and which effect explains it");
-    command->require_subcommand(0, 1);
+void add_options(CLI::App& command, const Words&) {
+    command.require_subcommand(0, 1);
     auto options = std::make_shared<Options>();
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command->add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    command.add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
     auto set = std::make_shared<std::filesystem::path>();
-    command->add_option(
-        "--batch", *set,
-        "Judge each case of a blind set: DIR/NNN/ with model.json, train*.csv and validate*.csv; writes "
-        "DIR/NNN/verdict.json and DIR/verdicts.sha256");
-    command->footer(
+    command.add_option("--batch", *set,
+                       "Judge each case of a blind set: DIR/NNN/ with model.json, train*.csv and validate*.csv; writes "
+                       "DIR/NNN/verdict.json and DIR/verdicts.sha256");
+    command.footer(
         "Examples: glsum diagnose drive --model model.json --log train.csv --validate other.csv\n"
         "          glsum diagnose cycles --measured results/silicon/h747_per_sample_fir.csv\n"
         "          glsum diagnose --batch build/blind");
-    command->callback([command, options, set] {
+    command.callback([&command, options, set] {
         if (!set->empty()) {
             run_batch(*set, options->jobs);
-        } else if (command->get_subcommands().empty()) {
+        } else if (command.get_subcommands().empty()) {
             throw glsum::Failure(glsum::Exit::bad_input, "diagnose: expected drive, cycles or --batch DIR");
         }
     });
-    add_diagnose_cycles(*command);
-    CLI::App* of_drive = command->add_subcommand("drive", "A model of a drive against its logs");
+    add_diagnose_cycles(command);
+    CLI::App* of_drive = command.add_subcommand("drive", "A model of a drive against its logs");
     of_drive->footer(
         "Without --refit the model is judged as it is, its parameters included. With it, or with fit:FORM, its gain, "
         "dynamics,\n"

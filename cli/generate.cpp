@@ -16,7 +16,7 @@
 #include "bench/target_rows.hpp"
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -166,27 +166,26 @@ void run(const Options& options, Budget budget, const std::string& command) {
 
 }  // namespace
 
-void add_generate(CLI::App& app, const std::string& command_line) {
-    CLI::App* command = app.add_subcommand("generate", "A kernel, chosen or named, as one C99 header for firmware");
-    auto budget = add_budget(*command);
+void add_options(CLI::App& command, const Words& words) {
+    auto budget = add_budget(command);
     auto options = std::make_shared<Options>();
-    command->add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
-    command->add_option("--taps", options->taps,
-                        "Its length, with --kernel: a number, or 2+7 of near taps and modes or blocks");
-    command->add_option("--prefix", options->prefix, "Begins every identifier of the header")->capture_default_str();
-    command->add_option("--licence", options->licence, "The header's licence line");
-    command->add_option("--out", options->out, "The header");
-    command->add_flag("--verify", options->verify,
-                      "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
-                      "modelled cycles and the kernel's");
-    command->footer(
+    command.add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
+    command.add_option("--taps", options->taps,
+                       "Its length, with --kernel: a number, or 2+7 of near taps and modes or blocks");
+    command.add_option("--prefix", options->prefix, "Begins every identifier of the header")->capture_default_str();
+    command.add_option("--licence", options->licence, "The header's licence line");
+    command.add_option("--out", options->out, "The header");
+    command.add_flag("--verify", options->verify,
+                     "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
+                     "modelled cycles and the kernel's");
+    command.footer(
         "Takes the budget of `choose` (see there) and writes what that chooses, among the kernels that can be "
         "generated\n"
         "(all but the host's vector kernels); or a kernel by name, at h = 1 ms unless --step-s says otherwise.\n"
         "Exit status: 0 written; 1 nothing fits, or --verify failed; 2 wrong use; 3 something is missing.\n"
         "Example: glsum generate --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --out half_derivative.h\n"
         "         glsum generate --order 0.5 --kernel ring_plain_q31 --taps 300 --out half_derivative.h --verify");
-    command->callback([options, budget, &command_line] { run(*options, *budget, command_line); });
+    command.callback([options, budget, &words] { run(*options, *budget, words.line); });
 }
 
 }  // namespace cli

@@ -5,7 +5,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/indices.hpp"
 #include "drive/response.hpp"
@@ -83,20 +83,18 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_indices(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("indices", "ISE, IAE, ITSE, ITAE, MaxAPE and both NRMSE of models on a log");
-    command->footer(
+    command.footer(
         "A model is simulated exactly, at the log's own stamps, from rest.\n"
         "Example: glsum indices log.csv --model drive/models/niopdt.json --model drive/models/sopdt.json");
-    command->add_option("log,--log", options->log, "Measured log, CSV")->required();
-    command->add_option("--model", options->models, "Model JSON; repeatable");
-    command->add_option("--simulated", options->simulated, "CSV with an output at the same stamps, instead of a model");
-    add_column_options(*command, options->columns);
-    command->add_flag("--json", options->json, "JSON instead of a table");
-    command->add_option("--out", options->out, "File; printed if not given");
-    command->add_option("--jobs")->group("");  // the launcher hands it to every command
-    command->callback([options] { run(*options); });
+    command.add_option("log,--log", options->log, "Measured log, CSV")->required();
+    command.add_option("--model", options->models, "Model JSON; repeatable");
+    command.add_option("--simulated", options->simulated, "CSV with an output at the same stamps, instead of a model");
+    add_column_options(command, options->columns);
+    command.add_flag("--json", options->json, "JSON instead of a table");
+    command.add_option("--out", options->out, "File; printed if not given");
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

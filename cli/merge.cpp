@@ -5,7 +5,7 @@
 
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/finish_run.hpp"
 
 namespace cli {
@@ -29,19 +29,18 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_merge(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("merge", "Put the shards of a sweep together, as if it had run in one");
-    command->footer(
+    command.footer(
         "All shards of bench --shard I/N, each once, in any order.\n"
         "Example: glsum merge shard-1.json shard-2.json shard-3.json --out whole.json");
-    command->add_option("shards", options->shards, "Result files of bench --shard")->required();
-    command->add_flag("--allow-mixed-hosts", options->allow_mixed_hosts,
-                      "Shards may come from different CPUs; the context then says mixed_hosts");
-    command->add_option("--jobs", options->jobs, "Threads at once, for the bound that the picture draws")
+    command.add_option("shards", options->shards, "Result files of bench --shard")->required();
+    command.add_flag("--allow-mixed-hosts", options->allow_mixed_hosts,
+                     "Shards may come from different CPUs; the context then says mixed_hosts");
+    command.add_option("--jobs", options->jobs, "Threads at once, for the bound that the picture draws")
         ->check(CLI::Range(1, 1024));
-    command->add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
-    command->callback([options] { run(*options); });
+    command.add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

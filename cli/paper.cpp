@@ -6,7 +6,7 @@
 
 #include "bench/build_info.hpp"
 #include "bench/gnuplot.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/paper.hpp"
 
@@ -76,17 +76,15 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_paper(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("paper", "The claims of the seed paper that can be checked, one by one");
-    command->footer("Example: glsum paper --plots results/drive");
-    command->add_option("--models", options->models, "Folder with fopdt.json, sopdt.json and niopdt.json")
-        ->capture_default_str();
-    command->add_flag("--json", options->json, "JSON instead of text");
-    command->add_option("--out", options->out, "File; printed if not given");
-    command->add_option("--plots", options->plots, "Folder for step_responses and precision, .svg and .png");
-    command->add_option("--jobs")->group("");  // the launcher hands it to every command
-    command->callback([options] { run(*options); });
+    command.footer("Example: glsum paper --plots results/drive");
+    command.add_option("--models", options->models, "Folder with fopdt.json, sopdt.json and niopdt.json")
+        ->default_str("drive/models");
+    command.add_flag("--json", options->json, "JSON instead of text");
+    command.add_option("--out", options->out, "File; printed if not given");
+    command.add_option("--plots", options->plots, "Folder for step_responses and precision, .svg and .png");
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -12,7 +12,7 @@
 #include "bench/report/classic.hpp"
 #include "bench/report/report.hpp"
 #include "bench/result_file.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -69,21 +69,18 @@ void run(Options options) {
 
 }  // namespace
 
-void add_report(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("report", "A page, pictures and tables of one result file, or of two compared");
-    command->footer(
+    command.footer(
         "The page is one file, loads nothing and opens in any browser.\n"
         "Example: glsum report results/latest.json other.json --out compared.html");
     command
-        ->add_option("files", options->files,
-                     "Result files: A (default results/latest.json), then B to hold against it")
+        .add_option("files", options->files, "Result files: A (default results/latest.json), then B to hold against it")
         ->expected(0, 2);
-    command->add_option("--out", options->out,
-                        "The page; .csv, .svg and .png are written beside it (default: beside A)");
-    command->add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
-    command->callback([options] { run(*options); });
+    command.add_option("--out", options->out,
+                       "The page; .csv, .svg and .png are written beside it (default: beside A)");
+    command.add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

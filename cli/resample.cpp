@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/log.hpp"
 
@@ -30,24 +30,22 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_resample(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
     options->columns.needs_input = false;
-    CLI::App* command = app.add_subcommand("resample", "A log with uneven stamps to a constant rate");
-    command->footer(
+    command.footer(
         "Repeated, backward and missing stamps are reported with their lines: repeated ones give their mean, backward "
         "ones "
         "are left out, gaps are bridged.\nExample: glsum resample log.csv --step-s 0.001 --method linear --out "
         "even.csv");
-    command->add_option("log,--log", options->log, "Log, CSV with time_s and the output")->required();
-    command->add_option("--step-s", options->step_s, "New sampling time")->capture_default_str();
-    command->add_option("--method", options->method, "linear or zoh (zero-order hold); the input is always held")
+    command.add_option("log,--log", options->log, "Log, CSV with time_s and the output")->required();
+    command.add_option("--step-s", options->step_s, "New sampling time")->capture_default_str();
+    command.add_option("--method", options->method, "linear or zoh (zero-order hold); the input is always held")
         ->check(CLI::IsMember({"linear", "zoh"}))
         ->capture_default_str();
-    add_column_options(*command, options->columns);
-    command->add_option("--out", options->out, "CSV file; printed if not given");
-    command->add_option("--jobs")->group("");  // the launcher hands it to every command
-    command->callback([options] { run(*options); });
+    add_column_options(command, options->columns);
+    command.add_option("--out", options->out, "CSV file; printed if not given");
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

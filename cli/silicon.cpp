@@ -8,7 +8,7 @@
 
 #include "bench/build_info.hpp"
 #include "cli/board.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
 #include "qemu/silicon.hpp"
@@ -114,20 +114,16 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_silicon(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command =
-        app.add_subcommand("silicon", "Hold the Cortex-M7 timing model against cycles measured on silicon");
-    command->footer(
+    command.footer(
         "Exit status 1 when a row is missed by more than 5 % and 8 cycles.\n"
         "Example: glsum silicon results/silicon/h747_per_sample_fir.csv");
-    command->add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
-    command->add_option("--core", options->core, "Core file; each row's placement beats its own")
-        ->capture_default_str();
-    command->add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
+    command.add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
+    command.add_option("--core", options->core, "Core file; each row's placement beats its own")->capture_default_str();
+    command.add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
         ->delimiter(',');
-    command->add_option("--jobs")->group("");  // the launcher hands it to every command
-    command->callback([options] { run(*options); });
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "bench/gnuplot.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/pictures.hpp"
 #include "drive/stability.hpp"
@@ -84,21 +84,19 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_stability(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("stability", "Matignon's theorem on a model; exits 1 unless it is stable");
-    command->footer(
+    command.footer(
         "A dead time does not change the verdict of an open loop.\n"
         "Example: glsum stability --model drive/models/niopdt.json --plot roots");
-    command->add_option("--model", options->model, "Model JSON")->required();
-    command->add_option(
+    command.add_option("--model", options->model, "Model JSON")->required();
+    command.add_option(
         "--base-order,--q", options->base_order,
         "Base order q: the orders are rounded to its multiples; usually 0.01, and 1 where all orders are whole");
-    command->add_flag("--json", options->json, "JSON instead of text");
-    command->add_option("--out", options->out, "File; printed if not given");
-    command->add_option("--plot", options->plot, "Also draw the roots: STEM.svg and STEM.png");
-    command->add_option("--jobs")->group("");  // the launcher hands it to every command
-    command->callback([options] { run(*options); });
+    command.add_flag("--json", options->json, "JSON instead of text");
+    command.add_option("--out", options->out, "File; printed if not given");
+    command.add_option("--plot", options->plot, "Also draw the roots: STEM.svg and STEM.png");
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

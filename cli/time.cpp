@@ -11,7 +11,7 @@
 #include "bench/row.hpp"
 #include "bench/sha256.hpp"
 #include "cli/board.hpp"
-#include "cli/commands.hpp"
+#include "cli/command.hpp"
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/timed_program.hpp"
@@ -232,25 +232,23 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_time(CLI::App& app) {
+void add_options(CLI::App& command, const Words&) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = app.add_subcommand("time", "Cycles of one function of your firmware on a modelled Cortex-M7");
-    command->footer(
+    command.footer(
         "The program: bare metal, linked for the map of mps2-an500 (code from 0, data from 0x20000000), ending by a\n"
         "semihosting exit with status 0.\n"
         "Example: glsum time --elf my.elf --function filter_step --core stm32f746-flash --json time.json");
-    command->add_option("--elf", options->elf, "The program")->required();
-    command->add_option("--function", options->function, "Symbol, or C++ name with or without parameters")->required();
-    command->add_option("--core", options->core, "Core file of qemu/cores")->capture_default_str();
-    command->add_option("--place", options->places, "code=itcm/flash/axi or data=dtcm/axi; beats the core file");
-    command->add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
+    command.add_option("--elf", options->elf, "The program")->required();
+    command.add_option("--function", options->function, "Symbol, or C++ name with or without parameters")->required();
+    command.add_option("--core", options->core, "Core file of qemu/cores")->capture_default_str();
+    command.add_option("--place", options->places, "code=itcm/flash/axi or data=dtcm/axi; beats the core file");
+    command.add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
         ->delimiter(',');
-    command->add_option("--json", options->json, "Writes the result there");
-    command->add_option("--timeout", options->timeout, "Seconds that the program may stay silent")
+    command.add_option("--json", options->json, "Writes the result there");
+    command.add_option("--timeout", options->timeout, "Seconds that the program may stay silent")
         ->check(CLI::PositiveNumber)
         ->capture_default_str();
-    command->add_option("--jobs")->group("");  // the launcher hands it to every command
-    command->callback([options] { run(*options); });
+    command.callback([options] { run(*options); });
 }
 
 }  // namespace cli

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/choose/records.hpp"
+#include "bench/choose/conditions.hpp"
 #include "bench/choose/search.hpp"
 #include "bench/row.hpp"
 #include "qemu/firmware.hpp"

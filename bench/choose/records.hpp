@@ -6,18 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "bench/choose/conditions.hpp"
 #include "bench/reference/sums.hpp"
 
 namespace choose {
-
-/// The conditions under which errors are measured.
-struct Conditions {
-    double order;   ///< v, in (-2, 2]
-    double step_s;  ///< h of the records, above 0
-    std::vector<std::string> signals;
-    std::size_t samples = 5000;
-    std::uint64_t seed = 2020;
-};
 
 struct Record {
     std::string signal;

@@ -10,7 +10,7 @@ shift 2
 parallel --version 2>/dev/null | grep -q '^GNU parallel' || { echo "parallel.sh: GNU parallel: not found (Debian package parallel)" >&2; exit 3; }
 root=$(CDPATH='' cd -- "$(dirname -- "$0")/../.." && pwd)
 if [ -z "${GLSUM:-}" ]; then
-    "$root/glsum" bench --help >/dev/null
+    for command in bench merge; do "$root/glsum" $command --no-run; done
     GLSUM=$root/build/host/cli/glsum
 fi
 export GLSUM

@@ -10,7 +10,7 @@ shift 2
 command -v sbatch >/dev/null || { echo "slurm.sh: sbatch: not found (Debian package slurm-client)" >&2; exit 3; }
 here=$(CDPATH='' cd -- "$(dirname -- "$0")" && pwd)
 if [ -z "${GLSUM:-}" ]; then
-    "$here/../../glsum" bench --help >/dev/null
+    for command in bench merge; do "$here/../../glsum" $command --no-run; done
     GLSUM=$here/../../build/host/cli/glsum
 fi
 export GLSUM

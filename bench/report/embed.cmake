@@ -1,5 +1,17 @@
 # Writes OUT, a C++ file that defines page_parts.hpp: the page's files of FOLDER, its SCRIPTS in one, and D3.
-# cmake -D OUT=... -D FOLDER=... -D SCRIPTS=a.js,b.js -D D3=.../d3.min.js -D D3_VERSION=5.16.0 -P embed.cmake
+# cmake -D OUT=... -D FOLDER=... -D SCRIPTS=a.js,b.js -P embed.cmake
+
+# Looked for where it is used: whoever builds no page needs no D3.
+set(D3 /usr/share/nodejs/d3/dist/d3.min.js)
+if(NOT EXISTS ${D3})
+    message(FATAL_ERROR "${D3}: not found (Debian package node-d3)")
+endif()
+file(STRINGS ${D3} d3_head LIMIT_COUNT 1)
+string(REGEX MATCH "v(5\\.16\\.[0-9]+) " _ "${d3_head}")
+if(NOT CMAKE_MATCH_1)
+    message(FATAL_ERROR "${D3}: expected D3 5.16, as in Debian 12 and 13, found ${d3_head}")
+endif()
+set(D3_VERSION ${CMAKE_MATCH_1})
 
 # The base64 of a file's SHA-256, which CMake gives in hexadecimal only.
 function(sha256_base64 file result)

@@ -18,8 +18,10 @@ target_compile_options(glsum_warnings INTERFACE
 # Headers that most files of the host's libraries and tools include, parsed once where a target precompiles them.
 set(GLSUM_STD_HEADERS <algorithm> <array> <cmath> <filesystem> <fstream> <functional> <map> <optional> <span> <string> <vector>)
 
-# Code that runs once: the command line, tests. Optimising it as the sums are doubles the time that it takes to compile.
+# Code that is not measured and does not compute for long: optimising it as the sums are takes longer than it saves.
 set(GLSUM_COLD $<$<CONFIG:Release>:-O1>)
+# Code that computes for seconds, in steps that no loop repeats millions of times: fits, simulations.
+set(GLSUM_WARM $<$<CONFIG:Release>:-O2>)
 
 # No product may be fused with its addition unless a kernel's name says so: host and target must agree bit for bit.
 set(GLSUM_CONTRACTION -ffp-contract=off)

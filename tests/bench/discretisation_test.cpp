@@ -1,5 +1,5 @@
 // Weights of higher order as a choice: what they converge to and how fast, which kernels sum them, what their rows say.
-#include "bench/discretisation.hpp"
+#include "bench/exact_weights.hpp"
 
 #include <gtest/gtest.h>
 

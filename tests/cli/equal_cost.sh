@@ -1,14 +1,14 @@
 #!/bin/sh
-# bench --equal-cost as a person uses it, on short records. Argument: the glsum program.
+# bench equal-cost as a person uses it, on short records. Argument: the glsum program.
 set -u
 program=$1
 . "$(dirname "$0")/expect.sh"
 expect 2 "--equal-cost: expected 4 to 600 multiplications, found 3" bench --equal-cost 3
 expect 2 "found 601" bench --equal-cost 16,601
 expect 2 "found 16x" bench --equal-cost 16x
-expect 2 "excludes" bench --equal-cost 16 --taps 16
-expect 2 "excludes" bench --equal-cost 16 --records 1000
-expect 2 "excludes" bench --equal-cost 16 --repetitions 3
+expect 2 "--taps" bench --equal-cost 16 --taps 16
+expect 2 "--records" bench --equal-cost 16 --records 1000
+expect 2 "--repetitions" bench equal-cost 16 --repetitions 3
 expect 2 "--signals" bench --equal-cost 16 --signals sine7x
 expect 0 "Oustaloup's filter" bench --equal-cost 24,8,8 --quick --orders 0.5 --signals step,noise --out "$folder/e.json"
 for made in e.json e.svg e.png; do

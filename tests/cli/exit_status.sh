@@ -7,7 +7,7 @@ program=$1
 small="--quick --kernels null --taps 1 --signals step --out $folder/out.json"
 expect 0 "Example:" bench --help
 expect 0 "0." --version
-expect 2 "subcommand" --quick
+expect 2 "expected a command first" --quick
 expect 2 "bnech" bnech
 expect 2 "--no-such-option" bench --no-such-option
 expect 2 "--orders: expected a number in (-2, 2], found 3" bench --orders 3

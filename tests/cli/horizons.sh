@@ -1,5 +1,5 @@
 #!/bin/sh
-# bench --horizons as a person uses it, over short pasts. Argument: the glsum program.
+# bench horizons as a person uses it, over short pasts. Argument: the glsum program.
 set -u
 program=$1
 . "$(dirname "$0")/expect.sh"
@@ -8,8 +8,8 @@ expect 2 "--horizons: expected 100 to 10000000 samples, found 99" bench --horizo
 expect 2 "found 1e3" bench --horizons 600,1e3
 expect 2 "that are not whole, found 1" bench --horizons 600 --orders 1
 expect 2 "that are not whole, found -1.5" bench --horizons 600 --orders=-1.5
-expect 2 "excludes" bench --horizons 600 --taps 16
-expect 2 "excludes" bench --horizons 600 --equal-cost 16
+expect 2 "--taps" bench --horizons 600 --taps 16
+expect 2 "--equal-cost" bench --horizons 600 --equal-cost 16
 expect 0 "drawn in" bench --horizons 5000,600 --orders 0.5 --targets host --out "$folder/h.json"
 for made in h.json h.svg h.png; do
     [ -s "$folder/$made" ] || fail "expected $made"

@@ -13,18 +13,43 @@ printf '#!/bin/sh\nexit 1\n' >"$folder/dpkg-query"
 chmod +x "$folder/dpkg-query"
 PATH=$folder:$PATH expect 3 "missing Debian packages: g++ cmake" bench --no-install
 PATH=$folder:$PATH expect 3 "libgtest-dev" test --no-install
+# Each command asks for what it needs, and for no more.
+asks() {
+    PATH=$folder:$PATH expect 3 "missing Debian packages" $1 --no-install
+    for package in $2; do
+        grep -qw -e "$package" "$folder/said" || { echo "$1: expected to ask for $package"; failures=$((failures + 1)); }
+    done
+    for package in $3; do
+        ! grep -qw -e "$package" "$folder/said" || { echo "$1: expected not to ask for $package"; failures=$((failures + 1)); }
+    done
+}
+asks bench "qemu-system-arm gnuplot-nox" "libceres-dev libgtest-dev chromium node-d3"
+asks "bench records" "libceres-dev libfftw3-dev" "qemu-system-arm"
+asks "bench --drive" "libceres-dev qemu-system-arm" "libgtest-dev"
+asks report "node-d3 gnuplot-nox" "qemu-system-arm libceres-dev"
+asks stability "libceres-dev" "qemu-system-arm libgtest-dev"
+asks gate "g++" "qemu-system-arm gnuplot-nox libceres-dev"
+asks test "libgtest-dev libgmock-dev qemu-system-arm libceres-dev node-d3 gnuplot-nox" ""
 
 # A project whose program says where it stands and what it was told, on a machine that has everything.
 mkdir -p "$folder/project/build/host/cli" "$folder/my logs"
 cp "$program" "$folder/project/glsum"
-printf '#!/bin/sh\necho "in $PWD: $*"\n' >"$folder/project/build/host/cli/glsum"
+mkdir "$folder/project/cli"
+touch "$folder/project/build/host/build.ninja"
+echo GLSUM_DRIVE:BOOL=ON >"$folder/project/build/host/CMakeCache.txt"
+cp "$(dirname "$program")/cli/commands" "$folder/project/cli/"
+printf '#!/bin/sh\necho "in $PWD: $*"\n' >"$folder/project/build/host/cli/glsum-indices"
 printf '#!/bin/sh\n[ "$PWD" = "%s" ] || { echo "built in $PWD"; exit 1; }\n' "$folder/project" >"$folder/cmake"
 printf '#!/bin/sh\necho install ok installed\n' >"$folder/dpkg-query"
-chmod +x "$folder/project/build/host/cli/glsum" "$folder/cmake"
+chmod +x "$folder/project/build/host/cli/glsum-indices" "$folder/cmake"
 ln -s ../project/glsum "$folder/my logs/glsum"
 PATH=$folder:$PATH
 cd "$folder/my logs" || exit 1
 for program in "$folder/project/glsum" ../project/glsum ./glsum; do
-    expect 0 "in $folder/my logs: indices --jobs 2 my.csv" indices my.csv --jobs 2
+    expect 0 "in $folder/my logs: --jobs 2 my.csv" indices my.csv --jobs 2
 done
+program=./glsum
+found=$("$program" indices --no-run 2>&1)
+[ -z "$found" ] || { echo "--no-run: expected no word, found $found"; failures=$((failures + 1)); }
+expect 3 "glsum-resample: not built; ./glsum resample --no-run builds it" resample
 [ "$failures" -eq 0 ]

@@ -1,5 +1,5 @@
 #!/bin/sh
-# bench --records as a person uses it, on short records. Argument: the glsum program.
+# bench records as a person uses it, on short records. Argument: the glsum program.
 set -u
 program=$1
 . "$(dirname "$0")/expect.sh"
@@ -9,14 +9,14 @@ expect 2 "found 10000001" bench --records 1000,10000001
 expect 2 "found 1e5" bench --records 1e5
 expect 2 "found -5" bench --records=-5
 expect 2 "--records" bench --records
-expect 2 "excludes" bench --records 1000 --drive
-expect 2 "excludes" bench --records 1000 --taps 600
-expect 2 "excludes" bench --records 1000 --targets host
+expect 2 "--drive" bench --records 1000 --drive
+expect 2 "--taps" bench --records 1000 --taps 600
+expect 2 "--targets" bench records 1000 --targets host
 expect 2 "--orders: expected a number in (-2, 2], found 3" bench --records 1000 --orders 3
 expect 2 "found square" bench --records 1000 --signals square
 expect 2 "cannot write" bench --records 1000 --out /proc/glsum/out.json
 
-expect 0 "20 rows in" bench --records 4000,1000 --orders 0.5,1.9909 --signals step,noise --repetitions 3 --out "$folder/records.json"
+expect 0 "20 rows in" bench records 4000,1000 --orders 0.5,1.9909 --signals step,noise --repetitions 3 --out "$folder/records.json"
 for how in whole blocks window600 peer_fftw peer_fftwmeasured; do
     for place in order:0.5/samples:1000 order:1.9909/samples:4000; do
         grep -qF "\"name\": \"record/${how}_f64/$place/host\"" "$folder/records.json" ||

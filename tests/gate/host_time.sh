@@ -8,7 +8,7 @@
 # Every run sits on the machine as it is: how busy it is belongs to the answer.
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
-program=$root/build/host/cli/glsum
+programs=$root/build/host/cli
 gates=200
 slower=100
 folder=$root/build/gate
@@ -21,16 +21,17 @@ while [ $# -gt 0 ]; do
     esac
 done
 mkdir -p "$folder"
-# The program as it is now: a build in the meantime must not change the series.
-[ -x "$folder/glsum" ] || cp "$program" "$folder/glsum"
-program=$folder/glsum
+# The programs as they are now: a build in the meantime must not change the series.
+for program in glsum-bench glsum-gate; do
+    [ -x "$folder/$program" ] || cp "$programs/$program" "$folder/$program"
+done
 
 # The planted copy: where SLOWER is in its environment, ring_plain_q31 sums every tenth sample twice. One program for both:
 # another build lays its loops elsewhere, which alone moved them by up to 30 %. The sum itself is untouched.
 plant() {
     copy=$folder/slower/source
     planted=kernels/glsum/sum.cpp
-    [ ! -x "$folder/slower/glsum" ] || return 0
+    [ ! -x "$folder/slower/glsum-bench" ] || return 0
     (cd "$root" && git ls-files) | while IFS= read -r file; do
         [ -f "$root/$file" ] || continue
         mkdir -p "$copy/$(dirname "$file")"
@@ -48,15 +49,15 @@ plant() {
             "        asm volatile(\"\" : : \"r\"(again) : \"memory\");\n    }\n}\n" .
             "const auto sum = sum_of<Technique, Format>$1;"/e or exit 1' "$copy/$planted" ||
         { echo "host_time.sh: the plant does not match in $planted" >&2; exit 2; }
-    cmake -S "$copy" -B "$folder/slower/build" -G Ninja -DCMAKE_BUILD_TYPE=Release >"$folder/log" &&
-        cmake --build "$folder/slower/build" --target glsum_cli >"$folder/log" || { tail "$folder/log" >&2; exit 1; }
-    cp "$folder/slower/build/cli/glsum" "$folder/slower/glsum"
+    cmake -S "$copy" -B "$folder/slower/build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DGLSUM_DRIVE=OFF -DGLSUM_TESTS=OFF >"$folder/log" &&
+        cmake --build "$folder/slower/build" --target glsum-bench >"$folder/log" || { tail "$folder/log" >&2; exit 1; }
+    cp "$folder/slower/build/cli/glsum-bench" "$folder/slower/glsum-bench"
 }
 
 # record PROGRAM NAME
 record() {
     [ ! -s "$folder/$2.json" ] || return 0
-    "$1" bench --quick --targets host --orders 0.5 --taps 600 --signals step --repetitions 200 --out "$folder/$2.json" \
+    "$1" --quick --targets host --orders 0.5 --taps 600 --signals step --repetitions 200 --out "$folder/$2.json" \
         --kernels ring_plain_f32,ring_horner_f32,mirror_multi_f32,mirror_simd_f32,ring_plain_q31,peer_std_f32,peer_eigen_f32,peer_std_q31 >"$folder/log" 2>&1 ||
         { tail "$folder/log" >&2; exit 1; }
     rm -f "$folder/$2.csv" "$folder/$2.svg" "$folder/$2.png"
@@ -64,7 +65,7 @@ record() {
 
 # gate BASELINE CURRENT: its exit status; what it says of times is in $folder/said
 gate() {
-    "$program" gate --baseline "$folder/$1.json" --current "$folder/$2.json" --thresholds "$root/results/thresholds.toml" \
+    "$folder/glsum-gate" --baseline "$folder/$1.json" --current "$folder/$2.json" --thresholds "$root/results/thresholds.toml" \
         >"$folder/all" 2>&1
     status=$?
     sed -n "/^Failures/,/^\$/s|^  host_time  *\(gl/.*\)|$2: \1|p" "$folder/all" >"$folder/said"
@@ -76,18 +77,18 @@ gate() {
 
 [ "$slower" -eq 0 ] || plant
 alarms=0 against_first=0 moved=0 tried=0 caught=0 named=0 slower_moved=0
-[ "$gates" -eq 0 ] || record "$program" run0
+[ "$gates" -eq 0 ] || record "$folder/glsum-bench" run0
 i=1
 while [ $i -le "$gates" ] || [ $tried -lt "$slower" ]; do
     if [ $i -le "$gates" ]; then
-        record "$program" "run$i"
+        record "$folder/glsum-bench" "run$i"
         gate "run$((i - 1))" "run$i" || { alarms=$((alarms + 1)); cat "$folder/said"; }
         [ $unsettled = no ] || moved=$((moved + 1))
         gate run0 "run$i" || against_first=$((against_first + 1))
     fi
     if [ $tried -lt "$slower" ]; then
-        record "$folder/slower/glsum" "asis$i"
-        SLOWER=1 record "$folder/slower/glsum" "slower$i"
+        record "$folder/slower/glsum-bench" "asis$i"
+        SLOWER=1 record "$folder/slower/glsum-bench" "slower$i"
         alarm=no
         gate "asis$i" "slower$i" || alarm=yes
         if [ $unsettled = yes ]; then

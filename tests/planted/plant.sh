@@ -53,6 +53,8 @@ library_of() {
         bench/discretisation_table.cpp | bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
+        bench/report/*) echo bench/libglsum_report.a ;;
+        bench/equal_cost*.cpp | bench/oustaloup.cpp) echo bench/libglsum_studies.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
         drive/*) echo drive/libglsum_drive.a ;;

@@ -1,5 +1,5 @@
-#include "cli/bench_drive.hpp"
-
+// glsum bench models: whole models stepped in real time, on this machine and on the emulated Cortex-M7. Writes rows
+// `drive/<model>/<kernel>/taps:<L>/<target>`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <fnmatch.h>
@@ -10,7 +10,9 @@
 #include <ctime>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
+#include <thread>
 
 #include "bench/build_info.hpp"
 #include "bench/context.hpp"
@@ -19,6 +21,8 @@
 #include "bench/results.hpp"
 #include "bench/target_rows.hpp"
 #include "cli/board.hpp"
+#include "cli/checks.hpp"
+#include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/realtime.hpp"
 #include "drive/response.hpp"
@@ -32,6 +36,16 @@ namespace {
 using bench::Json;
 using glsum::Exit;
 using glsum::Failure;
+
+struct Options {
+    std::vector<std::string> kernels{"*"};  ///< globs
+    std::vector<std::string> taps;          ///< numbers, full, or 2+7 of kernels with modes; empty: the usual ones
+    std::vector<std::string> targets{"host", "m7"};
+    std::vector<std::string> cores{default_core};  ///< of the timing model; the first is what the table shows
+    bool quick = false;
+    unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+    std::filesystem::path out = results_folder() / "drive.json";
+};
 
 constexpr double step_s = 0.001;
 constexpr double period_cycles = 216e6 * step_s;   // an STM32F746 at 1 kHz
@@ -251,7 +265,7 @@ std::string time_long_records(const drive::Model& model, const std::string& name
 // What a kernel is asked for: nothing is full memory.
 using Lengths = std::vector<std::optional<drive::Memory>>;
 
-Lengths asked_lengths(const DriveBench& options) {
+Lengths asked_lengths(const Options& options) {
     Lengths lengths;
     for (const std::string& word : options.taps) {
         const auto length = bench::parse_length(word, response_steps + 1);
@@ -267,7 +281,7 @@ Lengths asked_lengths(const DriveBench& options) {
 }
 
 // Of those asked for, a kernel's own; the usual ones where none were.
-Lengths lengths_of(const DriveBench& options, const Lengths& asked, bool with_modes, drive::Writing writing) {
+Lengths lengths_of(const Options& options, const Lengths& asked, bool with_modes, drive::Writing writing) {
     Lengths lengths;
     std::copy_if(asked.begin(), asked.end(), std::back_inserter(lengths),
                  [&](const auto& length) { return (length && length->modes > 0) == with_modes; });
@@ -287,9 +301,7 @@ Lengths lengths_of(const DriveBench& options, const Lengths& asked, bool with_mo
     return {drive::Memory{50}, drive::Memory{100}, drive::Memory{200}, drive::Memory{600}, std::nullopt};
 }
 
-}  // namespace
-
-void run_drive_bench(const DriveBench& options) {
+void run(const Options& options) {
     const auto wants = [&](const char* target) {
         return std::find(options.targets.begin(), options.targets.end(), target) != options.targets.end();
     };
@@ -457,6 +469,31 @@ void run_drive_bench(const DriveBench& options) {
     if (wrong > 0) {
         throw Failure(Exit::check_failed, fmt::format("{} rows are wrong or impossible; they are marked", wrong));
     }
+}
+
+}  // namespace
+
+void add_options(CLI::App& command, const Words&) {
+    auto options = std::make_shared<Options>();
+    command.footer(
+        "bench --drive is the same command.\n"
+        "Example: glsum bench models --kernels 'modes*,*delta_*f32' --taps 2+7,5+11,600,full");
+    command.add_flag("--drive")->group("");
+    command.add_flag("--quick", options->quick, "Fewer lengths, and no records of an hour");
+    command.add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
+    command.add_option("--taps", options->taps, "Lengths: numbers, full, or 2+7: two near taps and seven modes")
+        ->delimiter(',');
+    command.add_option("--targets", options->targets, "host, m7 or both")->delimiter(',')->capture_default_str();
+    command.add_option("--core", options->cores, "Cores of the timing model, files of qemu/cores")
+        ->delimiter(',')
+        ->capture_default_str();
+    command.add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
+    command.add_option("--out", options->out, "Result file (default: results/drive.json)");
+    command.callback([options] {
+        check_targets(options->targets);
+        std::erase(options->cores, bench::count_only);
+        run(*options);
+    });
 }
 
 }  // namespace cli
