@@ -11,4 +11,5 @@ add_library(glsum_report STATIC report/best.cpp report/classic.cpp report/column
     report/curves.cpp report/difference.cpp report/front.cpp report/gain_plot.cpp report/page.cpp report/report.cpp ${parts})
 target_link_libraries(glsum_report PUBLIC glsum_bench PRIVATE glsum_modes fmt::fmt glsum_warnings)
 target_compile_options(glsum_report PRIVATE ${GLSUM_COLD})
+glsum_unite(glsum_report APART report/gain_plot.cpp)
 target_precompile_headers(glsum_report REUSE_FROM glsum_results)

@@ -23,5 +23,13 @@ set(GLSUM_COLD $<$<CONFIG:Release>:-O1>)
 # Code that computes for seconds, in steps that no loop repeats millions of times: fits, simulations.
 set(GLSUM_WARM $<$<CONFIG:Release>:-O2>)
 
+# glsum_unite(TARGET [APART FILE...]): its files are compiled some at a time, as one. What they all include, half of the time of a build,
+# is read once for each such bundle. APART: files whose own names another file has too, or that take long by themselves.
+function(glsum_unite target)
+    cmake_parse_arguments(PARSE_ARGV 1 united "" "" "APART")
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 10)
+    set_source_files_properties(${united_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+endfunction()
+
 # No product may be fused with its addition unless a kernel's name says so: host and target must agree bit for bit.
 set(GLSUM_CONTRACTION -ffp-contract=off)

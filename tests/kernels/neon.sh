@@ -1,11 +1,12 @@
 #!/bin/sh
 # The vector kernels compiled for AArch64 and run under its emulator, where both are installed (Debian packages
-# g++-aarch64-linux-gnu, qemu-user-static). Arguments: the source folder, xsimd's include folder.
+# g++-aarch64-linux-gnu, qemu-user). Arguments: the source folder, xsimd's include folder.
 set -eu
 source=$1
 compiler=aarch64-linux-gnu-g++
-if ! command -v $compiler >/dev/null 2>&1 || ! command -v qemu-aarch64-static >/dev/null 2>&1; then
-    echo "not installed: $compiler or qemu-aarch64-static"
+emulator=$(command -v qemu-aarch64 || command -v qemu-aarch64-static || true)
+if ! command -v $compiler >/dev/null 2>&1 || [ -z "$emulator" ]; then
+    echo "not installed: $compiler or qemu-aarch64"
     exit 77
 fi
 folder=$(mktemp -d)
@@ -18,4 +19,4 @@ $compiler -static -std=c++20 -O2 -ffp-contract=off -DGLSUM_SIMD -DGLSUM_SIMD_ARC
     "$source/tests/kernels/neon.cpp" "$source/kernels/glsum/simd_dot.cpp" "$source/kernels/glsum/simd_dot_arch.cpp" \
     "$source/kernels/glsum/simd_block.cpp" "$source/kernels/glsum/simd_block_arch.cpp" \
     "$source/kernels/glsum/sum.cpp" "$source/kernels/glsum/weights.cpp"
-qemu-aarch64-static "$folder/neon"
+"$emulator" "$folder/neon"
