@@ -24,9 +24,11 @@
 #include "qemu/call_counter.hpp"
 #include "qemu/marked_timer.hpp"
 #include "qemu/plugin/api.h"
+#include "qemu/plugin/tally.hpp"
 #include "qemu/thumb.hpp"
 
-int qemu_plugin_version = 1;
+// Told by what the emulator has: it looks here once it has loaded the plugin.
+int qemu_plugin_version = qemu_plugin_read_memory_vaddr != nullptr ? 4 : qemu_plugin_scoreboard_new != nullptr ? 2 : 1;
 
 namespace {
 
@@ -34,8 +36,8 @@ namespace {
 struct Timing {
     std::ofstream log;
     qemu::MarkedTimer timer;
-    std::uint64_t executed = 0;  // instructions, but for the first of each block
-    std::uint64_t before = 0;    // the present block
+    qemu::Tally executed;      // instructions, but for the first of each block
+    std::uint64_t before = 0;  // the present block
     Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path), timer(entries, timing::cores_of(request), marks, log, request.double_routines) {}
@@ -52,8 +54,11 @@ struct Options {
 
 struct Session {
     Options options;
+    int interface;  // its version, of this emulator
     qemu::CallCounter counter;
     std::unique_ptr<Timing> timing;  // or none
+    qemu::Tally loads = {};
+    qemu::Tally stores = {};
     // One per address for the whole run: translations come and go.
     std::unordered_map<std::uint32_t, std::unique_ptr<qemu::Instruction>> instructions = {};
     // By first address and number of instructions: the emulator may cut the same code elsewhere when it is translated
@@ -63,6 +68,17 @@ struct Session {
 // Never deleted: the emulator asks for the last time after this library's static objects are gone.
 Session* session = nullptr;
 
+// The first bytes of an instruction, by whichever signature this emulator's function has.
+void copy_bytes(const qemu_plugin_insn* translated, void* to, std::size_t bytes) {
+    if (session->interface >= 3) {
+        qemu_plugin_insn_data(translated, to, bytes);
+        return;
+    }
+    using Pointing = const void* (*)(const qemu_plugin_insn*);
+    const auto data = reinterpret_cast<Pointing>(reinterpret_cast<void (*)()>(&qemu_plugin_insn_data));
+    std::memcpy(to, data(translated), bytes);
+}
+
 qemu::Instruction* instruction_at(const qemu_plugin_insn* translated) {
     const auto address = static_cast<std::uint32_t>(qemu_plugin_insn_vaddr(translated));
     const auto index = static_cast<std::uint32_t>(session->instructions.size());
@@ -70,9 +86,9 @@ qemu::Instruction* instruction_at(const qemu_plugin_insn* translated) {
     if (!slot) {
         // Not by qemu_plugin_insn_size: at a page's end QEMU looks ahead, and counts what it saw to this instruction.
         std::uint16_t half[2] = {};
-        std::memcpy(half, qemu_plugin_insn_data(translated), 2);
+        copy_bytes(translated, half, 2);
         const std::uint8_t bytes = qemu::bytes_from(half[0]);
-        std::memcpy(half, qemu_plugin_insn_data(translated), bytes);
+        copy_bytes(translated, half, bytes);
         const std::uint32_t encoding = bytes == 2 ? half[0] : static_cast<std::uint32_t>(half[0]) << 16 | half[1];
         slot = std::make_unique<qemu::Instruction>(qemu::Instruction{address, encoding, bytes, index});
     }
@@ -106,8 +122,9 @@ void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, v
 void times_block(unsigned int, void* block) {
     Timing& timing = *session->timing;
     if (timing.timer.on()) {
-        timing.timer.executes_block(*static_cast<qemu::Block*>(block), 1 + timing.executed - timing.before);
-        timing.before = timing.executed;
+        const std::uint64_t executed = timing.executed.value();
+        timing.timer.executes_block(*static_cast<qemu::Block*>(block), 1 + executed - timing.before);
+        timing.before = executed;
     }
 }
 void times_access(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void* nth) {
@@ -122,7 +139,11 @@ void meets_mark(unsigned int, void* instruction) {
     session->timing->timer.meets_mark(static_cast<qemu::Instruction*>(instruction)->address);
 }
 
-void executes_block(unsigned int, void* block) { session->counter.executes_block(*static_cast<qemu::Block*>(block)); }
+void take_totals() { session->counter.totals() = {session->loads.value(), session->stores.value()}; }
+void executes_block(unsigned int, void* block) {
+    take_totals();
+    session->counter.executes_block(*static_cast<qemu::Block*>(block));
+}
 
 void counts_by_stream(qemu_plugin_tb* block) {
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
@@ -134,14 +155,12 @@ void counts_by_stream(qemu_plugin_tb* block) {
 }
 
 void counts_by_blocks(qemu_plugin_tb* block) {
-    qemu::AccessTotals& totals = session->counter.totals();
     qemu_plugin_register_vcpu_tb_exec_cb(block, executes_block, QEMU_PLUGIN_CB_NO_REGS,
                                          block_at(block, 0, qemu_plugin_tb_n_insns(block)));
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
         qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
         // Not by QEMU_PLUGIN_MEM_R and _W: QEMU 7.2 counts stores for the first, and every access for the second.
-        auto& counter = qemu::stores(*instruction_at(translated)) ? totals.stores : totals.loads;
-        qemu_plugin_register_vcpu_mem_inline(translated, QEMU_PLUGIN_MEM_RW, QEMU_PLUGIN_INLINE_ADD_U64, &counter, 1);
+        (qemu::stores(*instruction_at(translated)) ? session->stores : session->loads).count_accesses(translated);
     }
 }
 
@@ -166,7 +185,7 @@ void times_blocks(qemu_plugin_tb* block) {
             qemu_plugin_register_vcpu_mem_cb(translated, times_access, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW,
                                              reinterpret_cast<void*>(i - from));
             if (i > from) {
-                qemu_plugin_register_vcpu_insn_exec_inline(translated, QEMU_PLUGIN_INLINE_ADD_U64, &timing.executed, 1);
+                timing.executed.count_executions(translated);
             }
         }
     }
@@ -190,6 +209,9 @@ void ends(qemu_plugin_id_t, void*) {
         }
     }
     if (!session->options.out_path.empty()) {
+        if (!session->options.stream) {
+            take_totals();
+        }
         std::ofstream out(session->options.out_path);
         session->counter.write(out);
         if (!out.flush()) {
@@ -263,7 +285,7 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
         }
     }
     qemu::CallCounter counter(options.entries);
-    session = new Session{std::move(options), std::move(counter), std::move(timing)};
+    session = new Session{std::move(options), info->version.cur, std::move(counter), std::move(timing)};
     qemu_plugin_register_vcpu_tb_trans_cb(id, translates);
     qemu_plugin_register_atexit_cb(id, ends, nullptr);
     return 0;
