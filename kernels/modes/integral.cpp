@@ -30,8 +30,9 @@ Approximation fitted(const Projection& poles, const std::vector<double>& weights
 
 // At v = -1 every weight is 1, and those of higher order come near to that.
 Approximation running_sum(const std::vector<double>& weights, std::size_t near_taps) {
-    const std::vector<Mode> modes{{0.0, weights.back()}};
-    return {near_taps, modes, error_of(weights, near_taps, modes, INFINITY)};
+    Approximation found{near_taps, {{0.0, weights.back()}}, 0.0};
+    found.error = error_of(weights, near_taps, found.modes, INFINITY);
+    return found;
 }
 
 }  // namespace
