@@ -46,6 +46,12 @@ bool stores(const Instruction& instruction) {
                                   : !matches(instruction.encoding, 1U << 20, 1U << 20);
 }
 
+bool moves_pair(const Instruction& instruction) {
+    // Neither indexed nor written back would be an exclusive access or a table branch.
+    return instruction.bytes == 4 && matches(instruction.encoding, 0xFE400000, 0xE8400000) &&
+           !matches(instruction.encoding, 0x01200000, 0);
+}
+
 bool is_call(const Instruction& instruction) {
     return instruction.bytes == 2 ? matches(instruction.encoding, 0xFF80, 0x4780)
                                   : matches(instruction.encoding, 0xF800D000, 0xF000D000);

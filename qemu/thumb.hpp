@@ -20,4 +20,7 @@ namespace qemu {
 /// Whether it writes memory rather than reads it. Only for instructions that make accesses: none makes both kinds.
 [[nodiscard]] bool stores(const Instruction& instruction);
 
+/// Whether it loads or stores two core registers: LDRD and STRD, which are two accesses of a word each.
+[[nodiscard]] bool moves_pair(const Instruction& instruction);
+
 }  // namespace qemu

@@ -59,6 +59,7 @@ struct Session {
     std::unique_ptr<Timing> timing;  // or none
     qemu::Tally loads = {};
     qemu::Tally stores = {};
+    qemu::AccessTotals of_pairs = {};  // which are not in them
     // One per address for the whole run: translations come and go.
     std::unordered_map<std::uint32_t, std::unique_ptr<qemu::Instruction>> instructions = {};
     // By first address and number of instructions: the emulator may cut the same code elsewhere when it is translated
@@ -113,11 +114,33 @@ qemu::Access to_access(qemu_plugin_meminfo_t info, std::uint64_t address) {
             qemu_plugin_mem_is_store(info)};
 }
 
+// The accesses of LDRD and STRD as the core makes them, a word each: QEMU 10.0 makes one of eight bytes.
+template <class Take>
+void take_words(qemu_plugin_meminfo_t info, std::uint64_t address, Take take) {
+    qemu::Access access = to_access(info, address);
+    if (access.bytes != 8) {
+        take(access);
+        return;
+    }
+    access.bytes = 4;
+    take(access);
+    access.address += 4;
+    take(access);
+}
+
 void executes(unsigned int, void* instruction) {
     session->counter.executes(*static_cast<qemu::Instruction*>(instruction));
 }
 void accesses(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
     session->counter.accesses(to_access(info, address));
+}
+void accesses_pair(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
+    take_words(info, address, [](const qemu::Access& access) { session->counter.accesses(access); });
+}
+void counts_pair(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void*) {
+    take_words(info, address, [](const qemu::Access& access) {
+        ++(access.store ? session->of_pairs.stores : session->of_pairs.loads);
+    });
 }
 void times_block(unsigned int, void* block) {
     Timing& timing = *session->timing;
@@ -127,19 +150,28 @@ void times_block(unsigned int, void* block) {
         timing.before = executed;
     }
 }
+void times_word(qemu::Access access, void* nth) {
+    access.by = static_cast<std::uint16_t>(reinterpret_cast<std::uintptr_t>(nth));
+    session->timing->timer.accesses(access);
+}
 void times_access(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void* nth) {
-    qemu::MarkedTimer& timer = session->timing->timer;
-    if (timer.on()) {
-        qemu::Access access = to_access(info, address);
-        access.by = static_cast<std::uint16_t>(reinterpret_cast<std::uintptr_t>(nth));
-        timer.accesses(access);
+    if (session->timing->timer.on()) {
+        times_word(to_access(info, address), nth);
+    }
+}
+void times_pair(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address, void* nth) {
+    if (session->timing->timer.on()) {
+        take_words(info, address, [&](const qemu::Access& access) { times_word(access, nth); });
     }
 }
 void meets_mark(unsigned int, void* instruction) {
     session->timing->timer.meets_mark(static_cast<qemu::Instruction*>(instruction)->address);
 }
 
-void take_totals() { session->counter.totals() = {session->loads.value(), session->stores.value()}; }
+void take_totals() {
+    const qemu::AccessTotals& pairs = session->of_pairs;
+    session->counter.totals() = {session->loads.value() + pairs.loads, session->stores.value() + pairs.stores};
+}
 void executes_block(unsigned int, void* block) {
     take_totals();
     session->counter.executes_block(*static_cast<qemu::Block*>(block));
@@ -150,7 +182,9 @@ void counts_by_stream(qemu_plugin_tb* block) {
         qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
         qemu_plugin_register_vcpu_insn_exec_cb(translated, executes, QEMU_PLUGIN_CB_NO_REGS,
                                                instruction_at(translated));
-        qemu_plugin_register_vcpu_mem_cb(translated, accesses, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
+        qemu_plugin_register_vcpu_mem_cb(translated,
+                                         qemu::moves_pair(*instruction_at(translated)) ? accesses_pair : accesses,
+                                         QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, nullptr);
     }
 }
 
@@ -160,7 +194,12 @@ void counts_by_blocks(qemu_plugin_tb* block) {
     for (std::size_t i = 0; i < qemu_plugin_tb_n_insns(block); ++i) {
         qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
         // Not by QEMU_PLUGIN_MEM_R and _W: QEMU 7.2 counts stores for the first, and every access for the second.
-        (qemu::stores(*instruction_at(translated)) ? session->stores : session->loads).count_accesses(translated);
+        if (const qemu::Instruction& instruction = *instruction_at(translated); qemu::moves_pair(instruction)) {
+            qemu_plugin_register_vcpu_mem_cb(translated, counts_pair, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW,
+                                             nullptr);
+        } else {
+            (qemu::stores(instruction) ? session->stores : session->loads).count_accesses(translated);
+        }
     }
 }
 
@@ -182,8 +221,9 @@ void times_blocks(qemu_plugin_tb* block) {
         qemu_plugin_register_vcpu_insn_exec_cb(first, mark ? meets_mark : times_block, QEMU_PLUGIN_CB_NO_REGS, data);
         for (std::size_t i = from; i < to; ++i) {
             qemu_plugin_insn* translated = qemu_plugin_tb_get_insn(block, i);
-            qemu_plugin_register_vcpu_mem_cb(translated, times_access, QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW,
-                                             reinterpret_cast<void*>(i - from));
+            qemu_plugin_register_vcpu_mem_cb(
+                translated, qemu::moves_pair(*instruction_at(translated)) ? times_pair : times_access,
+                QEMU_PLUGIN_CB_NO_REGS, QEMU_PLUGIN_MEM_RW, reinterpret_cast<void*>(i - from));
             if (i > from) {
                 timing.executed.count_executions(translated);
             }

@@ -45,6 +45,21 @@ TEST(Thumb, KnowsWhatIsNoBranch) {
     }
 }
 
+TEST(Thumb, KnowsPairs) {
+    for (const std::uint32_t e : {0xE9D12300U /* ldrd r2, r3, [r1] */, 0xE9C12300U /* strd r2, r3, [r1] */,
+                                  0xE8F12302U /* ldrd r2, r3, [r1], 8 */, 0xE9612302U /* strd r2, r3, [r1, -8]! */,
+                                  0xE9DF2300U /* ldrd r2, r3, [pc] */}) {
+        EXPECT_TRUE(qemu::moves_pair(wide(e))) << std::hex << e;
+    }
+    for (const std::uint32_t e :
+         {0xE8512F00U /* ldrex */, 0xE8412300U /* strex */, 0xE8DFF000U /* tbb */, 0xE8D12F4FU /* ldrexb */,
+          0xE8BD0FF0U /* pop.w */, 0xE8911C00U /* ldm.w */, 0xE92D4FF0U /* push.w */, 0xED910B00U /* vldr d0 */,
+          0xF8D13000U /* ldr.w */, 0xEA400001U /* orr.w */}) {
+        EXPECT_FALSE(qemu::moves_pair(wide(e))) << std::hex << e;
+    }
+    EXPECT_FALSE(qemu::moves_pair(narrow(0x680AU)));
+}
+
 TEST(Thumb, KnowsStores) {
     for (const std::uint32_t e :
          {0x5042U /* str r2, [r0, r1] */, 0x5242U /* strh */, 0x5442U /* strb */, 0x600AU /* str r2, [r1] */,
