@@ -31,14 +31,15 @@ Integer shift_rounded(const Integer& value, int shift) {
 
 // What a kernel of these formats computes, in integers without limit: the table with its rule of rounding, then the
 // sum, exact or nested, then halves up and saturation to 32 bits.
-template <class K>
 class Oracle {
 public:
-    Oracle(const glsum::Design& design, int table_exponent, int output_exponent)
+    Oracle(const glsum::Design& design, std::string_view technique, int coefficient_bits, int sample_bits,
+           int table_exponent, int output_exponent)
         : taps_(design.taps),
+          coefficient_bits_(coefficient_bits),
+          sample_bits_(sample_bits),
           output_exponent_(output_exponent),
-          fraction_(K::FormatPart::coefficient_bits - table_exponent) {
-        const std::string_view technique = K::TechniquePart::word;
+          fraction_(coefficient_bits - table_exponent) {
         nested_ = technique == "horner";
         const auto weights = reference::weights(Real(design.order), taps_);
         const Real unit = pow(Real(2), fraction_);
@@ -47,7 +48,7 @@ public:
             const Real factor = 1 - (1 + Real(design.order)) / Real(j);
             const Real wanted = (nested_ ? factor : weights[j]) * unit + (technique == "smlaldshaped" ? lost : Real(0));
             Integer rounded = round_half_away(wanted);
-            const Integer highest = (Integer(1) << K::FormatPart::coefficient_bits) - 1;
+            const Integer highest = (Integer(1) << coefficient_bits_) - 1;
             rounded = rounded > highest ? highest : rounded;
             lost = wanted - Real(rounded);
             table_.push_back(rounded);
@@ -73,21 +74,21 @@ public:
                 sum += table_[j - 1] * past_[j];
             }
         }
-        const int sum_bits = K::FormatPart::sample_bits + (nested_ ? 0 : fraction_);
+        const int sum_bits = sample_bits_ + (nested_ ? 0 : fraction_);
         const Integer rounded = shift_rounded(sum, sum_bits - 31 + output_exponent_);
         const Integer limit = Integer(1) << 31;
         if (rounded >= limit || rounded < -limit) {
             ++saturations_;
             return rounded < 0 ? std::numeric_limits<std::int32_t>::min() : std::numeric_limits<std::int32_t>::max();
         }
-        return rounded.template convert_to<std::int32_t>();
+        return rounded.convert_to<std::int32_t>();
     }
     [[nodiscard]] unsigned saturations() const { return saturations_; }
 
 private:
     // Octave [2^b, 2^(b+1)) at the largest 2^shift, at most 2^24, at which it and all later coefficients stay below 1.
     void scale_octaves(const std::vector<Real>& weights, const Real& unit) {
-        const Real limit = pow(Real(2), K::FormatPart::coefficient_bits) - 1;
+        const Real limit = pow(Real(2), coefficient_bits_) - 1;
         std::vector<int> shifts(table_.size(), 24);
         for (std::size_t j = table_.size(); j > 0; --j) {
             const std::size_t octave_begin = std::bit_floor(j);
@@ -106,6 +107,8 @@ private:
     }
 
     std::size_t taps_;
+    int coefficient_bits_;
+    int sample_bits_;
     int output_exponent_;
     int fraction_;
     bool nested_ = false;
@@ -125,7 +128,8 @@ TYPED_TEST(FixedTest, EqualsTheExactIntegersBitForBit) {
             test::Line<TypeParam> line({order, taps});
             ASSERT_EQ(line.status(), glsum::Status::ok);
             const auto& scale = line.state().scale;
-            Oracle<TypeParam> oracle({order, taps}, scale.table_exponent, scale.output_exponent);
+            Oracle oracle({order, taps}, TypeParam::TechniquePart::word, TypeParam::FormatPart::coefficient_bits,
+                          TypeParam::FormatPart::sample_bits, scale.table_exponent, scale.output_exponent);
             const auto weights = reference::weights(Real(order), taps);
             std::mt19937_64 generator(taps);
             for (std::size_t k = 0; k < 2 * taps + 40; ++k) {

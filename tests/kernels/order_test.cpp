@@ -8,14 +8,20 @@
 namespace {
 
 // The sum of one technique over a past x_(k-1), x_(k-2), ... that is complete or cut at the window's end.
-template <class K>
+template <class Format>
 class Stated {
-    using Format = typename K::FormatPart;
     using Data = typename Format::Sample;
     using Wide = typename Format::Accumulator;
 
 public:
-    explicit Stated(const glsum::Design& design) {
+    /// \param contiguous  whether the window lies in one piece
+    Stated(const glsum::Design& design, std::string_view technique, bool keeps_modes, bool contiguous)
+        : fused_(technique.ends_with("fma")),
+          // Without modes, which have a test of their own, nothing is compensated: that is of their states.
+          form_(keeps_modes ? "plain"
+                : fused_    ? technique.substr(0, technique.size() - 3)
+                            : technique),
+          contiguous_(contiguous) {
         glsum::Weights walk(design.order);
         for (std::size_t j = 1; j < design.taps + 4; ++j) {
             walk.next();
@@ -33,14 +39,8 @@ public:
     }
 
 private:
-    static constexpr std::string_view word = K::TechniquePart::word;
-    static constexpr bool fused = word.ends_with("fma");
-    // Without modes, which have a test of their own, nothing is compensated: that is of their states.
-    static constexpr bool is_modes = glsum::keeps_modes<typename K::HistoryPart>;
-    static constexpr std::string_view form = is_modes ? "plain" : fused ? word.substr(0, word.size() - 3) : word;
-
-    static Wide accumulate(Wide sum, Wide a, Wide x) {
-        if (fused) {
+    [[nodiscard]] Wide accumulate(Wide sum, Wide a, Wide x) const {
+        if (fused_) {
             return std::fma(a, x, sum);
         }
         const volatile Wide product = a * x;
@@ -52,21 +52,21 @@ private:
         const auto a = [&](std::size_t i) { return static_cast<Wide>(weights_[i]); };
         const auto x = [&](std::size_t i) { return static_cast<Wide>(past_[i]); };
         const auto first = static_cast<Wide>(newest);
-        if (form == "plain" || form == "fir") {
+        if (form_ == "plain" || form_ == "fir") {
             Wide sum = first;
             for (std::size_t i = 0; i < count; ++i) {
                 sum = accumulate(sum, a(i), x(i));
             }
             return sum;
         }
-        if (form == "oldest") {
+        if (form_ == "oldest") {
             Wide sum = 0;
             for (std::size_t i = count; i > 0; --i) {
                 sum = accumulate(sum, a(i - 1), x(i - 1));
             }
             return first + sum;
         }
-        if (form == "multi") {
+        if (form_ == "multi") {
             // Each piece of the window begins with the first accumulator.
             Wide sum[4] = {};
             const std::size_t newer = pieces();
@@ -76,7 +76,7 @@ private:
             }
             return first + ((sum[0] + sum[1]) + (sum[2] + sum[3]));
         }
-        if (form == "compensated") {
+        if (form_ == "compensated") {
             // Neumaier's own comparison: the kernel's way without it must give the same bits.
             Wide sum = first;
             Wide lost = 0;
@@ -88,14 +88,14 @@ private:
             }
             return sum + lost;
         }
-        if (form == "horner") {
+        if (form_ == "horner") {
             Wide sum = 0;
             for (std::size_t i = count; i > 0; --i) {
                 sum = accumulate(x(i - 1), i == count ? Wide(0) : static_cast<Data>(factors_[i]), sum);
             }
             return accumulate(first, count == 0 ? Wide(0) : static_cast<Data>(factors_[0]), sum);
         }
-        if (form == "hornersplit") {
+        if (form_ == "hornersplit") {
             Wide chain[4] = {};
             for (std::size_t i = count; i > 0; --i) {
                 const std::size_t at = i - 1;
@@ -106,7 +106,7 @@ private:
             const volatile Wide products[4] = {a(0) * chain[0], a(1) * chain[1], a(2) * chain[2], a(3) * chain[3]};
             return first + ((products[0] + products[1]) + (products[2] + products[3]));
         }
-        ADD_FAILURE() << "no order is stated for " << word;
+        ADD_FAILURE() << "no order is stated for " << form_;
         return 0;
     }
 
@@ -121,7 +121,7 @@ private:
 
     // Samples in the newer piece of a ring: the head starts at 0 and moves down.
     std::size_t pieces() {
-        if (K::HistoryPart::contiguous || past_.empty()) {
+        if (contiguous_ || past_.empty()) {
             return past_.size();
         }
         const std::size_t head = head_;
@@ -133,6 +133,9 @@ private:
     std::vector<double> factors_;
     std::vector<Data> past_;
     std::size_t head_ = 0;
+    bool fused_;
+    std::string_view form_;
+    bool contiguous_;
 };
 
 template <class K>
@@ -144,7 +147,9 @@ TYPED_TEST(OrderTest, EqualsTheStatedOrderBitForBit) {
     for (const double order : {0.5, 0.98319, 1.9909, -0.5}) {
         for (const std::size_t taps : {1U, 2U, 3U, 4U, 5U, 6U, 7U, 8U, 9U, 33U, 50U}) {
             test::Line<TypeParam> line({order, taps});
-            Stated<TypeParam> stated({order, taps});
+            Stated<typename TypeParam::FormatPart> stated({order, taps}, TypeParam::TechniquePart::word,
+                                                          glsum::keeps_modes<typename TypeParam::HistoryPart>,
+                                                          TypeParam::HistoryPart::contiguous);
             std::mt19937_64 generator(taps);
             for (std::size_t k = 0; k < 2 * taps + 10; ++k) {
                 const auto x = static_cast<Sample>(static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0);

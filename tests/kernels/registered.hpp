@@ -1,4 +1,4 @@
-// The registry as GoogleTest's type list: a test body written once runs for every kernel, under its name.
+// The registry as GoogleTest's type list, for tests that look into a kernel's own types; for all others see any_kernel.hpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -54,11 +54,5 @@ struct KernelNames {
 
 template <class K>
 using Line = bench::HostLine<K>;
-
-/// The exact sums of what a kernel's design stands for.
-template <class K>
-reference::Sums exact_sums(const glsum::Design& design, std::span<const double> record) {
-    return reference::sums_of(reference::dropped_by<typename K::HistoryPart>(), design, record);
-}
 
 }  // namespace test
