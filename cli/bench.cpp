@@ -206,45 +206,45 @@ void run(const Options& options, const std::vector<std::string>& flags) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words& words) {
+void add_options(Command& command, const Words& words) {
     auto options = std::make_shared<Options>();
     command.footer(
         "Flags --benchmark_... go to Google Benchmark.\n"
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");
     command.add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
-    command.add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
-    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',');
+    command.add_option("--kernels", options->kernels, "Globs of kernel names").delimiter(',').capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]").delimiter(',');
     command
         .add_option("--taps", options->taps,
                     "Lengths: numbers, full (as many as the record has samples), and of kernels with modes 2+7: two "
                     "taps and seven modes (default of these: the shortest that keep 1e-2, 1e-3, 1e-4 and 1e-6; quick: "
                     "1e-4 alone)")
-        ->delimiter(',');
+        .delimiter(',');
     command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
-        ->delimiter(',');
+        .delimiter(',');
     command
         .add_option("--targets", options->targets,
                     "host, m7 or both (default: both; with --weights that name their own, host)")
-        ->delimiter(',');
+        .delimiter(',');
     command
         .add_option("--core", options->cores,
                     "Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation serves "
                     "all")
-        ->delimiter(',')
-        ->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
     command
         .add_option("--weights", options->weights,
                     "Which weights the kernels sum: gl, bdf2, bdf3, bdf4 (of that order for signals that start "
                     "smoothly), or shifted: those of gl, for the derivative v h / 2 earlier")
-        ->capture_default_str();
+        .capture_default_str();
     command.add_option("--shard", options->shard,
                        "I/N: measure one of N parts of about equal cost; merge puts them together. The last times the "
                        "host. Writes results/shard-I-of-N.json unless --out is given, and nothing beside it");
     command
         .add_option("--repetitions", options->repetitions,
                     "Time each kernel so often, 2 ms each, all in random turns: what gate and compare judge by")
-        ->check(CLI::Range(1, 10000));
-    command.add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
+        .in_range(1, 10000);
+    command.add_option("--jobs", options->jobs, "Threads and emulators at once").in_range(1, 1024);
     command.add_option("--out", options->out,
                        "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
     command.callback([options, &words] { run(*options, words.passed_on); });

@@ -59,20 +59,20 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "bench --equal-cost N,N is the same command.\n"
         "Example: glsum bench equal-cost 16,24,32 --orders 0.5 --out my.json");
     command.add_option("multiplications,--equal-cost", options->costs, "A sample, 4 to 600")
-        ->delimiter(',')
-        ->capture_default_str();
-    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',')->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]").delimiter(',').capture_default_str();
     command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
-        ->delimiter(',')
-        ->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
     command.add_flag("--quick", options->quick, "Records of 1000 samples instead of 5000");
-    command.add_option("--jobs", options->jobs, "Threads at once")->check(CLI::Range(1, 1024));
+    command.add_option("--jobs", options->jobs, "Threads at once").in_range(1, 1024);
     command.add_option("--out", options->out,
                        "Result file (default: results/equal-cost.json); .svg and .png are drawn beside it");
     command.callback([options] {

@@ -306,20 +306,20 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "bench --horizons N,N is the same command.\n"
         "Example: glsum bench horizons 600,5000 --orders 0.5 --targets host");
     command.add_option("samples,--horizons", options->horizons, "Pasts, 100 to 10000000 samples")
-        ->delimiter(',')
-        ->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
     command.add_option("--orders", options->orders, "Orders v in (-1, 2) that are not whole")
-        ->delimiter(',')
-        ->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
     command.add_option("--targets", options->targets, "host alone leaves out modelled cycles")
-        ->delimiter(',')
-        ->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
     command.add_option("--out", options->out,
                        "Result file (default: results/horizons.json); .svg and .png are drawn beside it");
     command.callback([options] {

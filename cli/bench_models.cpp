@@ -473,21 +473,21 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "bench --drive is the same command.\n"
         "Example: glsum bench models --kernels 'modes*,*delta_*f32' --taps 2+7,5+11,600,full");
-    command.add_flag("--drive")->group("");
+    command.add_flag("--drive").hidden();
     command.add_flag("--quick", options->quick, "Fewer lengths, and no records of an hour");
-    command.add_option("--kernels", options->kernels, "Globs of kernel names")->delimiter(',')->capture_default_str();
+    command.add_option("--kernels", options->kernels, "Globs of kernel names").delimiter(',').capture_default_str();
     command.add_option("--taps", options->taps, "Lengths: numbers, full, or 2+7: two near taps and seven modes")
-        ->delimiter(',');
-    command.add_option("--targets", options->targets, "host, m7 or both")->delimiter(',')->capture_default_str();
+        .delimiter(',');
+    command.add_option("--targets", options->targets, "host, m7 or both").delimiter(',').capture_default_str();
     command.add_option("--core", options->cores, "Cores of the timing model, files of qemu/cores")
-        ->delimiter(',')
-        ->capture_default_str();
-    command.add_option("--jobs", options->jobs, "Threads and emulators at once")->check(CLI::Range(1, 1024));
+        .delimiter(',')
+        .capture_default_str();
+    command.add_option("--jobs", options->jobs, "Threads and emulators at once").in_range(1, 1024);
     command.add_option("--out", options->out, "Result file (default: results/drive.json)");
     command.callback([options] {
         check_targets(options->targets);

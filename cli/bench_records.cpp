@@ -354,21 +354,21 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "bench --records N,N is the same command.\n"
         "Example: glsum bench records 100000,1000000 --orders 0.5 --out my.json");
     command.add_option("samples,--records", options->records, "Lengths of the records, 1000 to 10000000")
-        ->delimiter(',')
-        ->capture_default_str();
-    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")->delimiter(',')->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]").delimiter(',').capture_default_str();
     command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
-        ->delimiter(',')
-        ->capture_default_str();
+        .delimiter(',')
+        .capture_default_str();
     command.add_option("--repetitions", options->repetitions, "Interleaved turns, whose median is taken")
-        ->check(CLI::Range(1, 10000))
-        ->capture_default_str();
+        .in_range(1, 10000)
+        .capture_default_str();
     command.add_option("--out", options->out, "Result file (default: results/records.json)");
     command.callback([options] {
         check_orders(options->orders);

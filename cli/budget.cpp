@@ -52,16 +52,16 @@ std::vector<std::string> to_signals(const Budget& budget) {
 
 }  // namespace
 
-std::shared_ptr<Budget> add_budget(CLI::App& command) {
+std::shared_ptr<Budget> add_budget(Command& command) {
     auto budget = std::make_shared<Budget>();
     budget->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command.add_option("--order", budget->order, "Order v in (-2, 2]")->required();
+    command.add_option("--order", budget->order, "Order v in (-2, 2]").required();
     command.add_option("--step-s", budget->step_s,
                        "Seconds from sample to sample: the sines and the drive's response are sampled there");
     command.add_option("--max-error", budget->max_error,
                        "Largest error of the sum, relative to the largest exact full-memory sum, before h^-v");
     command.add_option("--signal", budget->signals, "The error is the worst of these records (default: all of them)")
-        ->delimiter(',');
+        .delimiter(',');
     command.add_option("--max-cycles", budget->max_cycles,
                        "Cycles a sample: the host's, or the timing model's upper end");
     command.add_option("--max-instructions", budget->max_instructions,
@@ -81,7 +81,7 @@ std::shared_ptr<Budget> add_budget(CLI::App& command) {
     command.add_flag("--fresh", budget->fresh, "Measure everything, whatever the results hold");
     command.add_flag("--quick", budget->quick, "Records of 1000 samples instead of 5000, like bench --quick");
     command.add_option("--samples", budget->samples, "Records of so many samples (2 to 8000)");
-    command.add_option("--jobs", budget->jobs, "Threads and emulators at once")->check(CLI::PositiveNumber);
+    command.add_option("--jobs", budget->jobs, "Threads and emulators at once").positive();
     return budget;
 }
 

@@ -1,12 +1,12 @@
 // The options by which `choose` and `generate` take a budget.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/choose/question.hpp"
+#include "cli/command.hpp"
 #include "qemu/firmware.hpp"
 
 namespace cli {
@@ -31,7 +31,7 @@ struct Budget {
 };
 
 /// Adds the options. \return the budget that they fill.
-std::shared_ptr<Budget> add_budget(CLI::App& command);
+std::shared_ptr<Budget> add_budget(Command& command);
 
 /// Samples of the records.
 [[nodiscard]] std::size_t samples_of(const Budget& budget);

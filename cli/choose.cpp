@@ -63,17 +63,17 @@ void run(const Budget& budget, const std::string& json) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto budget = add_budget(command);
     auto json = std::make_shared<std::string>();
     for (const char* needed : {"--step-s", "--target"}) {
-        command.get_option(needed)->required();
+        command.option(needed).required();
     }
     command.add_option("--json", *json, "Writes the answer there too");
     auto against = std::make_shared<Check>();
     command.add_option("--check-against-brute-force", against->budgets,
                        "Draws so many budgets and compares the search with a plain loop over every kernel and length");
-    command.add_option("--seed", against->seed, "Of the budgets drawn")->capture_default_str();
+    command.add_option("--seed", against->seed, "Of the budgets drawn").capture_default_str();
     command.footer(
         "Records are sampled at --step-s: sines and the drive's response are the same signals at other instants; "
         "step,\n"

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <optional>
 
 #include "bench/build_info.hpp"
 #include "bench/files.hpp"
@@ -20,7 +21,7 @@ struct Options {
     std::vector<std::string> counters{"*"};
     std::size_t shown = 20;
     bool force = false;
-    CLI::Option* json = nullptr;
+    std::optional<Option> json;
     std::string json_file;
 };
 
@@ -36,11 +37,11 @@ void run(const Options& options) {
     if (comparison.pairs.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input, "compare: the two files share no counter of what was asked for");
     }
-    if (options.json->count() > 0 && options.json_file.empty()) {
+    if (options.json->given() && options.json_file.empty()) {
         fmt::print("{}", bench::gate::to_json(comparison));
         return;
     }
-    if (options.json->count() > 0) {
+    if (options.json->given()) {
         bench::write_file(options.json_file, bench::gate::to_json(comparison));
     }
     fmt::print("compare: A is {}, B is {}\n{}", options.a.string(), options.b.string(),
@@ -49,22 +50,22 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "Host times with repetitions in both files are compared as the gate does: against its anchor, with bounds.\n"
         "Exit status: 0 compared, 2 a file is broken, 4 the two runs cannot be compared.\n"
         "Example: glsum compare before.json after.json --counters '*instructions*'");
-    command.add_option("A", options->a, "Result file")->required();
-    command.add_option("B", options->b, "Result file")->required();
-    command.add_option("--rows", options->rows, "Globs of row names")->delimiter(',')->capture_default_str();
-    command.add_option("--counters", options->counters, "Globs of counters")->delimiter(',')->capture_default_str();
-    command.add_option("--show", options->shown, "How many of the largest changes")->capture_default_str();
+    command.add_option("A", options->a, "Result file").required();
+    command.add_option("B", options->b, "Result file").required();
+    command.add_option("--rows", options->rows, "Globs of row names").delimiter(',').capture_default_str();
+    command.add_option("--counters", options->counters, "Globs of counters").delimiter(',').capture_default_str();
+    command.add_option("--show", options->shown, "How many of the largest changes").capture_default_str();
     command.add_option("--thresholds", options->thresholds, "Rules that say which direction is better");
     command.add_flag("--force", options->force, "Compare what is not comparable");
     options->json = command.add_option("--json", options->json_file, "Every pair; to standard output without FILE")
-                        ->expected(0, 1)
-                        ->type_name("[FILE]");
+                        .expected(0, 1)
+                        .type_name("[FILE]");
     command.callback([options] { run(*options); });
 }
 

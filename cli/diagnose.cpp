@@ -156,11 +156,11 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
-    command.require_subcommand(0, 1);
+void add_options(Command& command, const Words&) {
+    command.takes_one_subcommand();
     auto options = std::make_shared<Options>();
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command.add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    command.add_option("--jobs", options->jobs, "Threads").positive();
     auto set = std::make_shared<std::filesystem::path>();
     command.add_option("--batch", *set,
                        "Judge each case of a blind set: DIR/NNN/ with model.json, train*.csv and validate*.csv; writes "
@@ -172,36 +172,36 @@ void add_options(CLI::App& command, const Words&) {
     command.callback([&command, options, set] {
         if (!set->empty()) {
             run_batch(*set, options->jobs);
-        } else if (command.get_subcommands().empty()) {
+        } else if (!command.given_subcommand()) {
             throw glsum::Failure(glsum::Exit::bad_input, "diagnose: expected drive, cycles or --batch DIR");
         }
     });
     add_diagnose_cycles(command);
-    CLI::App* of_drive = command.add_subcommand("drive", "A model of a drive against its logs");
-    of_drive->footer(
+    Command of_drive = command.add_subcommand("drive", "A model of a drive against its logs");
+    of_drive.footer(
         "Without --refit the model is judged as it is, its parameters included. With it, or with fit:FORM, its gain, "
         "dynamics,\n"
         "dead time, offset and initial state are fitted first.\n"
         "Example: glsum diagnose drive --model model.json --log train.csv --validate other.csv --json verdict.json");
-    of_drive->add_option("--model", options->model, "Model JSON, or fit:fopdt, fit:sopdt, fit:niopdt, fit:integrator")
-        ->required();
-    of_drive->add_option("--log", options->logs, "Logs that are fitted")->required();
-    of_drive->add_option("--validate", options->validate, "Logs that are not: the verdict is taken there");
-    of_drive->add_option("--split", options->split_s,
-                         "SECONDS: the logs up to there are fitted, the rest of each validates");
-    of_drive->add_flag("--refit", options->refit, "Fit the model first");
+    of_drive.add_option("--model", options->model, "Model JSON, or fit:fopdt, fit:sopdt, fit:niopdt, fit:integrator")
+        .required();
+    of_drive.add_option("--log", options->logs, "Logs that are fitted").required();
+    of_drive.add_option("--validate", options->validate, "Logs that are not: the verdict is taken there");
+    of_drive.add_option("--split", options->split_s,
+                        "SECONDS: the logs up to there are fitted, the rest of each validates");
+    of_drive.add_flag("--refit", options->refit, "Fit the model first");
     of_drive
-        ->add_option("--metric", options->metric,
-                     "simulation, or prediction: for drives that integrate or were logged in a closed loop")
-        ->check(CLI::IsMember({"simulation", "prediction"}))
-        ->capture_default_str();
-    of_drive->add_option("--without", options->without, "Effects to leave off the list")->delimiter(',');
-    add_column_options(*of_drive, options->columns);
-    of_drive->add_option("--json", options->json, "The verdict, schema glsum-gap-1");
-    of_drive->add_option("--html", options->html, "A page with curves, ranking and where the gap lies");
-    of_drive->add_option("--improved", options->improved, "The model with the effect, which simulate runs");
-    of_drive->add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
-    of_drive->callback([options] { run(*options); });
+        .add_option("--metric", options->metric,
+                    "simulation, or prediction: for drives that integrate or were logged in a closed loop")
+        .one_of({"simulation", "prediction"})
+        .capture_default_str();
+    of_drive.add_option("--without", options->without, "Effects to leave off the list").delimiter(',');
+    add_column_options(of_drive, options->columns);
+    of_drive.add_option("--json", options->json, "The verdict, schema glsum-gap-1");
+    of_drive.add_option("--html", options->html, "A page with curves, ranking and where the gap lies");
+    of_drive.add_option("--improved", options->improved, "The model with the effect, which simulate runs");
+    of_drive.add_option("--jobs", options->jobs, "Threads").positive();
+    of_drive.callback([options] { run(*options); });
 }
 
 }  // namespace cli

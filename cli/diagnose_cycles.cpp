@@ -257,22 +257,22 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_diagnose_cycles(CLI::App& diagnose) {
+void add_diagnose_cycles(Command& diagnose) {
     auto options = std::make_shared<Options>();
-    CLI::App* command = diagnose.add_subcommand("cycles", "Predicted cycles against measured ones");
-    command->footer(
+    Command command = diagnose.add_subcommand("cycles", "Predicted cycles against measured ones");
+    command.footer(
         "Example: glsum diagnose cycles --measured results/silicon/h747_per_sample_fir.csv --json verdict.json");
-    command->add_option("--measured", options->measured,
-                        "CSV: kernel,code,data,maintenance,taps,cycles, and instructions if they were counted");
-    command->add_option("--core", options->core, "The prediction that is judged, a core file")->capture_default_str();
-    command->add_option("--json", options->json, "The verdict, schema glsum-gap-1");
-    CLI::Option* blind = command->add_option(
+    command.add_option("--measured", options->measured,
+                       "CSV: kernel,code,data,maintenance,taps,cycles, and instructions if they were counted");
+    command.add_option("--core", options->core, "The prediction that is judged, a core file").capture_default_str();
+    command.add_option("--json", options->json, "The verdict, schema glsum-gap-1");
+    Option blind = command.add_option(
         "--blind", options->blind,
         "Instead: so many measurements of cores with secret switches and costs, sealed and diagnosed from their files");
-    blind->check(CLI::Range(1, 10000));
-    command->add_option("--seed", options->seed, "Of --blind")->capture_default_str();
-    command->add_option("--out", options->out, "The folder of --blind");
-    command->callback([options] {
+    blind.in_range(1, 10000);
+    command.add_option("--seed", options->seed, "Of --blind").capture_default_str();
+    command.add_option("--out", options->out, "The folder of --blind");
+    command.callback([options] {
         if (options->blind == 0 && options->measured.empty()) {
             throw Failure(Exit::bad_input, "expected --measured FILE or --blind N --out FOLDER");
         }

@@ -1,10 +1,10 @@
 // glsum diagnose cycles: where predicted and measured cycles part, and which effects explain it.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "cli/command.hpp"
 
 namespace cli {
 
-void add_diagnose_cycles(CLI::App& diagnose);
+void add_diagnose_cycles(Command& diagnose);
 
 }  // namespace cli

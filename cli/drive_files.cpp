@@ -47,7 +47,7 @@ void warn_if_unstable(const drive::Model& model, const std::string& name) {
     }
 }
 
-void add_column_options(CLI::App& command, drive::Columns& columns) {
+void add_column_options(Command& command, drive::Columns& columns) {
     command.add_option("--time-column", columns.time, "Column of the stamps; usually time_s");
     command.add_option("--input-column", columns.input, "Column of the input; usually input or duty");
     command.add_option("--output-column", columns.output,
@@ -56,7 +56,7 @@ void add_column_options(CLI::App& command, drive::Columns& columns) {
                        "Divide the output by this: encoder counts to units");
     command
         .add_option("--counter-bits", columns.counter_bits, "Counts come from a counter of so many bits, which wraps")
-        ->check(CLI::Range(2, 52));
+        .in_range(2, 52);
 }
 
 void put(const std::string& text, const std::filesystem::path& path) {

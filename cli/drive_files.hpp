@@ -1,11 +1,11 @@
 // What the commands of the drive share: models and logs by path, column options, results to a file or the terminal.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "cli/command.hpp"
 #include "drive/log.hpp"
 #include "drive/model.hpp"
 #include "gap/drive/record.hpp"
@@ -28,7 +28,7 @@ namespace cli {
 void warn_if_unstable(const drive::Model& model, const std::string& name);
 
 /// --time-column, --input-column, --output-column, --counts-per-unit, --counter-bits.
-void add_column_options(CLI::App& command, drive::Columns& columns);
+void add_column_options(Command& command, drive::Columns& columns);
 
 /// Writes the file whole, or prints where no path was given.
 void put(const std::string& text, const std::filesystem::path& path);

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "bench/build_info.hpp"
@@ -34,7 +35,7 @@ struct Options {
 
 // An output that goes to a file where one is named and to standard output where none is.
 struct Output {
-    CLI::Option* option = nullptr;
+    std::optional<Option> option;
     std::string file;
     std::string (*text)(const Verdict&) = nullptr;
 };
@@ -88,7 +89,7 @@ void run(const Options& options, const std::vector<Output>& outputs) {
     verdict.current_name = options.current.string();
     bool to_stdout = false;
     for (const Output& output : outputs) {
-        if (output.option->count() == 0) {
+        if (!output.option->given()) {
             continue;
         }
         if (output.file.empty()) {
@@ -112,34 +113,34 @@ void run(const Options& options, const std::vector<Output>& outputs) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     auto outputs = std::make_shared<std::vector<Output>>(3);
     command.footer(
         "Layers: rows, right answer, accuracy, instructions and bytes, modelled cycles, host time.\n"
         "Exit status: 0 pass, 1 worse, 2 a file is broken, 4 the two runs cannot be compared.\n"
         "Example: glsum gate --baseline results/baselines/m7.json --current my.json --junit gate.xml");
-    command.add_option("--baseline", options->baseline, "What to hold the run against")->required();
-    command.add_option("--current", options->current, "The run's result file")->default_str("results/latest.json");
+    command.add_option("--baseline", options->baseline, "What to hold the run against").required();
+    command.add_option("--current", options->current, "The run's result file").default_str("results/latest.json");
     command.add_option("--thresholds", options->thresholds, "Rules: what may change by how much, and why")
-        ->default_str("results/thresholds.toml");
+        .default_str("results/thresholds.toml");
     const auto add_output = [&](std::size_t i, const char* name, const char* help,
                                 std::string (*text)(const Verdict&)) {
         Output& output = (*outputs)[i];
         output.text = text;
-        output.option = command.add_option(name, output.file, help)->expected(0, 1)->type_name("[FILE]");
+        output.option = command.add_option(name, output.file, help).expected(0, 1).type_name("[FILE]");
     };
     add_output(0, "--json", "Everything, for programs; to standard output without FILE", bench::gate::to_json);
     add_output(1, "--junit", "Test report, likewise", bench::gate::to_junit);
     add_output(2, "--markdown", "Step summary, likewise", bench::gate::to_markdown);
     command.add_flag("--annotations", options->annotations, "GitHub annotations on standard output");
-    CLI::Option* update = command.add_flag("--update-baseline", options->update,
-                                           "Record the run as the new baseline instead (needs --reason)");
-    command.add_option("--reason", options->reason, "Why the baseline changes: kept in its history")->needs(update);
+    Option update = command.add_flag("--update-baseline", options->update,
+                                     "Record the run as the new baseline instead (needs --reason)");
+    command.add_option("--reason", options->reason, "Why the baseline changes: kept in its history").needs(update);
     command
         .add_option("--rows", options->rows, "Globs of the rows that a new baseline keeps (default: as before, or all)")
-        ->delimiter(',')
-        ->needs(update);
+        .delimiter(',')
+        .needs(update);
     command.callback([options, outputs] { run(*options, *outputs); });
 }
 

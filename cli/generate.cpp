@@ -166,13 +166,13 @@ void run(const Options& options, Budget budget, const std::string& command) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words& words) {
+void add_options(Command& command, const Words& words) {
     auto budget = add_budget(command);
     auto options = std::make_shared<Options>();
     command.add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
     command.add_option("--taps", options->taps,
                        "Its length, with --kernel: a number, or 2+7 of near taps and modes or blocks");
-    command.add_option("--prefix", options->prefix, "Begins every identifier of the header")->capture_default_str();
+    command.add_option("--prefix", options->prefix, "Begins every identifier of the header").capture_default_str();
     command.add_option("--licence", options->licence, "The header's licence line");
     command.add_option("--out", options->out, "The header");
     command.add_flag("--verify", options->verify,

@@ -322,7 +322,7 @@ void run(const Options& given) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     options->fit.jobs = std::max(1U, std::thread::hardware_concurrency());
     command.footer(
@@ -335,20 +335,19 @@ void add_options(CLI::App& command, const Words&) {
         "Example: glsum identify --coverage 100 --form niopdt --start drive/models/niopdt.json");
     command.add_option("log,--log", options->logs,
                        "Logs, CSV with time_s, input or duty, and the output; all are fitted at once");
-    command
-        .add_option("--form", options->form, "fopdt, sopdt, niopdt, or fotf: every coefficient and order of --start")
-        ->check(CLI::IsMember({"fopdt", "sopdt", "niopdt", "fotf"}))
-        ->capture_default_str();
+    command.add_option("--form", options->form, "fopdt, sopdt, niopdt, or fotf: every coefficient and order of --start")
+        .one_of({"fopdt", "sopdt", "niopdt", "fotf"})
+        .capture_default_str();
     command
         .add_option(
             "--start", options->start,
             "search (a grid; then SOPDT as the start of fractional forms), tangent (of a step response), or a model")
-        ->capture_default_str();
+        .capture_default_str();
     command
         .add_option("--method", options->method,
                     "least-squares, prediction-error (coloured noise), or none (the start itself)")
-        ->check(CLI::IsMember({"least-squares", "prediction-error", "none"}))
-        ->capture_default_str();
+        .one_of({"least-squares", "prediction-error", "none"})
+        .capture_default_str();
     command.add_option("--controller", options->controller,
                        "Closed loop: the controller that made the input, a model or {\"kind\": \"pid\", \"kp\": 2, "
                        "\"ki\": 1.5, \"kd\": 0.1, \"filter_s\": 0.02}; the loop is fitted to the column reference or, "
@@ -357,38 +356,38 @@ void add_options(CLI::App& command, const Words&) {
     command
         .add_option("--intervals", options->intervals,
                     "profile (of the likelihood) or straight (value +- t deviations, faster)")
-        ->check(CLI::IsMember({"profile", "straight"}))
-        ->capture_default_str();
-    command.add_option("--fix", options->fix, "NAME or NAME=VALUE: a parameter that is not fitted")->delimiter(',');
+        .one_of({"profile", "straight"})
+        .capture_default_str();
+    command.add_option("--fix", options->fix, "NAME or NAME=VALUE: a parameter that is not fitted").delimiter(',');
     command.add_option("--free", options->free, "NAME: fit a parameter that usually is fixed, such as offset")
-        ->delimiter(',');
-    command.add_option("--set", options->set, "NAME=VALUE: its start")->delimiter(',');
-    command.add_option("--bound", options->bounds, "NAME=LOW:HIGH")->delimiter(',');
+        .delimiter(',');
+    command.add_option("--set", options->set, "NAME=VALUE: its start").delimiter(',');
+    command.add_option("--bound", options->bounds, "NAME=LOW:HIGH").delimiter(',');
     command.add_option("--accept", options->fit.accepted_error, "E_c: stop when the sum of squares is at most this");
-    command.add_option("--iterations", options->fit.iterations, "Stop after so many")->capture_default_str();
+    command.add_option("--iterations", options->fit.iterations, "Stop after so many").capture_default_str();
     command.add_option("--starts", options->fit.starts, "Also from random starts, so many in all")
-        ->capture_default_str();
+        .capture_default_str();
     command
         .add_option("--seed", options->fit.seed,
                     "Of the random starts, and of the logs of --coverage: another set for each")
-        ->capture_default_str();
+        .capture_default_str();
     command.add_flag("--static", options->characteristic,
                      "Instead: the static characteristic, where the output rests for each level of the input");
     command.add_option("--hold-s", options->shortest_hold_s, "Of --static: shorter holds are passed over")
-        ->capture_default_str();
+        .capture_default_str();
     command.add_option("--coverage", options->coverage,
                        "Fit so many noisy logs of --start and count the truths inside");
     command.add_option("--input", options->acquisition.excitation.name, "Of --coverage: step, pulse or staircase")
-        ->capture_default_str();
-    command.add_option("--until-s", options->acquisition.until_s, "Of --coverage")->capture_default_str();
-    command.add_option("--interval-s", options->acquisition.interval_s, "Of --coverage")->capture_default_str();
-    command.add_option("--jitter-s", options->acquisition.jitter_s, "Of --coverage")->capture_default_str();
+        .capture_default_str();
+    command.add_option("--until-s", options->acquisition.until_s, "Of --coverage").capture_default_str();
+    command.add_option("--interval-s", options->acquisition.interval_s, "Of --coverage").capture_default_str();
+    command.add_option("--jitter-s", options->acquisition.jitter_s, "Of --coverage").capture_default_str();
     command.add_option("--noise", options->acquisition.noise, "Of --coverage: standard deviation")
-        ->capture_default_str();
+        .capture_default_str();
     command.add_option("--quantum", options->acquisition.quantum, "Of --coverage: step of the encoder")
-        ->capture_default_str();
+        .capture_default_str();
     add_column_options(command, options->columns);
-    command.add_option("--jobs", options->fit.jobs, "Threads")->check(CLI::PositiveNumber);
+    command.add_option("--jobs", options->fit.jobs, "Threads").positive();
     command.add_flag("--json", options->json, "JSON instead of text");
     command.add_option("--out", options->out, "Model JSON");
     command.add_option("--plot", options->plot, "Draw measured, start and fitted: STEM.svg and STEM.png");

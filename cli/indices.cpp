@@ -83,12 +83,12 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "A model is simulated exactly, at the log's own stamps, from rest.\n"
         "Example: glsum indices log.csv --model drive/models/niopdt.json --model drive/models/sopdt.json");
-    command.add_option("log,--log", options->log, "Measured log, CSV")->required();
+    command.add_option("log,--log", options->log, "Measured log, CSV").required();
     command.add_option("--model", options->models, "Model JSON; repeatable");
     command.add_option("--simulated", options->simulated, "CSV with an output at the same stamps, instead of a model");
     add_column_options(command, options->columns);

@@ -36,7 +36,7 @@ std::vector<std::string> prepare_words(int argc, char** argv, std::vector<std::s
 
 int main(int argc, char** argv) {
     const std::string name = fmt::format("glsum {}", cli::command_name);
-    CLI::App command(cli::command_summary, name);
+    cli::Command command(cli::command_summary, name);
     cli::Words words{name, {}};
     for (int i = 1; i < argc; ++i) {
         if (std::string_view(argv[i]) == "--jobs" && i + 1 < argc) {
@@ -49,13 +49,11 @@ int main(int argc, char** argv) {
     cli::add_options(command, words);
     // The launcher tells every command how many jobs may run at once.
     unsigned unused_jobs = 1;
-    if (command.get_option_no_throw("--jobs") == nullptr) {
-        command.add_option("--jobs", unused_jobs)->check(CLI::PositiveNumber)->group("");
+    if (!command.has_option("--jobs")) {
+        command.add_option("--jobs", unused_jobs, "").positive().hidden();
     }
     try {
-        command.parse(prepare_words(argc, argv, words.passed_on));
-    } catch (const CLI::ParseError& error) {
-        return command.exit(error) == 0 ? 0 : static_cast<int>(glsum::Exit::bad_input);
+        return command.parse(prepare_words(argc, argv, words.passed_on));
     } catch (const glsum::Failure& failure) {
         fmt::print(stderr, "glsum: {}\n", failure.what());
         return static_cast<int>(failure.status());
@@ -63,5 +61,4 @@ int main(int argc, char** argv) {
         fmt::print(stderr, "glsum: {}\n", error.what());
         return static_cast<int>(glsum::Exit::check_failed);
     }
-    return 0;
 }

@@ -29,16 +29,16 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "All shards of bench --shard I/N, each once, in any order.\n"
         "Example: glsum merge shard-1.json shard-2.json shard-3.json --out whole.json");
-    command.add_option("shards", options->shards, "Result files of bench --shard")->required();
+    command.add_option("shards", options->shards, "Result files of bench --shard").required();
     command.add_flag("--allow-mixed-hosts", options->allow_mixed_hosts,
                      "Shards may come from different CPUs; the context then says mixed_hosts");
     command.add_option("--jobs", options->jobs, "Threads at once, for the bound that the picture draws")
-        ->check(CLI::Range(1, 1024));
+        .in_range(1, 1024);
     command.add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
     command.callback([options] { run(*options); });
 }

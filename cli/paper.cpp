@@ -76,11 +76,11 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer("Example: glsum paper --plots results/drive");
     command.add_option("--models", options->models, "Folder with fopdt.json, sopdt.json and niopdt.json")
-        ->default_str("drive/models");
+        .default_str("drive/models");
     command.add_flag("--json", options->json, "JSON instead of text");
     command.add_option("--out", options->out, "File; printed if not given");
     command.add_option("--plots", options->plots, "Folder for step_responses and precision, .svg and .png");

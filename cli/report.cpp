@@ -69,17 +69,17 @@ void run(Options options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "The page is one file, loads nothing and opens in any browser.\n"
         "Example: glsum report results/latest.json other.json --out compared.html");
     command
         .add_option("files", options->files, "Result files: A (default results/latest.json), then B to hold against it")
-        ->expected(0, 2);
+        .expected(0, 2);
     command.add_option("--out", options->out,
                        "The page; .csv, .svg and .png are written beside it (default: beside A)");
-    command.add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    command.add_option("--jobs", options->jobs, "Threads").positive();
     command.callback([options] { run(*options); });
 }
 

@@ -30,7 +30,7 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     options->columns.needs_input = false;
     command.footer(
@@ -38,11 +38,11 @@ void add_options(CLI::App& command, const Words&) {
         "ones "
         "are left out, gaps are bridged.\nExample: glsum resample log.csv --step-s 0.001 --method linear --out "
         "even.csv");
-    command.add_option("log,--log", options->log, "Log, CSV with time_s and the output")->required();
-    command.add_option("--step-s", options->step_s, "New sampling time")->capture_default_str();
+    command.add_option("log,--log", options->log, "Log, CSV with time_s and the output").required();
+    command.add_option("--step-s", options->step_s, "New sampling time").capture_default_str();
     command.add_option("--method", options->method, "linear or zoh (zero-order hold); the input is always held")
-        ->check(CLI::IsMember({"linear", "zoh"}))
-        ->capture_default_str();
+        .one_of({"linear", "zoh"})
+        .capture_default_str();
     add_column_options(command, options->columns);
     command.add_option("--out", options->out, "CSV file; printed if not given");
     command.callback([options] { run(*options); });

@@ -168,18 +168,18 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "Exits 2 where a verdict or the truth is not what its hash says.\n"
         "Example: glsum stand --blind 100 --seed 7 --out build/blind && glsum diagnose --batch build/blind && glsum "
         "score build/blind");
-    command.add_option("folder", options->folder, "Of stand --blind, answered by diagnose --batch")->required();
+    command.add_option("folder", options->folder, "Of stand --blind, answered by diagnose --batch").required();
     command.add_option("--truth-sha256", options->truth_hash, "What stand --blind printed first");
     command.add_flag("--no-oracle", options->no_oracle,
                      "Without the true effects refitted: says nothing of what is identifiable, and takes no time");
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command.add_option("--jobs", options->jobs, "Threads")->check(CLI::PositiveNumber);
+    command.add_option("--jobs", options->jobs, "Threads").positive();
     command.add_flag("--goals", options->goals, "Exit 1 unless what is to be reached is");
     command.add_option("--json", options->json, "Write all numbers as JSON");
     command.callback([options] { run(*options); });

@@ -114,15 +114,15 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "Exit status 1 when a row is missed by more than 5 % and 8 cycles.\n"
         "Example: glsum silicon results/silicon/h747_per_sample_fir.csv");
     command.add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
-    command.add_option("--core", options->core, "Core file; each row's placement beats its own")->capture_default_str();
+    command.add_option("--core", options->core, "Core file; each row's placement beats its own").capture_default_str();
     command.add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
-        ->delimiter(',');
+        .delimiter(',');
     command.callback([options] { run(*options); });
 }
 

@@ -221,26 +221,26 @@ void run(Options options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "The input is held between samples; y_0 = 0, and the first sample forces the second.\n"
         "Example: glsum simulate --model drive/models/niopdt.json --kernel ring_oldest_f32 --increments --taps 600 "
         "--out y.csv\n"
         "Example: glsum simulate --model drive/models/niopdt.json --at 1.5,5   (18 digits, in multi-precision)");
-    command.add_option("--model", options->model, "Model JSON")->required();
+    command.add_option("--model", options->model, "Model JSON").required();
     command.add_option("--input", options->input, "step, pulse, staircase, or a CSV with time_s and input or duty")
-        ->capture_default_str();
+        .capture_default_str();
     command.add_option("--amplitude", options->excitation.amplitude, "Of step, pulse and staircase")
-        ->capture_default_str();
-    command.add_option("--off-s", options->excitation.off_s, "When the pulse ends")->capture_default_str();
-    command.add_option("--stairs", options->excitation.stairs, "Stairs up, and down again")->capture_default_str();
+        .capture_default_str();
+    command.add_option("--off-s", options->excitation.off_s, "When the pulse ends").capture_default_str();
+    command.add_option("--stairs", options->excitation.stairs, "Stairs up, and down again").capture_default_str();
     command.add_flag("--exact", options->exact, "The exact response instead of steps");
     command.add_option("--at", options->at_s, "The exact unit step response at these times, to 18 digits")
-        ->delimiter(',');
+        .delimiter(',');
     command.add_option("--kernel", options->scheme.kernel,
                        "A kernel's name; double with one merged table if not given");
-    command.add_option("--taps", options->taps, "Memory length: a number, or full")->capture_default_str();
+    command.add_option("--taps", options->taps, "Memory length: a number, or full").capture_default_str();
     command.add_flag("--increments", options->scheme.increments, "Orders v - 1 on the increments of the output");
     command.add_flag("--merged", options->scheme.merged,
                      "With --kernel: one merged table instead of a sum for each order");
@@ -248,7 +248,7 @@ void add_options(CLI::App& command, const Words&) {
     command.add_flag("--sampled", options->sampled,
                      "The input is continuous, given at the samples: force with the newest");
     command.add_option("--step-s", options->step_s, "Step h; usually the model's sample_time_s, or 0.001");
-    command.add_option("--until,--until-s", options->until_s, "Length of the record in s")->capture_default_str();
+    command.add_option("--until,--until-s", options->until_s, "Length of the record in s").capture_default_str();
     command.add_flag("--no-compare", options->no_compare, "Leave out the comparison with the exact response");
     add_column_options(command, options->columns);
     command.add_flag("--json", options->json, "The summary as JSON");

@@ -84,12 +84,12 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "A dead time does not change the verdict of an open loop.\n"
         "Example: glsum stability --model drive/models/niopdt.json --plot roots");
-    command.add_option("--model", options->model, "Model JSON")->required();
+    command.add_option("--model", options->model, "Model JSON").required();
     command.add_option(
         "--base-order,--q", options->base_order,
         "Base order q: the orders are rounded to its multiples; usually 0.01, and 1 where all orders are whole");

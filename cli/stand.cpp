@@ -140,7 +140,7 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     options->experiment.name = "series";
     command.footer(
@@ -152,29 +152,29 @@ void add_options(CLI::App& command, const Words&) {
         "Example: glsum stand --blind 100 --seed 7 --out build/blind    (then diagnose --batch and score)");
     command.add_option("--stand", options->stand, "TOML with parts and effects; what it leaves out has its usual size");
     command.add_option("--set", options->set, "EFFECT.SIZE=NUMBER, or a part's NAME=NUMBER; repeatable");
-    command.add_option("--without", options->without, "Effects that are absent")->delimiter(',');
-    command.add_option("--only", options->only, "All others are absent")->delimiter(',');
+    command.add_option("--without", options->without, "Effects that are absent").delimiter(',');
+    command.add_option("--only", options->only, "All others are absent").delimiter(',');
     command.add_flag("--ideal", options->ideal, "All effects are absent: a linear plant; --set brings one back");
     command.add_flag("--show", options->show, "Print the stand with all sizes, as TOML, and run nothing");
     command.add_option("--model", options->model, "Also write the linear plant without effects as a model file");
     command
         .add_option("--experiment", options->experiment.name,
                     "series (four pulses into a folder), pulse, step, staircase, ramp, chirp, prbs or release")
-        ->capture_default_str();
+        .capture_default_str();
     command.add_option("--duty", options->experiment.duty, "Of step and pulse; the highest of others")
-        ->capture_default_str();
+        .capture_default_str();
     command.add_option("--low-duty", options->experiment.low_duty, "The lowest of staircase, ramp, chirp and prbs")
-        ->capture_default_str();
-    command.add_option("--off-s", options->experiment.off_s, "When the pulse ends")->capture_default_str();
+        .capture_default_str();
+    command.add_option("--off-s", options->experiment.off_s, "When the pulse ends").capture_default_str();
     command.add_option("--until,--until-s", options->experiment.until_s, "Length of the record in s")
-        ->capture_default_str();
-    command.add_option("--stairs", options->experiment.stairs, "Stairs up, and down again")->capture_default_str();
-    command.add_option("--from-hz", options->experiment.from_hz, "Of the chirp")->capture_default_str();
-    command.add_option("--to-hz", options->experiment.to_hz, "Of the chirp")->capture_default_str();
-    command.add_option("--bit-s", options->experiment.bit_s, "Of the PRBS")->capture_default_str();
+        .capture_default_str();
+    command.add_option("--stairs", options->experiment.stairs, "Stairs up, and down again").capture_default_str();
+    command.add_option("--from-hz", options->experiment.from_hz, "Of the chirp").capture_default_str();
+    command.add_option("--to-hz", options->experiment.to_hz, "Of the chirp").capture_default_str();
+    command.add_option("--bit-s", options->experiment.bit_s, "Of the PRBS").capture_default_str();
     command.add_option("--angle", options->experiment.angle_rad, "Release: where the bar is held, in rad")
-        ->capture_default_str();
-    command.add_option("--seed", options->seed, "Of stamps, noise and bits")->capture_default_str();
+        .capture_default_str();
+    command.add_option("--seed", options->seed, "Of stamps, noise and bits").capture_default_str();
     command.add_flag("--truth", options->truth, "Further columns: what nobody measured");
     command.add_option("--out", options->out, "CSV file, or the folder of a series; printed if not given");
     command.add_option("--plot", options->plot, "Draw STEM.svg and STEM.png");
@@ -182,8 +182,8 @@ void add_options(CLI::App& command, const Words&) {
         .add_option("--blind", options->blind,
                     "Instead: so many cases for a diagnosis, each with a model, two logs and an effect that only "
                     "the sealed truth names, into the folder --out")
-        ->check(CLI::Range(1, 999));
-    command.add_option("--jobs", options->jobs, "Threads, of --blind")->check(CLI::PositiveNumber);
+        .in_range(1, 999);
+    command.add_option("--jobs", options->jobs, "Threads, of --blind").positive();
     command.callback([options] { run(*options); });
 }
 

@@ -232,22 +232,22 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(CLI::App& command, const Words&) {
+void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
         "The program: bare metal, linked for the map of mps2-an500 (code from 0, data from 0x20000000), ending by a\n"
         "semihosting exit with status 0.\n"
         "Example: glsum time --elf my.elf --function filter_step --core stm32f746-flash --json time.json");
-    command.add_option("--elf", options->elf, "The program")->required();
-    command.add_option("--function", options->function, "Symbol, or C++ name with or without parameters")->required();
-    command.add_option("--core", options->core, "Core file of qemu/cores")->capture_default_str();
+    command.add_option("--elf", options->elf, "The program").required();
+    command.add_option("--function", options->function, "Symbol, or C++ name with or without parameters").required();
+    command.add_option("--core", options->core, "Core file of qemu/cores").capture_default_str();
     command.add_option("--place", options->places, "code=itcm/flash/axi or data=dtcm/axi; beats the core file");
     command.add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
-        ->delimiter(',');
+        .delimiter(',');
     command.add_option("--json", options->json, "Writes the result there");
     command.add_option("--timeout", options->timeout, "Seconds that the program may stay silent")
-        ->check(CLI::PositiveNumber)
-        ->capture_default_str();
+        .positive()
+        .capture_default_str();
     command.callback([options] { run(*options); });
 }
 

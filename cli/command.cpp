@@ -1,0 +1,74 @@
+#include "cli/command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+#include "cli/help_page.hpp"
+#include "qemu/failure.hpp"
+
+namespace cli {
+
+Option& Option::required() { return option_->required(), *this; }
+Option& Option::delimiter(char between) { return option_->delimiter(between), *this; }
+Option& Option::expected(int least, int most) { return option_->expected(least, most), *this; }
+Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
+Option& Option::in_range(int lowest, int highest) { return option_->check(CLI::Range(lowest, highest)), *this; }
+Option& Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
+Option& Option::one_of(std::initializer_list<std::string> words) {
+    return option_->check(CLI::IsMember(std::vector<std::string>(words))), *this;
+}
+Option& Option::type_name(const std::string& name) { return option_->type_name(name), *this; }
+Option& Option::capture_default_str() { return option_->capture_default_str(), *this; }
+Option& Option::default_str(const std::string& text) { return option_->default_str(text), *this; }
+Option& Option::hidden() { return option_->group(""), *this; }
+bool Option::given() const { return option_->count() > 0; }
+
+Command::Command(const std::string& summary, const std::string& name)
+    : app_(std::make_shared<CLI::App>(summary, name)) {
+    app_->formatter(std::make_shared<HelpPage>());  // subcommands inherit it
+}
+
+template <class Target>
+Option Command::add_option(const std::string& names, Target& target, const std::string& help) {
+    return Option(app_->add_option(names, target, help));
+}
+template Option Command::add_option(const std::string&, int&, const std::string&);
+template Option Command::add_option(const std::string&, unsigned&, const std::string&);
+template Option Command::add_option(const std::string&, std::size_t&, const std::string&);
+template Option Command::add_option(const std::string&, double&, const std::string&);
+template Option Command::add_option(const std::string&, std::string&, const std::string&);
+template Option Command::add_option(const std::string&, std::filesystem::path&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<unsigned>&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<std::string>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);
+template Option Command::add_option(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
+
+Option Command::add_flag(const std::string& names, bool& target, const std::string& help) {
+    return Option(app_->add_flag(names, target, help));
+}
+Option Command::add_flag(const std::string& names) { return Option(app_->add_flag(names)); }
+Option Command::option(const std::string& name) { return Option(app_->get_option(name)); }
+bool Command::has_option(const std::string& name) const { return app_->get_option_no_throw(name) != nullptr; }
+void Command::footer(const std::string& text) { app_->footer(text); }
+void Command::callback(std::function<void()> run) { app_->callback(std::move(run)); }
+
+Command Command::add_subcommand(const std::string& name, const std::string& summary) {
+    return Command(std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, summary)));
+}
+void Command::takes_one_subcommand() { app_->require_subcommand(0, 1); }
+bool Command::given_subcommand() const { return !app_->get_subcommands().empty(); }
+
+int Command::parse(std::vector<std::string> words) {
+    try {
+        app_->parse(std::move(words));
+    } catch (const CLI::ParseError& error) {
+        return app_->exit(error) == 0 ? 0 : static_cast<int>(glsum::Exit::bad_input);
+    }
+    return 0;
+}
+
+}  // namespace cli
