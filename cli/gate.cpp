@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -45,6 +47,30 @@ Verdict judge(const Options& options) {
     const bench::Results baseline = bench::read_results(options.baseline);
     const bench::Results current = bench::read_results(options.current);
     return bench::gate::judge(baseline, current, rules);
+}
+
+// Of the baseline's neighbours whose names begin as its own, m7-gnu14.json beside m7.json: one that the run can be held
+// against; empty where none can.
+std::string comparable_neighbour(Options options) {
+    const std::filesystem::path asked = options.baseline;
+    std::vector<std::filesystem::path> neighbours;
+    for (const auto& entry : std::filesystem::directory_iterator(asked.has_parent_path() ? asked.parent_path() : ".")) {
+        if (entry.path().filename() != asked.filename() && entry.path().extension() == ".json" &&
+            entry.path().stem().string().starts_with(asked.stem().string() + "-")) {
+            neighbours.push_back(entry.path());
+        }
+    }
+    std::sort(neighbours.begin(), neighbours.end());
+    for (const std::filesystem::path& neighbour : neighbours) {
+        options.baseline = neighbour;
+        try {
+            if (judge(options).status != Exit::not_comparable) {
+                return neighbour.string();
+            }
+        } catch (const Failure&) {  // a broken one is none
+        }
+    }
+    return "";
 }
 
 void update_baseline(const Options& options) {
@@ -107,7 +133,10 @@ void run(const Options& options, const std::vector<Output>& outputs) {
     }
     if (verdict.status != Exit::good) {
         const std::string word = verdict.refusal.empty() ? "gate: " + verdict.word() + ": " : "";
-        throw Failure(verdict.status, word + verdict.headline());
+        const std::string neighbour =
+            verdict.status == Exit::not_comparable && verdict.refusal.empty() ? comparable_neighbour(options) : "";
+        throw Failure(verdict.status,
+                      word + verdict.headline() + (neighbour.empty() ? "" : "; " + neighbour + " can be compared"));
     }
 }
 

@@ -30,14 +30,14 @@ struct Piece {
 /// How a history is written.
 struct HistoryText {
     std::string summary;
-    std::string formula = {};   ///< of the sum, in the opening comment; empty: that of a window
-    std::string fields;         ///< of the instance
-    std::string reset;          ///< statements of `init`
-    std::vector<Piece> pieces;  ///< newest first
-    bool tested_first = false;  ///< loops over pieces that test before the first turn are the cheaper ones
-    std::string push;           ///< statements that store `newest`
-    std::string before = {};    ///< statements before the sum, which may change `newest`
-    std::string behind = {};    ///< statements behind it, before `push`, which add to `sum`
+    std::string formula = {};       ///< of the sum, in the opening comment; empty: that of a window
+    std::string fields;             ///< of the instance
+    std::string reset;              ///< statements of `init`
+    std::vector<Piece> pieces;      ///< newest first
+    std::string push;               ///< statements that store `newest`
+    std::string before = {};        ///< statements before the sum, which may change `newest`
+    std::string behind_start = {};  ///< a statement between a sum's start and its loops
+    std::string behind = {};        ///< statements behind it, before `push`, which add to `sum`
 };
 
 /// How a technique is written.

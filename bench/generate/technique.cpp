@@ -16,18 +16,14 @@ std::string pointers(const std::string& x, const std::string& a) {
 
 // Over the pieces, from the newest sample on: the body takes *x and *a, which move on behind it.
 std::string newest_first(const HistoryText& history, const std::string& body) {
-    std::string text = history.tested_first ? "" : "    const @coefficient@ *a = @name@_table;\n";
+    std::string text = "    const @coefficient@ *a = @name@_table;\n";
     for (const Piece& piece : history.pieces) {
-        const std::string end = "        const @sample@ *const end = " + piece.end + ";\n@rolled@";
-        const std::string turn = body + "            ++a;\n            ++x;\n";
-        if (history.tested_first) {
-            text += "    {\n" + pointers(piece.begin, piece.from) + end + "        while (x != end) {\n" + turn +
-                    "        }\n    }\n";
-        } else {
-            text += (piece.unless_empty.empty() ? "    {\n" : "    if (" + piece.unless_empty + ") {\n") +
-                    "        const @sample@ *x = " + piece.begin + ";\n" + end + "        do {\n" + turn +
-                    "        } while (x != end);\n    }\n";
-        }
+        // Behind the first piece GCC 14 would make a from x at each turn, which takes two instructions more.
+        const bool first = &piece == &history.pieces.front();
+        text += (piece.unless_empty.empty() ? "    {\n" : "    if (" + piece.unless_empty + ") {\n") +
+                "        const @sample@ *x = " + piece.begin + ";\n        const @sample@ *const end = " + piece.end +
+                ";\n" + (first ? "" : "        @NAME@_KEEP_WORD(a);\n") + "@rolled@        do {\n" + body +
+                "            ++a;\n            ++x;\n        } while (x != end);\n    }\n";
     }
     return text;
 }
@@ -60,7 +56,7 @@ std::string unrolled(int turns) {
 
 TechniqueText plain_text(const HistoryText& history, bool fused) {
     return {.summary = "newest first, one accumulator" + rounded_once(fused),
-            .sum = "    @accumulator@ sum = @name@_start(newest);\n" +
+            .sum = std::string("    @accumulator@ sum = @name@_start(newest);\n") + history.behind_start +
                    newest_first(history, "            sum = " + accumulate(fused) + "(sum, *a, *x);\n"),
             .fused = fused};
 }
@@ -322,8 +318,11 @@ std::string floating_modes(std::size_t modes, bool compensated, bool in_software
     }
     if (modes > 1) {
         // Whole, as long as that is short; of many each turn saves less than its instructions cost to fetch.
-        text += unrolled(modes < 18 ? 8 : compensated ? 10 : 2) + "        for (i = @NAME@_MODES / 2U; i > 0U; --i) {\n" +
-                modes_at_once(2, compensated) + on(2) + "        }\n";
+        text += unrolled(modes < 18    ? 8
+                         : compensated ? 10
+                                       : 2) +
+                "        for (i = @NAME@_MODES / 2U; i > 0U; --i) {\n" + modes_at_once(2, compensated) + on(2) +
+                "        }\n";
     }
     return text;
 }

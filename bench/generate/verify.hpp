@@ -26,10 +26,15 @@ struct Verified {
     /// are called from: no more than this is a cost.
     static constexpr double place_share = 0.04;
 
-    /// Instructions count to the last one, and cycles but for that.
+    /// Beside its calls of some 140 instructions a tap: GCC 14 saves up to six registers more a sample.
+    static constexpr double saved_share = 0.001;
+
+    /// But for that, instructions count to the last one, and cycles too.
     [[nodiscard]] bool good() const {
-        const double place = kernel.ends_with("64") ? place_share : 0.0;
-        return first_wrong == 0 && header_instructions <= kernel_instructions &&
+        const bool in_software = kernel.ends_with("64");
+        const double place = in_software ? place_share : 0.0;
+        return first_wrong == 0 &&
+               header_instructions <= (in_software ? 1.0 + saved_share : 1.0) * kernel_instructions &&
                header_cycles <= (1.0 + place) * kernel_cycles;
     }
 };

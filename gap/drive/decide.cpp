@@ -104,7 +104,11 @@ public:
             }
         }
         for (std::size_t size = 1; size <= 3; ++size) {
-            if (const auto wider = best_of(size); wider && is_better(*wider, chosen, least)) {
+            const auto wider = best_of(size);
+            // The best with one effect less may have been too small a step to be taken; it must be beaten all the same.
+            if (const auto narrower = best_of(size - 1);
+                wider && is_better(*wider, chosen, least) &&
+                (!narrower || is_clear(advantage(ranking_[*wider], ranking_[*narrower])))) {
                 chosen = *wider;
             }
         }

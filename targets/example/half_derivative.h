@@ -28,7 +28,7 @@
  * Measured cost a sample of the kernel that this is made from: 1227.6 model cycles, at most 1289.2, for stm32f746-itcm
  *
  * Command: glsum generate --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
- * glsum 0.1.0, commit d61c04f0514914501fb27aa0c2f7fd8bd0c3966a
+ * glsum 0.1.0, commit b45d29a58d471b1a113069ad79c1c47d8743c38b with changes
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
  * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -falign-functions=8 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
@@ -185,6 +185,7 @@ static inline float half_step_f32(half_f32_instance *S, float newest)
     if (head != 0U) {
         const float *x = S->past;
         const float *const end = S->past + head;
+        HALF_F32_KEEP_WORD(a);
         do {
             sum = half_f32_multiply_add(sum, *a, *x);
             ++a;
