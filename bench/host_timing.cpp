@@ -317,7 +317,12 @@ public:
         SetErrorStream(&errors_);
     }
     void ReportRuns(const std::vector<Run>& runs) override {
-        JSONReporter::ReportRuns(runs);
+        // A variation of counters that are 0, as the coefficients of one tap are, is no number, and NaN no JSON.
+        std::vector<Run> finite = runs;
+        for (Run& run : finite) {
+            std::erase_if(run.counters, [](const auto& counter) { return !std::isfinite(counter.second.value); });
+        }
+        JSONReporter::ReportRuns(finite);
         if (!runs.empty() && runs.front().run_type != Run::RT_Aggregate) {
             progress_.advance();
         }

@@ -213,7 +213,7 @@ void add_options(Command& command, const Words& words) {
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");
     command.add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
     command.add_option("--kernels", options->kernels, "Globs of kernel names").delimiter(',').capture_default_str();
-    command.add_option("--orders", options->orders, "Orders v in (-2, 2]").delimiter(',');
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]").within(-2, 2).delimiter(',');
     command
         .add_option("--taps", options->taps,
                     "Lengths: numbers, full (as many as the record has samples), and of kernels with modes 2+7: two "
@@ -243,8 +243,8 @@ void add_options(Command& command, const Words& words) {
     command
         .add_option("--repetitions", options->repetitions,
                     "Time each kernel so often, 2 ms each, all in random turns: what gate and compare judge by")
-        .in_range(1, 10000);
-    command.add_option("--jobs", options->jobs, "Threads and emulators at once").in_range(1, 1024);
+        .between(1, 10000);
+    command.add_option("--jobs", options->jobs, "Threads and emulators at once").between(1, 1024);
     command.add_option("--out", options->out,
                        "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
     command.callback([options, &words] { run(*options, words.passed_on); });

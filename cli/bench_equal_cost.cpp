@@ -67,12 +67,15 @@ void add_options(Command& command, const Words&) {
     command.add_option("multiplications,--equal-cost", options->costs, "A sample, 4 to 600")
         .delimiter(',')
         .capture_default_str();
-    command.add_option("--orders", options->orders, "Orders v in (-2, 2]").delimiter(',').capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")
+        .within(-2, 2)
+        .delimiter(',')
+        .capture_default_str();
     command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
         .delimiter(',')
         .capture_default_str();
     command.add_flag("--quick", options->quick, "Records of 1000 samples instead of 5000");
-    command.add_option("--jobs", options->jobs, "Threads at once").in_range(1, 1024);
+    command.add_option("--jobs", options->jobs, "Threads at once").between(1, 1024);
     command.add_option("--out", options->out,
                        "Result file (default: results/equal-cost.json); .svg and .png are drawn beside it");
     command.callback([options] {

@@ -315,6 +315,7 @@ void add_options(Command& command, const Words&) {
         .delimiter(',')
         .capture_default_str();
     command.add_option("--orders", options->orders, "Orders v in (-1, 2) that are not whole")
+        .between(-1, 2)
         .delimiter(',')
         .capture_default_str();
     command.add_option("--targets", options->targets, "host alone leaves out modelled cycles")

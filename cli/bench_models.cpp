@@ -487,7 +487,7 @@ void add_options(Command& command, const Words&) {
     command.add_option("--core", options->cores, "Cores of the timing model, files of qemu/cores")
         .delimiter(',')
         .capture_default_str();
-    command.add_option("--jobs", options->jobs, "Threads and emulators at once").in_range(1, 1024);
+    command.add_option("--jobs", options->jobs, "Threads and emulators at once").between(1, 1024);
     command.add_option("--out", options->out, "Result file (default: results/drive.json)");
     command.callback([options] {
         check_targets(options->targets);

@@ -362,12 +362,15 @@ void add_options(Command& command, const Words&) {
     command.add_option("samples,--records", options->records, "Lengths of the records, 1000 to 10000000")
         .delimiter(',')
         .capture_default_str();
-    command.add_option("--orders", options->orders, "Orders v in (-2, 2]").delimiter(',').capture_default_str();
+    command.add_option("--orders", options->orders, "Orders v in (-2, 2]")
+        .within(-2, 2)
+        .delimiter(',')
+        .capture_default_str();
     command.add_option("--signals", options->signals, "Records: step, ramp, sine1, sine5, sine50, noise, drive")
         .delimiter(',')
         .capture_default_str();
     command.add_option("--repetitions", options->repetitions, "Interleaved turns, whose median is taken")
-        .in_range(1, 10000)
+        .between(1, 10000)
         .capture_default_str();
     command.add_option("--out", options->out, "Result file (default: results/records.json)");
     command.callback([options] {

@@ -55,20 +55,28 @@ std::vector<std::string> to_signals(const Budget& budget) {
 std::shared_ptr<Budget> add_budget(Command& command) {
     auto budget = std::make_shared<Budget>();
     budget->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command.add_option("--order", budget->order, "Order v in (-2, 2]").required();
-    command.add_option("--step-s", budget->step_s,
-                       "Seconds from sample to sample: the sines and the drive's response are sampled there");
-    command.add_option("--max-error", budget->max_error,
-                       "Largest error of the sum, relative to the largest exact full-memory sum, before h^-v");
+    command.add_option("--order", budget->order, "Order v in (-2, 2]").within(-2, 2).required();
+    command
+        .add_option("--step-s", budget->step_s,
+                    "Seconds from sample to sample: the sines and the drive's response are sampled there")
+        .within(0, 1000);
+    command
+        .add_option("--max-error", budget->max_error,
+                    "Largest error of the sum, relative to the largest exact full-memory sum, before h^-v")
+        .above(0);
     command.add_option("--signal", budget->signals, "The error is the worst of these records (default: all of them)")
         .delimiter(',');
-    command.add_option("--max-cycles", budget->max_cycles,
-                       "Cycles a sample: the host's, or the timing model's upper end");
-    command.add_option("--max-instructions", budget->max_instructions,
-                       "Instructions a sample, --target m7: ranked and limited in place of cycles");
-    command.add_option("--max-bytes", budget->max_bytes, "Bytes of state and coefficients");
-    command.add_option("--clock-hz", budget->clock_hz, "The core's clock: with --rate-hz, says the share of real time");
-    command.add_option("--rate-hz", budget->rate_hz, "Samples a second");
+    command
+        .add_option("--max-cycles", budget->max_cycles, "Cycles a sample: the host's, or the timing model's upper end")
+        .above(0);
+    command
+        .add_option("--max-instructions", budget->max_instructions,
+                    "Instructions a sample, --target m7: ranked and limited in place of cycles")
+        .above(0);
+    command.add_option("--max-bytes", budget->max_bytes, "Bytes of state and coefficients").above(0);
+    command.add_option("--clock-hz", budget->clock_hz, "The core's clock: with --rate-hz, says the share of real time")
+        .above(0);
+    command.add_option("--rate-hz", budget->rate_hz, "Samples a second").above(0);
     command.add_option("--target", budget->target, "host or m7");
     command.add_option(
         "--core", budget->core,
@@ -80,8 +88,8 @@ std::shared_ptr<Budget> add_budget(Command& command) {
                        "build count, at h = 1 ms");
     command.add_flag("--fresh", budget->fresh, "Measure everything, whatever the results hold");
     command.add_flag("--quick", budget->quick, "Records of 1000 samples instead of 5000, like bench --quick");
-    command.add_option("--samples", budget->samples, "Records of so many samples (2 to 8000)");
-    command.add_option("--jobs", budget->jobs, "Threads and emulators at once").positive();
+    command.add_option("--samples", budget->samples, "Records of so many samples (2 to 8000)").between(2, 8000);
+    command.add_option("--jobs", budget->jobs, "Threads and emulators at once").at_least(1);
     return budget;
 }
 
@@ -106,6 +114,9 @@ choose::Question to_question(const Budget& budget) {
     check_positive("--rate-hz", budget.rate_hz);
     if (budget.clock_hz.has_value() != budget.rate_hz.has_value()) {
         refuse("--clock-hz and --rate-hz: expected both or none");
+    }
+    if (budget.rate_hz && std::fabs(*budget.rate_hz * budget.step_s - 1.0) > 0.01) {
+        refuse(fmt::format("--rate-hz: expected 1 / --step-s, {:.6g}, found {}", 1.0 / budget.step_s, *budget.rate_hz));
     }
     if (budget.target != "host" && budget.target != "m7") {
         refuse(fmt::format("--target: expected host or m7, found {}", budget.target));

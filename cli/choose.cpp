@@ -71,9 +71,11 @@ void add_options(Command& command, const Words&) {
     }
     command.add_option("--json", *json, "Writes the answer there too");
     auto against = std::make_shared<Check>();
-    command.add_option("--check-against-brute-force", against->budgets,
-                       "Draws so many budgets and compares the search with a plain loop over every kernel and length");
-    command.add_option("--seed", against->seed, "Of the budgets drawn").capture_default_str();
+    command
+        .add_option("--check-against-brute-force", against->budgets,
+                    "Draws so many budgets and compares the search with a plain loop over every kernel and length")
+        .at_least(1);
+    command.add_option("--seed", against->seed, "Of the budgets drawn").at_least(0).capture_default_str();
     command.footer(
         "Records are sampled at --step-s: sines and the drive's response are the same signals at other instants; "
         "step,\n"

@@ -1,6 +1,9 @@
 #include "cli/command.hpp"
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
@@ -9,13 +12,43 @@
 #include "qemu/failure.hpp"
 
 namespace cli {
+namespace {
+
+void check(CLI::Option& option, const std::string& range, const std::function<bool(double)>& holds) {
+    option.check(CLI::Validator(
+        [range, holds](const std::string& word) {
+            double value = std::nan("");
+            const bool is_number = CLI::detail::lexical_cast(word, value) && std::isfinite(value);
+            return is_number && holds(value) ? std::string()
+                                             : fmt::format("expected a number {}, found {}", range, word);
+        },
+        range));
+}
+
+}  // namespace
 
 Option& Option::required() { return option_->required(), *this; }
 Option& Option::delimiter(char between) { return option_->delimiter(between), *this; }
 Option& Option::expected(int least, int most) { return option_->expected(least, most), *this; }
 Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
-Option& Option::in_range(int lowest, int highest) { return option_->check(CLI::Range(lowest, highest)), *this; }
-Option& Option::positive() { return option_->check(CLI::PositiveNumber), *this; }
+Option& Option::above(double bound) {
+    check(*option_, fmt::format("above {}", bound), [bound](double value) { return value > bound; });
+    return *this;
+}
+Option& Option::at_least(double lowest) {
+    check(*option_, fmt::format("of at least {}", lowest), [lowest](double value) { return value >= lowest; });
+    return *this;
+}
+Option& Option::between(double lowest, double highest) {
+    check(*option_, fmt::format("from {} to {}", lowest, highest),
+          [lowest, highest](double value) { return value >= lowest && value <= highest; });
+    return *this;
+}
+Option& Option::within(double above, double highest) {
+    check(*option_, fmt::format("in ({}, {}]", above, highest),
+          [above, highest](double value) { return value > above && value <= highest; });
+    return *this;
+}
 Option& Option::one_of(std::initializer_list<std::string> words) {
     return option_->check(CLI::IsMember(std::vector<std::string>(words))), *this;
 }
@@ -42,6 +75,7 @@ template Option Command::add_option(const std::string&, std::string&, const std:
 template Option Command::add_option(const std::string&, std::filesystem::path&, const std::string&);
 template Option Command::add_option(const std::string&, std::optional<double>&, const std::string&);
 template Option Command::add_option(const std::string&, std::optional<unsigned>&, const std::string&);
+template Option Command::add_option(const std::string&, std::optional<std::size_t>&, const std::string&);
 template Option Command::add_option(const std::string&, std::optional<std::string>&, const std::string&);
 template Option Command::add_option(const std::string&, std::vector<double>&, const std::string&);
 template Option Command::add_option(const std::string&, std::vector<std::string>&, const std::string&);

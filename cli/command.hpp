@@ -25,8 +25,11 @@ public:
     Option& delimiter(char between);        ///< of the words of a list
     Option& expected(int least, int most);  ///< words
     Option& needs(const Option& other);
-    Option& in_range(int lowest, int highest);
-    Option& positive();
+    // What its numbers may be, which the help says, and the error to any other word.
+    Option& above(double bound);
+    Option& at_least(double lowest);
+    Option& between(double lowest, double highest);
+    Option& within(double above, double highest);
     Option& one_of(std::initializer_list<std::string> words);
     Option& type_name(const std::string& name);  ///< in the help
     Option& capture_default_str();               ///< the help tells what the target now holds

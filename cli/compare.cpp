@@ -60,7 +60,7 @@ void add_options(Command& command, const Words&) {
     command.add_option("B", options->b, "Result file").required();
     command.add_option("--rows", options->rows, "Globs of row names").delimiter(',').capture_default_str();
     command.add_option("--counters", options->counters, "Globs of counters").delimiter(',').capture_default_str();
-    command.add_option("--show", options->shown, "How many of the largest changes").capture_default_str();
+    command.add_option("--show", options->shown, "How many of the largest changes").at_least(0).capture_default_str();
     command.add_option("--thresholds", options->thresholds, "Rules that say which direction is better");
     command.add_flag("--force", options->force, "Compare what is not comparable");
     options->json = command.add_option("--json", options->json_file, "Every pair; to standard output without FILE")

@@ -37,19 +37,18 @@ struct Options {
     unsigned jobs = 1;
 };
 
-// Validation that was trained on; said at once, since the rest takes a while.
-bool repeats_training(const gap::Question& question) {
-    bool repeats = false;
+void refuse_training_as_validation(const gap::Question& question) {
     for (const gap::Record& record : question.validate) {
         for (const gap::Record& trained : question.train) {
             if (record.input == trained.input && record.output == trained.output) {
-                fmt::print(stderr, "glsum: warning: {}: is the training log itself: what fits it proves nothing\n",
-                           record.name);
-                repeats = true;
+                throw glsum::Failure(
+                    glsum::Exit::bad_input,
+                    fmt::format("{}: expected a log that is not fitted, found the training log itself; "
+                                "without --validate, parts of each log are kept aside",
+                                record.name));
             }
         }
     }
-    return repeats;
 }
 
 void check_split(const gap::Question& question) {
@@ -136,12 +135,9 @@ void run(const Options& options) {
                                  options.without,
                                  options.jobs};
     check_split(question);
-    const bool same = repeats_training(question);
-    gap::Answer answer = gap::diagnose(question, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
-    if (same) {
-        answer.notes.emplace_back("a validation log is a training log itself: what fits it proves nothing");
-        answer.decision.confidence = std::min(answer.decision.confidence, 0.5);
-    }
+    refuse_training_as_validation(question);
+    const gap::Answer answer =
+        gap::diagnose(question, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
     fmt::print("{}", gap::to_text(answer));
     if (!options.json.empty()) {
         put(gap::to_json(answer), options.json);
@@ -151,6 +147,10 @@ void run(const Options& options) {
     }
     if (!options.improved.empty()) {
         put(gap::improved_model(answer), options.improved);
+        for (const std::string& event : gap::events_of(answer)) {
+            fmt::print(stderr, "glsum: warning: {}: without {}, an event of one record and not of the model\n",
+                       options.improved.string(), event);
+        }
     }
 }
 
@@ -160,7 +160,7 @@ void add_options(Command& command, const Words&) {
     command.takes_one_subcommand();
     auto options = std::make_shared<Options>();
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command.add_option("--jobs", options->jobs, "Threads").positive();
+    command.add_option("--jobs", options->jobs, "Threads").at_least(1);
     auto set = std::make_shared<std::filesystem::path>();
     command.add_option("--batch", *set,
                        "Judge each case of a blind set: DIR/NNN/ with model.json, train*.csv and validate*.csv; writes "
@@ -187,8 +187,9 @@ void add_options(Command& command, const Words&) {
         .required();
     of_drive.add_option("--log", options->logs, "Logs that are fitted").required();
     of_drive.add_option("--validate", options->validate, "Logs that are not: the verdict is taken there");
-    of_drive.add_option("--split", options->split_s,
-                        "SECONDS: the logs up to there are fitted, the rest of each validates");
+    of_drive
+        .add_option("--split", options->split_s, "SECONDS: the logs up to there are fitted, the rest of each validates")
+        .above(0);
     of_drive.add_flag("--refit", options->refit, "Fit the model first");
     of_drive
         .add_option("--metric", options->metric,
@@ -200,7 +201,7 @@ void add_options(Command& command, const Words&) {
     of_drive.add_option("--json", options->json, "The verdict, schema glsum-gap-1");
     of_drive.add_option("--html", options->html, "A page with curves, ranking and where the gap lies");
     of_drive.add_option("--improved", options->improved, "The model with the effect, which simulate runs");
-    of_drive.add_option("--jobs", options->jobs, "Threads").positive();
+    of_drive.add_option("--jobs", options->jobs, "Threads").at_least(1);
     of_drive.callback([options] { run(*options); });
 }
 

@@ -269,8 +269,8 @@ void add_diagnose_cycles(Command& diagnose) {
     Option blind = command.add_option(
         "--blind", options->blind,
         "Instead: so many measurements of cores with secret switches and costs, sealed and diagnosed from their files");
-    blind.in_range(1, 10000);
-    command.add_option("--seed", options->seed, "Of --blind").capture_default_str();
+    blind.between(1, 10000);
+    command.add_option("--seed", options->seed, "Of --blind").at_least(0).capture_default_str();
     command.add_option("--out", options->out, "The folder of --blind");
     command.callback([options] {
         if (options->blind == 0 && options->measured.empty()) {

@@ -47,6 +47,12 @@ void warn_if_unstable(const drive::Model& model, const std::string& name) {
     }
 }
 
+gap::Improved simulate_effects(const drive::Model& model, const drive::Log& log, const std::string& name) {
+    gap::Record record{log.name, log.time_s, log.input, {}, 0.0};
+    record.usual_interval_s = (log.time_s.back() - log.time_s.front()) / static_cast<double>(log.time_s.size() - 1);
+    return gap::simulate_improved(model, record, name);
+}
+
 void add_column_options(Command& command, drive::Columns& columns) {
     command.add_option("--time-column", columns.time, "Column of the stamps; usually time_s");
     command.add_option("--input-column", columns.input, "Column of the input; usually input or duty");
@@ -56,7 +62,7 @@ void add_column_options(Command& command, drive::Columns& columns) {
                        "Divide the output by this: encoder counts to units");
     command
         .add_option("--counter-bits", columns.counter_bits, "Counts come from a counter of so many bits, which wraps")
-        .in_range(2, 52);
+        .between(2, 52);
 }
 
 void put(const std::string& text, const std::filesystem::path& path) {

@@ -8,11 +8,15 @@
 #include "cli/command.hpp"
 #include "drive/log.hpp"
 #include "drive/model.hpp"
+#include "gap/drive/improved.hpp"
 #include "gap/drive/record.hpp"
 
 namespace cli {
 
 [[nodiscard]] drive::Model read_model(const std::filesystem::path& path);
+
+/// A model that diagnose improved, at a log's stamps, from rest; without effects where it has none.
+[[nodiscard]] gap::Improved simulate_effects(const drive::Model& model, const drive::Log& log, const std::string& name);
 
 /// Says the log's warnings on standard error.
 [[nodiscard]] drive::Log read_log(const std::filesystem::path& path, const drive::Columns& columns);

@@ -28,7 +28,7 @@ using glsum::Failure;
 struct Options {
     std::string kernel;
     std::string taps;
-    std::string prefix = "glsum";
+    std::string prefix;
     std::string licence;
     std::string out;
     bool verify = false;
@@ -100,7 +100,9 @@ generate::Spec to_spec(const Options& options, const Budget& budget, const std::
     spec.order = budget.order;
     spec.taps = taps;
     spec.step_s = budget.step_s;
-    spec.prefix = options.prefix;
+    spec.prefix = !options.prefix.empty() ? options.prefix
+                  : options.out.empty()   ? spec.prefix
+                                          : generate::prefix_of_file(options.out);
     spec.horizon = samples_of(budget);
     if (!options.licence.empty()) {
         spec.licence = options.licence;
@@ -172,7 +174,8 @@ void add_options(Command& command, const Words& words) {
     command.add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
     command.add_option("--taps", options->taps,
                        "Its length, with --kernel: a number, or 2+7 of near taps and modes or blocks");
-    command.add_option("--prefix", options->prefix, "Begins every identifier of the header").capture_default_str();
+    command.add_option("--prefix", options->prefix,
+                       "Begins every identifier of the header (default: the name of its file)");
     command.add_option("--licence", options->licence, "The header's licence line");
     command.add_option("--out", options->out, "The header");
     command.add_flag("--verify", options->verify,

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 #include <vector>
 
@@ -45,7 +46,9 @@ std::string row(const std::string& name, const std::string& text) {
 std::string row_of(const CLI::Option& option, bool positional) {
     std::string name = option.get_name(positional, !positional);
     if (option.get_type_size() != 0) {
-        name += option.get_type_name().empty() ? "" : ' ' + option.get_type_name();
+        std::string type = option.get_type_name();
+        std::replace(type.begin(), type.end(), ':', ' ');  // FLOAT:above 0
+        name += type.empty() ? "" : ' ' + type;
         name += option.get_default_str().empty() ? "" : '=' + option.get_default_str();
         name += option.get_expected_max() > 2 ? " ..." : "";
     }

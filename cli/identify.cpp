@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "bench/files.hpp"
@@ -39,6 +41,7 @@ struct Options {
     std::vector<std::string> set;
     std::vector<std::string> bounds;
     drive::FitOptions fit;
+    std::optional<std::size_t> starts;
     std::filesystem::path controller;
     std::string intervals = "profile";
     std::string method = "least-squares";
@@ -245,6 +248,21 @@ void run(const Options& given) {
     Options options = given;
     options.fit.prediction_error = options.method == "prediction-error";
     options.fit.profile = options.intervals == "profile";
+    // Intervals of a long log take most of a minute.
+    std::optional<bench::Progress> intervals;
+    const auto begin = std::chrono::steady_clock::now();
+    options.fit.on_interval_end = [&](std::size_t done, std::size_t all) {
+        if (intervals) {
+            intervals->advance();
+        } else if (std::chrono::steady_clock::now() - begin > std::chrono::seconds(2)) {
+            intervals.emplace("intervals", all).advance(done);
+        }
+        if (done == all) {
+            intervals.reset();
+        }
+    };
+    options.fit.starts = options.starts.value_or(1);
+    options.fit.starts_if_poor = options.starts ? 0 : 7;
     if (options.coverage > 0) {
         show_coverage(options);
         return;
@@ -363,31 +381,38 @@ void add_options(Command& command, const Words&) {
         .delimiter(',');
     command.add_option("--set", options->set, "NAME=VALUE: its start").delimiter(',');
     command.add_option("--bound", options->bounds, "NAME=LOW:HIGH").delimiter(',');
-    command.add_option("--accept", options->fit.accepted_error, "E_c: stop when the sum of squares is at most this");
-    command.add_option("--iterations", options->fit.iterations, "Stop after so many").capture_default_str();
-    command.add_option("--starts", options->fit.starts, "Also from random starts, so many in all")
-        .capture_default_str();
+    command.add_option("--accept", options->fit.accepted_error, "E_c: stop when the sum of squares is at most this")
+        .at_least(0);
+    command.add_option("--iterations", options->fit.iterations, "Stop after so many").at_least(1).capture_default_str();
+    command
+        .add_option("--starts", options->starts,
+                    "Also from random starts, so many in all (default: one, and seven more where that ends poorly)")
+        .at_least(1);
     command
         .add_option("--seed", options->fit.seed,
                     "Of the random starts, and of the logs of --coverage: another set for each")
+        .at_least(0)
         .capture_default_str();
     command.add_flag("--static", options->characteristic,
                      "Instead: the static characteristic, where the output rests for each level of the input");
     command.add_option("--hold-s", options->shortest_hold_s, "Of --static: shorter holds are passed over")
+        .above(0)
         .capture_default_str();
-    command.add_option("--coverage", options->coverage,
-                       "Fit so many noisy logs of --start and count the truths inside");
+    command.add_option("--coverage", options->coverage, "Fit so many noisy logs of --start and count the truths inside")
+        .at_least(1);
     command.add_option("--input", options->acquisition.excitation.name, "Of --coverage: step, pulse or staircase")
         .capture_default_str();
-    command.add_option("--until-s", options->acquisition.until_s, "Of --coverage").capture_default_str();
-    command.add_option("--interval-s", options->acquisition.interval_s, "Of --coverage").capture_default_str();
-    command.add_option("--jitter-s", options->acquisition.jitter_s, "Of --coverage").capture_default_str();
+    command.add_option("--until-s", options->acquisition.until_s, "Of --coverage").above(0).capture_default_str();
+    command.add_option("--interval-s", options->acquisition.interval_s, "Of --coverage").above(0).capture_default_str();
+    command.add_option("--jitter-s", options->acquisition.jitter_s, "Of --coverage").at_least(0).capture_default_str();
     command.add_option("--noise", options->acquisition.noise, "Of --coverage: standard deviation")
+        .at_least(0)
         .capture_default_str();
     command.add_option("--quantum", options->acquisition.quantum, "Of --coverage: step of the encoder")
+        .at_least(0)
         .capture_default_str();
     add_column_options(command, options->columns);
-    command.add_option("--jobs", options->fit.jobs, "Threads").positive();
+    command.add_option("--jobs", options->fit.jobs, "Threads").at_least(1);
     command.add_flag("--json", options->json, "JSON instead of text");
     command.add_option("--out", options->out, "Model JSON");
     command.add_option("--plot", options->plot, "Draw measured, start and fitted: STEM.svg and STEM.png");

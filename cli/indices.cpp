@@ -30,8 +30,8 @@ void run(const Options& options) {
     drive::Columns columns = options.columns;
     columns.needs_input = !options.models.empty();
     const drive::Log log = read_ordered_log(options.log, columns);
-    std::vector<double> from_start = log.time_s;
-    for (double& t : from_start) {
+    drive::Log from_start = log;
+    for (double& t : from_start.time_s) {
         t -= log.time_s.front();
     }
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
@@ -57,8 +57,12 @@ void run(const Options& options) {
                        {"max_error", found.max_error}});
     };
     for (const auto& path : options.models) {
-        const auto changes = drive::changes_of(from_start, log.input);
-        add(path.string(), drive::respond(read_model(path), changes, from_start));
+        const drive::Model model = read_model(path);
+        const gap::Improved improved = simulate_effects(model, from_start, path.string());
+        add(path.string(),
+            improved.effects.empty()
+                ? drive::respond(model, drive::changes_of(from_start.time_s, log.input), from_start.time_s)
+                : improved.output);
     }
     if (!options.simulated.empty()) {
         drive::Columns simulated_columns;
@@ -86,7 +90,8 @@ void run(const Options& options) {
 void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
-        "A model is simulated exactly, at the log's own stamps, from rest.\n"
+        "A model is simulated exactly, at the log's own stamps, from rest; one that diagnose improved, with its "
+        "effects.\n"
         "Example: glsum indices log.csv --model drive/models/niopdt.json --model drive/models/sopdt.json");
     command.add_option("log,--log", options->log, "Measured log, CSV").required();
     command.add_option("--model", options->models, "Model JSON; repeatable");

@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
     // The launcher tells every command how many jobs may run at once.
     unsigned unused_jobs = 1;
     if (!command.has_option("--jobs")) {
-        command.add_option("--jobs", unused_jobs, "").positive().hidden();
+        command.add_option("--jobs", unused_jobs, "").at_least(1).hidden();
     }
     try {
         return command.parse(prepare_words(argc, argv, words.passed_on));

@@ -38,7 +38,7 @@ void add_options(Command& command, const Words&) {
     command.add_flag("--allow-mixed-hosts", options->allow_mixed_hosts,
                      "Shards may come from different CPUs; the context then says mixed_hosts");
     command.add_option("--jobs", options->jobs, "Threads at once, for the bound that the picture draws")
-        .in_range(1, 1024);
+        .between(1, 1024);
     command.add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
     command.callback([options] { run(*options); });
 }

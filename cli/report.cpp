@@ -44,6 +44,10 @@ void run(Options options) {
                                  fmt::format("--out: {} is a result file; it would be overwritten", file.string()));
         }
     }
+    if (options.out.extension() != ".html" && options.out.extension() != ".htm") {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("--out: expected a name that ends in .html, found {}", options.out.string()));
+    }
     bench::check_writable(options.out);
     const bench::report::Input input = read(options.files[0], options.jobs);
     const auto other = options.files.size() > 1 ? std::optional(read(options.files[1], options.jobs)) : std::nullopt;
@@ -79,7 +83,7 @@ void add_options(Command& command, const Words&) {
         .expected(0, 2);
     command.add_option("--out", options->out,
                        "The page; .csv, .svg and .png are written beside it (default: beside A)");
-    command.add_option("--jobs", options->jobs, "Threads").positive();
+    command.add_option("--jobs", options->jobs, "Threads").at_least(1);
     command.callback([options] { run(*options); });
 }
 

@@ -39,7 +39,7 @@ void add_options(Command& command, const Words&) {
         "are left out, gaps are bridged.\nExample: glsum resample log.csv --step-s 0.001 --method linear --out "
         "even.csv");
     command.add_option("log,--log", options->log, "Log, CSV with time_s and the output").required();
-    command.add_option("--step-s", options->step_s, "New sampling time").capture_default_str();
+    command.add_option("--step-s", options->step_s, "New sampling time").above(0).capture_default_str();
     command.add_option("--method", options->method, "linear or zoh (zero-order hold); the input is always held")
         .one_of({"linear", "zoh"})
         .capture_default_str();

@@ -179,7 +179,7 @@ void add_options(Command& command, const Words&) {
     command.add_flag("--no-oracle", options->no_oracle,
                      "Without the true effects refitted: says nothing of what is identifiable, and takes no time");
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command.add_option("--jobs", options->jobs, "Threads").positive();
+    command.add_option("--jobs", options->jobs, "Threads").at_least(1);
     command.add_flag("--goals", options->goals, "Exit 1 unless what is to be reached is");
     command.add_option("--json", options->json, "Write all numbers as JSON");
     command.callback([options] { run(*options); });

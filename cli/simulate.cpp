@@ -15,7 +15,6 @@
 #include "drive/pictures.hpp"
 #include "drive/response.hpp"
 #include "drive/simulation.hpp"
-#include "gap/drive/improved.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
@@ -100,12 +99,9 @@ drive::Log make_record(const Options& options, double step_s) {
     return record;
 }
 
-// A model that diagnose improved: its effects are simulated with it. \return whether it has any
-bool simulate_effects(const drive::Model& model, drive::Log record, const Options& options) {
-    gap::Record stamped{record.name, record.time_s, record.input, {}, 0.0};
-    stamped.usual_interval_s =
-        (record.time_s.back() - record.time_s.front()) / static_cast<double>(record.time_s.size() - 1);
-    const gap::Improved improved = gap::simulate_improved(model, stamped, options.model.string());
+// A model that diagnose improved: its effects are simulated with it. \return  whether it has any
+bool tell_of_effects(const drive::Model& model, drive::Log record, const Options& options) {
+    const gap::Improved improved = simulate_effects(model, record, options.model.string());
     if (improved.effects.empty()) {
         return false;
     }
@@ -135,7 +131,7 @@ void run(Options options) {
     options.scheme.taps = to_taps(options.taps);
     options.scheme.forcing = options.sampled ? drive::Forcing::sampled : drive::Forcing::held;
     drive::Log record = make_record(options, options.scheme.step_s);
-    if (simulate_effects(model, record, options)) {
+    if (tell_of_effects(model, record, options)) {
         return;
     }
     const std::string method =
@@ -233,10 +229,13 @@ void add_options(Command& command, const Words&) {
         .capture_default_str();
     command.add_option("--amplitude", options->excitation.amplitude, "Of step, pulse and staircase")
         .capture_default_str();
-    command.add_option("--off-s", options->excitation.off_s, "When the pulse ends").capture_default_str();
-    command.add_option("--stairs", options->excitation.stairs, "Stairs up, and down again").capture_default_str();
+    command.add_option("--off-s", options->excitation.off_s, "When the pulse ends").at_least(0).capture_default_str();
+    command.add_option("--stairs", options->excitation.stairs, "Stairs up, and down again")
+        .at_least(1)
+        .capture_default_str();
     command.add_flag("--exact", options->exact, "The exact response instead of steps");
     command.add_option("--at", options->at_s, "The exact unit step response at these times, to 18 digits")
+        .at_least(0)
         .delimiter(',');
     command.add_option("--kernel", options->scheme.kernel,
                        "A kernel's name; double with one merged table if not given");
@@ -244,11 +243,14 @@ void add_options(Command& command, const Words&) {
     command.add_flag("--increments", options->scheme.increments, "Orders v - 1 on the increments of the output");
     command.add_flag("--merged", options->scheme.merged,
                      "With --kernel: one merged table instead of a sum for each order");
-    command.add_option("--full-scale", options->scheme.full_scale, "Fixed point: the output that stands for 1");
+    command.add_option("--full-scale", options->scheme.full_scale, "Fixed point: the output that stands for 1")
+        .above(0);
     command.add_flag("--sampled", options->sampled,
                      "The input is continuous, given at the samples: force with the newest");
-    command.add_option("--step-s", options->step_s, "Step h; usually the model's sample_time_s, or 0.001");
-    command.add_option("--until,--until-s", options->until_s, "Length of the record in s").capture_default_str();
+    command.add_option("--step-s", options->step_s, "Step h; usually the model's sample_time_s, or 0.001").above(0);
+    command.add_option("--until,--until-s", options->until_s, "Length of the record in s")
+        .above(0)
+        .capture_default_str();
     command.add_flag("--no-compare", options->no_compare, "Leave out the comparison with the exact response");
     add_column_options(command, options->columns);
     command.add_flag("--json", options->json, "The summary as JSON");

@@ -90,9 +90,11 @@ void add_options(Command& command, const Words&) {
         "A dead time does not change the verdict of an open loop.\n"
         "Example: glsum stability --model drive/models/niopdt.json --plot roots");
     command.add_option("--model", options->model, "Model JSON").required();
-    command.add_option(
-        "--base-order,--q", options->base_order,
-        "Base order q: the orders are rounded to its multiples; usually 0.01, and 1 where all orders are whole");
+    command
+        .add_option(
+            "--base-order,--q", options->base_order,
+            "Base order q: the orders are rounded to its multiples; usually 0.01, and 1 where all orders are whole")
+        .within(0, 2);
     command.add_flag("--json", options->json, "JSON instead of text");
     command.add_option("--out", options->out, "File; printed if not given");
     command.add_option("--plot", options->plot, "Also draw the roots: STEM.svg and STEM.png");

@@ -162,19 +162,24 @@ void add_options(Command& command, const Words&) {
                     "series (four pulses into a folder), pulse, step, staircase, ramp, chirp, prbs or release")
         .capture_default_str();
     command.add_option("--duty", options->experiment.duty, "Of step and pulse; the highest of others")
+        .between(0, 1)
         .capture_default_str();
     command.add_option("--low-duty", options->experiment.low_duty, "The lowest of staircase, ramp, chirp and prbs")
+        .between(0, 1)
         .capture_default_str();
-    command.add_option("--off-s", options->experiment.off_s, "When the pulse ends").capture_default_str();
+    command.add_option("--off-s", options->experiment.off_s, "When the pulse ends").at_least(0).capture_default_str();
     command.add_option("--until,--until-s", options->experiment.until_s, "Length of the record in s")
+        .above(0)
         .capture_default_str();
-    command.add_option("--stairs", options->experiment.stairs, "Stairs up, and down again").capture_default_str();
-    command.add_option("--from-hz", options->experiment.from_hz, "Of the chirp").capture_default_str();
-    command.add_option("--to-hz", options->experiment.to_hz, "Of the chirp").capture_default_str();
-    command.add_option("--bit-s", options->experiment.bit_s, "Of the PRBS").capture_default_str();
+    command.add_option("--stairs", options->experiment.stairs, "Stairs up, and down again")
+        .at_least(1)
+        .capture_default_str();
+    command.add_option("--from-hz", options->experiment.from_hz, "Of the chirp").above(0).capture_default_str();
+    command.add_option("--to-hz", options->experiment.to_hz, "Of the chirp").above(0).capture_default_str();
+    command.add_option("--bit-s", options->experiment.bit_s, "Of the PRBS").above(0).capture_default_str();
     command.add_option("--angle", options->experiment.angle_rad, "Release: where the bar is held, in rad")
         .capture_default_str();
-    command.add_option("--seed", options->seed, "Of stamps, noise and bits").capture_default_str();
+    command.add_option("--seed", options->seed, "Of stamps, noise and bits").at_least(0).capture_default_str();
     command.add_flag("--truth", options->truth, "Further columns: what nobody measured");
     command.add_option("--out", options->out, "CSV file, or the folder of a series; printed if not given");
     command.add_option("--plot", options->plot, "Draw STEM.svg and STEM.png");
@@ -182,8 +187,8 @@ void add_options(Command& command, const Words&) {
         .add_option("--blind", options->blind,
                     "Instead: so many cases for a diagnosis, each with a model, two logs and an effect that only "
                     "the sealed truth names, into the folder --out")
-        .in_range(1, 999);
-    command.add_option("--jobs", options->jobs, "Threads, of --blind").positive();
+        .between(1, 999);
+    command.add_option("--jobs", options->jobs, "Threads, of --blind").at_least(1);
     command.callback([options] { run(*options); });
 }
 

@@ -246,7 +246,7 @@ void add_options(Command& command, const Words&) {
         .delimiter(',');
     command.add_option("--json", options->json, "Writes the result there");
     command.add_option("--timeout", options->timeout, "Seconds that the program may stay silent")
-        .positive()
+        .at_least(1)
         .capture_default_str();
     command.callback([options] { run(*options); });
 }

@@ -13,6 +13,7 @@
 #include "drive/descend.hpp"
 #include "drive/predictor.hpp"
 #include "drive/profile.hpp"
+#include "drive/stability.hpp"
 #include "qemu/failure.hpp"
 
 namespace drive {
@@ -84,6 +85,37 @@ std::vector<double> fit_noise(const Eigen::VectorXd& residuals, const std::vecto
     return best;
 }
 
+double lag_one(const Eigen::VectorXd& residuals) {
+    const Eigen::Index pairs = residuals.size() - 1;
+    const double squares = residuals.squaredNorm();
+    return squares > 0.0 ? residuals.head(pairs).dot(residuals.tail(pairs)) / squares : 0.0;
+}
+
+bool at_a_bound(const Parameter& parameter, double value) {
+    const double reach = 1e-7 * std::max(1.0, std::fabs(value));
+    return value <= parameter.lower + reach || value >= parameter.upper - reach;
+}
+
+// Whether a minimum is likely not to be the least. A dead time of 0 is one like another.
+bool ends_poorly(const Form& form, const Predictor& predictor, const Attempt& attempt) {
+    if (!std::isfinite(attempt.sum_of_squares)) {
+        return true;
+    }
+    for (std::size_t p = 0; p < attempt.values.size(); ++p) {
+        const Parameter& parameter = form.parameters()[predictor.free()[p]];
+        if (parameter.name != "delay_s" && at_a_bound(parameter, attempt.values[p])) {
+            return true;
+        }
+    }
+    if (zeros_right_of_axis(form.to_model(predictor.all_values(attempt.values.data())).denominator) > 0) {
+        return true;
+    }
+    Eigen::VectorXd residuals;
+    predictor.evaluate(attempt.values.data(), residuals, nullptr);
+    // Of white noise it is within two deviations of 0; sensors' noise is seldom coloured by more than a fifth.
+    return lag_one(residuals) > std::max(0.2, 4.0 / std::sqrt(static_cast<double>(residuals.size())));
+}
+
 void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::VectorXd& residuals,
            const Jacobian& jacobian, const std::vector<double>& values) {
     const auto free = static_cast<Eigen::Index>(predictor.free().size());
@@ -91,11 +123,7 @@ void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::
     const double freedom = static_cast<double>(samples - free);
     const double variance = residuals.squaredNorm() / freedom;
     fit.noise_deviation = std::sqrt(variance);
-    double product = 0.0;
-    for (Eigen::Index k = 1; k < samples; ++k) {
-        product += residuals(k) * residuals(k - 1);
-    }
-    fit.lag_one = residuals.squaredNorm() > 0.0 ? product / residuals.squaredNorm() : 0.0;
+    fit.lag_one = lag_one(residuals);
     // Columns of one length, so that the singular values compare parameters of different units.
     Eigen::VectorXd length = jacobian.colwise().norm();
     Eigen::MatrixXd scaled = jacobian;
@@ -134,8 +162,7 @@ void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::
                                 "tell it, fix it or excite more",
                                 parameter.name, 200.0 * quantile * estimate.deviation / std::fabs(values[i])));
             }
-            const double reach = 1e-7 * std::max(1.0, std::fabs(values[i]));
-            if (values[i] <= parameter.lower + reach || values[i] >= parameter.upper - reach) {
+            if (at_a_bound(parameter, values[i])) {
                 fit.warnings.push_back(
                     fmt::format("{}: ends at its bound {}; its interval means nothing", parameter.name, values[i]));
             }
@@ -190,14 +217,33 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
     }
     const Descent descent{options.accepted_error, options.iterations};
     std::vector<double> noise_model;
-    std::vector<Attempt> attempts(std::max<std::size_t>(options.starts, 1));
-    bench::parallel_for(attempts.size(), options.jobs, [&](std::size_t i) {
-        attempts[i] =
-            descend(form, predictor, i == 0 ? start : random_start(form, predictor, longest_s, options.seed + i),
-                    noise_model, descent);
-    });
-    const auto better = [](const Attempt& a, const Attempt& b) { return a.sum_of_squares < b.sum_of_squares; };
-    Attempt best = *std::min_element(attempts.begin(), attempts.end(), better);
+    std::vector<Attempt> attempts;
+    Attempt best;
+    const auto attempt = [&](std::size_t more, const Descent& how) {
+        const std::size_t before = attempts.size();
+        attempts.resize(before + more);
+        bench::parallel_for(more, options.jobs, [&](std::size_t k) {
+            const std::size_t i = before + k;
+            attempts[i] =
+                descend(form, predictor, i == 0 ? start : random_start(form, predictor, longest_s, options.seed + i),
+                        noise_model, how);
+        });
+        best = *std::min_element(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
+            return a.sum_of_squares < b.sum_of_squares;
+        });
+    };
+    attempt(std::max<std::size_t>(options.starts, 1), descent);
+    if (options.starts_if_poor > 0 && ends_poorly(form, predictor, best)) {
+        // Some start where nothing is near, and go on for ever: who leads after a few steps goes on alone.
+        Descent few = descent;
+        few.iterations = std::min(descent.iterations, 25);
+        attempt(options.starts_if_poor, few);
+        const int before = best.iterations;
+        if (before >= few.iterations) {
+            best = descend(form, predictor, best.values, noise_model, descent);
+            best.iterations += before;
+        }
+    }
     if (!std::isfinite(best.sum_of_squares)) {
         throw glsum::Failure(
             glsum::Exit::check_failed,
@@ -224,6 +270,10 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
         next.iterations += best.iterations;
         best = std::move(next);
     }
+    const std::vector<double> values = form.in_order(predictor.all_values(best.values.data()));
+    for (std::size_t p = 0; p < best.values.size(); ++p) {
+        best.values[p] = values[predictor.free()[p]];
+    }
     predictor.evaluate(best.values.data(), residuals, &jacobian);
     found.sum_of_squares = residuals.squaredNorm();
     found.noise_model = noise_model;
@@ -231,7 +281,6 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
     found.stopped = best.stopped;
     predictor.whiten(residuals, noise_model);
     predictor.whiten(jacobian, noise_model);
-    const std::vector<double> values = predictor.all_values(best.values.data());
     found.model = form.to_model(values);
     found.offset = values.back();
     judge(found, form, predictor, residuals, jacobian, values);

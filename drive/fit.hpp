@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ struct FitOptions {
     double accepted_error = 0.0;  ///< E_c of (9): stop when the sum of squares is at most this
     int iterations = 200;         ///< or after so many
     std::size_t starts = 1;       ///< the first from the parameters as they are, others from seeded random ones
+    /// So many more where the best of them ends at a bound, grows, or leaves what no noise is: neighbours that are alike.
+    std::size_t starts_if_poor = 0;
     std::uint64_t seed = 1;
     /// Prediction-error method: the residuals are whitened by an autoregressive noise model of BIC's order, fitted in
     /// turns.
@@ -24,6 +27,8 @@ struct FitOptions {
     /// t^2 variances. Straight ones, value +- t deviations, hold too rarely where the model is curved over its own
     /// uncertainty. Costs some tens of descents.
     bool profile = false;
+    /// Told of each end of an interval that is found, one call at a time.
+    std::function<void(std::size_t done, std::size_t all)> on_interval_end = {};
     unsigned jobs = 1;
 };
 

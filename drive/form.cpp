@@ -87,6 +87,30 @@ Parameter& Form::parameter(const std::string& name) {
                          fmt::format("expected one of the parameters {}, found {}", fmt::join(names, ", "), name));
 }
 
+std::vector<double> Form::in_order(std::vector<double> values) const {
+    if (kind_ == Kind::fopdt || kind_ == Kind::sopdt) {
+        return values;
+    }
+    const auto fits = [&](std::size_t i, double value) {
+        return !parameters_[i].fixed && value >= parameters_[i].lower && value <= parameters_[i].upper;
+    };
+    // At `at` a coefficient and behind it its order. A few terms: each pair of neighbours in turn.
+    std::size_t at = 1;
+    for (const auto* terms : {&shape_.numerator, &shape_.denominator}) {
+        for (std::size_t turn = 0; turn < terms->size(); ++turn) {
+            for (std::size_t i = at; i + 3 < at + 2 * terms->size(); i += 2) {
+                if (values[i + 1] < values[i + 3] && fits(i, values[i + 2]) && fits(i + 2, values[i]) &&
+                    fits(i + 1, values[i + 3]) && fits(i + 3, values[i + 1])) {
+                    std::swap(values[i], values[i + 2]);
+                    std::swap(values[i + 1], values[i + 3]);
+                }
+            }
+        }
+        at += 2 * terms->size();
+    }
+    return values;
+}
+
 Model Form::to_model(const std::vector<double>& values) const {
     if (kind_ == Kind::fopdt || kind_ == Kind::sopdt) {
         Model model = kind_ == Kind::fopdt ? make_fopdt(values[0], values[1], values[2])

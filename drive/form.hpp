@@ -35,6 +35,9 @@ public:
     /// \throws glsum::Failure (bad input) naming those there are, if there is none of that name
     [[nodiscard]] Parameter& parameter(const std::string& name);
     [[nodiscard]] Model to_model(const std::vector<double>& values) const;
+    /// The same model with its terms in the order of their names, the highest order first, as far as terms whose order
+    /// is free may change places within their bounds.
+    [[nodiscard]] std::vector<double> in_order(std::vector<double> values) const;
 
 private:
     Kind kind_;

@@ -4,6 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "bench/parallel.hpp"
 #include "drive/descend.hpp"
@@ -127,6 +128,8 @@ void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& re
             asked.push_back(i);
         }
     }
+    std::mutex telling;
+    std::size_t done = 0;
     bench::parallel_for(2 * asked.size(), options.jobs, [&](std::size_t task) {
         const std::size_t index = asked[task / 2];
         Estimate& estimate = fit.parameters[index];
@@ -145,6 +148,10 @@ void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& re
         const double side = task % 2 == 0 ? -1.0 : 1.0;
         (side < 0.0 ? estimate.low : estimate.high) =
             profile.end(index, values, side, estimate.deviation, along, least, variance, quantile);
+        if (options.on_interval_end) {
+            const std::lock_guard<std::mutex> lock(telling);
+            options.on_interval_end(++done, 2 * asked.size());
+        }
     });
 }
 

@@ -184,15 +184,28 @@ std::string improved_model(const Answer& answer) {
         for (const auto& numbers : chosen.trained.lasting) {
             add(numbers);
         }
-        if (effect->kind == Kind::lasting) {  // an event is a record's, not the model's
+        if (effect->kind != Kind::event) {
             list.push_back({{"effect", effect->name}, {"parameters", parameters}});
         }
     }
     model["effects"] = list;
+    if (const auto events = events_of(answer); !events.empty()) {
+        model["left_out"] = events;
+    }
     if (answer.refit) {
         model["operating_output"] = chosen.candidate.own.front().front().value;
     }
     return model.dump(2) + "\n";
+}
+
+std::vector<std::string> events_of(const Answer& answer) {
+    std::vector<std::string> names;
+    for (const Effect* effect : answer.chosen().trained.effects) {
+        if (effect->kind == Kind::event) {
+            names.push_back(effect->name);
+        }
+    }
+    return names;
 }
 
 std::string to_text(const Answer& answer) {

@@ -11,6 +11,9 @@ namespace gap {
 [[nodiscard]] std::string to_json(const Answer& answer);
 /// A model file with the chosen candidate's lasting effects in a field `effects`, which `glsum simulate` runs.
 [[nodiscard]] std::string improved_model(const Answer& answer);
+
+/// Events that the answer names: each is of one record, so that no model holds it.
+[[nodiscard]] std::vector<std::string> events_of(const Answer& answer);
 /// Some lines for a terminal.
 [[nodiscard]] std::string to_text(const Answer& answer);
 [[nodiscard]] const char* name_of(Outcome outcome);

@@ -379,6 +379,16 @@ private:
         }
         for (const auto& [why, rows] : not_judged) {
             note(Layer::host_time, "*/host", fmt::format("{} rows not judged: {}", rows, why));
+            verdict_.not_judged +=
+                fmt::format("{}{} host times, {}", verdict_.not_judged.empty() ? "" : "; ", rows, why);
+        }
+        const auto any_timed = [&](const std::vector<std::string>& names) {
+            return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+                return kind_of(name) == Kind::host && matches_any(selection_, name);
+            });
+        };
+        if (!any_timed(verdict_.rows) && any_timed(current_.names())) {
+            verdict_.not_judged = "host times, of which the baseline has none";
         }
     }
 

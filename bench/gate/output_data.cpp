@@ -115,6 +115,7 @@ std::string to_json(const Verdict& verdict) {
     json["headline"] = verdict.headline();
     json["baseline"] = verdict.baseline_name;
     json["current"] = verdict.current_name;
+    json["not_judged"] = verdict.not_judged;
     json["conditions"] = Json::array();
     for (const Difference& difference : verdict.differences) {
         json["conditions"].push_back({{"field", difference.field},

@@ -122,7 +122,8 @@ std::string to_table(const Verdict& verdict, bool colour) {
     const auto paint = [&](const std::string& code, const std::string& text) {
         return colour ? code + text + "\033[0m" : text;
     };
-    std::string text = fmt::format("gate: {} against {}\n", verdict.current_name, verdict.baseline_name);
+    std::string text = fmt::format("gate: {} against {}{}\n", verdict.current_name, verdict.baseline_name,
+                                   verdict.not_judged.empty() ? "" : "; not judged: " + verdict.not_judged);
     for (const Difference& difference : verdict.differences) {
         text += fmt::format("  {}: {} in the baseline, {} now: {}\n", difference.field, difference.baseline,
                             difference.current, effect_text(difference.effect));

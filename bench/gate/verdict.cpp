@@ -57,7 +57,8 @@ std::string Verdict::headline() const {
     for (const LayerCount& layer : layer_counts) {
         compared += layer.compared;
     }
-    return fmt::format("{} values of {} rows are within what the rules allow", compared, rows.size());
+    return fmt::format("{} values of {} rows are within what the rules allow{}", compared, rows.size(),
+                       not_judged.empty() ? "" : "; not judged: " + not_judged);
 }
 
 }  // namespace bench::gate

@@ -47,6 +47,7 @@ struct Verdict {
     std::vector<std::string> rows;  ///< that were looked at, in the baseline's order
     std::vector<Finding> findings;  ///< by layer, failures first
     std::array<LayerCount, layers.size()> layer_counts;
+    std::string not_judged;  ///< what the run holds and no rule could judge, and why; empty: nothing
     std::string baseline_name;
     std::string current_name;
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <sstream>
 
+#include "base/rounded_up.hpp"
 #include "bench/designs.hpp"
 #include "bench/generate/kernel_data.hpp"
 #include "bench/generate/text.hpp"
@@ -113,12 +114,19 @@ std::string truncation_bound(double order, std::size_t taps, const KernelData& d
     }
     const double all = order == 0.0 ? 1.0 : order <= 1.0 ? 2.0 : 2.0 * order;
     const double largest = data.increments || data.guesses ? 2.0 : 1.0;
-    return fmt::format("{:.3g}",
-                       largest * std::max(0.0, all - glsum::absolute_sum(order, taps)) * (1.0 + 1e-9) + 1e-14);
+    return base::rounded_up(largest * std::max(0.0, all - glsum::absolute_sum(order, taps)) * (1.0 + 1e-9) + 1e-14);
 }
 
-const char* const head = R"(#ifndef @NAME@_H
+// Of two headers under one prefix the second would be left out in silence, and its callers be given the first one's
+// sum. The compiler shows both definitions of DESIGN.
+const char* const head = R"(#if defined(@NAME@_H) && !defined(@NAME@_IS_@fingerprint@)
+#define @NAME@_DESIGN "@design@"
+#error "@name@: another design of this prefix was included before (see the two DESIGN); make one with another --prefix"
+#endif
+#ifndef @NAME@_H
 #define @NAME@_H
+#define @NAME@_IS_@fingerprint@
+#define @NAME@_DESIGN "@design@"
 
 #include <stddef.h>
 #include <stdint.h>
@@ -409,16 +417,16 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
                         fill(data.format_text.scaling, places));
     text += fmt::format(
         "Error bounds, absolute, of S_k for |x| <= 1, before h^-v\n"
-        "against the exact sum of {}, rounding of coefficients and inputs included: {:.3g}\n"
+        "against the exact sum of {}{}, rounding of coefficients and inputs included: {}\n"
         "of that sum against full memory ({}): {}\n\n",
-        data.guesses ? fmt::format("{} taps and the tail's weights, over {} samples", spec.taps, glsum::longest_record)
+        data.guesses            ? fmt::format("{} taps and the tail's weights", spec.taps)
         : data.blocks.count > 0 ? "these taps and blocks"
         : data.modes == 0       ? fmt::format("{} taps", spec.taps)
                                 : "these taps and modes, as designed in double",
-        data.error_bound,
+        data.bound_grows ? fmt::format(", over {} samples", spec.horizon) : "", base::rounded_up(data.error_bound),
         data.modes == 0 && !data.has_blocks ? "truncation" : fmt::format("{} samples from rest", spec.horizon),
         data.modes == 0 && !data.has_blocks ? truncation_bound(spec.order, spec.taps, data)
-                                            : fmt::format("{:.3g}", data.design_error));
+                                            : base::rounded_up(data.design_error));
     for (const std::string& line : spec.provenance) {
         text += line + "\n";
     }
@@ -435,6 +443,15 @@ std::size_t past_held(const Spec& spec) {
     return glsum::reach_of(bench::design_of(spec.kernel, spec.order, length, spec.horizon)) - 1;
 }
 
+// FNV-1a.
+std::uint64_t fingerprint_of(std::string_view text) {
+    std::uint64_t hash = 0xCBF29CE484222325U;
+    for (const char letter : text) {
+        hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3U;
+    }
+    return hash;
+}
+
 bool is_identifier(const std::string& text) {
     return !text.empty() && text.size() <= 60 && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
            std::all_of(text.begin(), text.end(),
@@ -444,6 +461,14 @@ bool is_identifier(const std::string& text) {
 }  // namespace
 
 std::vector<double> check_signal() { return bench::make_signal("noise", check_samples, 20200601); }
+
+std::string prefix_of_file(const std::filesystem::path& file) {
+    std::string prefix = file.stem().string();
+    for (char& letter : prefix) {
+        letter = is_identifier(std::string("_") + letter) ? letter : '_';
+    }
+    return is_identifier(prefix) ? prefix : ("glsum_" + prefix).substr(0, 60);
+}
 
 std::string format_word(const std::string& kernel) { return kernel.substr(kernel.rfind('_') + 1); }
 
@@ -501,8 +526,7 @@ std::string make_header(const Spec& spec) {
     places["first"] = array(places["bits"], name + "_check_first", bits(outputs.first(check_samples), wide_bits));
     places["last"] = array(places["bits"], name + "_check_last", bits(outputs.last(check_samples), wide_bits));
 
-    std::string text = opening_comment(spec, data, places) + fill(head, places);
-    text += fill(fixed ? guard_fixed : guard_floating, places);
+    std::string text = fill(fixed ? guard_fixed : guard_floating, places);
     const bool uses = past > 0;
     text += uses && fixed && body.find("_KEEP(") != std::string::npos ? fill(keep_fixed, places) : "";
     text += uses && wide_sum ? fill(soft_double, places) : "";
@@ -516,7 +540,12 @@ std::string make_header(const Spec& spec) {
     text += uses && data.pairs ? fill(dsp, places) : "";
     text += uses ? fill(m7_loop_of(data.technique_text.m7), places) : "";
     text += fill(helpers_of(data, body), places);
-    return text + fill(step, places) + fill(self_check, places);
+    text += fill(step, places) + fill(self_check, places);
+    places["design"] = fmt::format("{}, {}, v = {}{}", spec.kernel,
+                                   bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(),
+                                   spec.order, spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "");
+    places["fingerprint"] = fmt::format("{:016X}", fingerprint_of(places["constants"] + text));
+    return opening_comment(spec, data, places) + fill(head, places) + text;
 }
 
 }  // namespace generate

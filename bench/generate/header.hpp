@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,10 @@ struct Spec {
 /// \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, a prefix that is no
 ///         identifier, and a design that the kernel refuses.
 [[nodiscard]] std::string make_header(const Spec& spec);
+
+/// The prefix of a header in this file: its name, so that two files of one program go together, and one that is made
+/// again for another design keeps its callers.
+[[nodiscard]] std::string prefix_of_file(const std::filesystem::path& file);
 
 /// The inputs of every self-check, as reals.
 [[nodiscard]] std::vector<double> check_signal();

@@ -211,7 +211,8 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
             floating_text(std::is_same_v<Sample, double>, std::is_same_v<typename Format::Accumulator, double>,
                           std::all_of(table.begin(), table.end(), [](auto a) { return std::isnormal(a); }));
     }
-    data.error_bound = glsum::error_bound<K>(design, state, 1.0);
+    data.error_bound = glsum::error_bound<K>(design, state, 1.0, horizon);
+    data.bound_grows = data.guesses || glsum::keeps_running_sum<typename K::HistoryPart>;
     std::vector<Sample> inputs;
     for (const double real : reals) {
         inputs.push_back(K::from_real(real));

@@ -44,7 +44,8 @@ struct KernelData {
     HistoryText history_text;
     TechniqueText technique_text;
     FormatText format_text;
-    double error_bound = 0.0;            ///< for |x| <= 1
+    double error_bound = 0.0;            ///< for |x| <= 1, over the horizon
+    bool bound_grows = false;            ///< with the record
     Numbers inputs;                      ///< of the self-check
     std::vector<std::uint64_t> outputs;  ///< their bits, for the inputs repeated
     std::uint64_t hash = 0;              ///< of the outputs, as targets/firmware/output_hash.hpp has it

@@ -42,8 +42,8 @@ void run(const std::string& command) {
     }
 }
 
-// The flags of the firmware that say for which core, how hard to optimise, and where functions begin. Not its -ffp-contract: the header must
-// hold without.
+// The flags of the firmware that say for which core, how hard to optimise, and where functions begin. Not its
+// -ffp-contract: the header must hold without.
 std::string target_flags(const qemu::Board& board) {
     const std::filesystem::path path = board.measure_elf.parent_path() / "build_info.json";
     std::ifstream file(path);

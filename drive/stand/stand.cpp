@@ -7,6 +7,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/nearest_name.hpp"
 #include "qemu/failure.hpp"
 
 namespace stand {
@@ -125,7 +126,8 @@ void set_size(Stand& stand, const std::string& name, double value) {
         }
         names.push_back(full_name(size));
     }
-    refuse(fmt::format("expected one of {}, found {}", fmt::join(names, ", "), name));
+    refuse(fmt::format("expected a size of the stand (--show prints all), found {}; the nearest is {}", name,
+                       base::nearest_name(name, names)));
 }
 
 void remove_effect(Stand& stand, const std::string& effect) {
@@ -137,7 +139,8 @@ void remove_effect(Stand& stand, const std::string& effect) {
         }
     }
     if (!found) {
-        refuse(fmt::format("expected one of the effects {}, found {}", fmt::join(effects(), ", "), effect));
+        refuse(fmt::format("expected one of the effects {}, found {}; the nearest is {}", fmt::join(effects(), ", "),
+                           effect, base::nearest_name(effect, effects())));
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "gap/drive/experiment.hpp"
 #include "gap/drive/search.hpp"
+#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {
@@ -83,6 +84,14 @@ Answer diagnose(const Question& question, const std::function<void(const std::st
     answer.metric = study.horizon > 0 ? fmt::format("prediction {:.4g} s ahead",
                                                     static_cast<double>(study.horizon) * study.scales.interval_s)
                                       : "simulation";
+    // Against a base without a finite output anything would look like a cause.
+    if (answer.none().gap_after >= Ranked::ran_away) {
+        throw glsum::Failure(
+            glsum::Exit::bad_input,
+            fmt::format("{}: expected a base that stays finite there, found {}, which runs away: take "
+                        "another form, or --metric prediction for a drive that integrates",
+                        answer.records.front().name, drive::to_text(answer.model_of(answer.none().trained))));
+    }
     say("deciding");
     answer.decision = decide(answer.ranking, study, validation, split);
     for (const std::size_t i : answer.decision.effects) {

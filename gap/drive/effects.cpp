@@ -1,5 +1,7 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include "base/nearest_name.hpp"
 #include "gap/drive/effect.hpp"
 #include "qemu/failure.hpp"
 
@@ -19,14 +21,15 @@ const std::vector<const Effect*>& effects() {
 }
 
 const Effect& effect_named(const std::string& name) {
-    std::string known;
+    std::vector<std::string> known;
     for (const Effect* effect : effects()) {
         if (effect->name == name) {
             return *effect;
         }
-        known += " " + effect->name;
+        known.push_back(effect->name);
     }
-    throw glsum::Failure(glsum::Exit::bad_input, fmt::format("no effect {}; expected one of{}", name, known));
+    throw glsum::Failure(glsum::Exit::bad_input, fmt::format("no effect {}; the nearest is {}, of {}", name,
+                                                             base::nearest_name(name, known), fmt::join(known, ", ")));
 }
 
 }  // namespace gap

@@ -9,6 +9,8 @@ struct Ranked {
     Candidate candidate;                         ///< as it stands on the validation records
     Candidate trained;                           ///< as it was fitted
     std::vector<std::vector<double>> residuals;  ///< of the validation records
+    /// In place of a gap that is not finite: the simulation ran away.
+    static constexpr double ran_away = 1e6;
     double gap_after = 0.0;                      ///< rms of what counts over the deviation of the measured output
     double log_likelihood = 0.0;                 ///< over what counts
     std::vector<double> by_sample;               ///< its summands

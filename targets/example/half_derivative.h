@@ -28,15 +28,21 @@
  * Measured cost a sample of the kernel that this is made from: 1227.6 model cycles, at most 1289.2, for stm32f746-itcm
  *
  * Command: glsum generate --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
- * glsum 0.1.0, commit b45d29a58d471b1a113069ad79c1c47d8743c38b with changes
+ * glsum 0.1.0, commit 25cc697ea1cffa57647ce45ded24165cb59083b5 with changes
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
  * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -falign-functions=8 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
  *
  * Licence: the terms of glsum itself.
  */
+#if defined(HALF_F32_H) && !defined(HALF_F32_IS_3572620AC2415EEC)
+#define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"
+#error "half_f32: another design of this prefix was included before (see the two DESIGN); make one with another --prefix"
+#endif
 #ifndef HALF_F32_H
 #define HALF_F32_H
+#define HALF_F32_IS_3572620AC2415EEC
+#define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"
 
 #include <stddef.h>
 #include <stdint.h>

@@ -38,12 +38,16 @@ distance() { # of the second file's third column from the measured one, every 20
 }
 [ "$(echo "$(distance "$folder/better.csv") $(distance "$folder/base.csv")" | awk '{print ($1 < 0.5 * $2)}')" = 1 ] ||
     { echo "improved model: $(distance "$folder/better.csv") from the log, base $(distance "$folder/base.csv")"; failures=$((failures + 1)); }
+# So do its indices, which simulate the effects too: less than half of what the base leaves.
+fit() { "$program" indices "$folder/other.csv" --model "$1" --json | sed -n 's/.*"nrmse_fit": \([-0-9.e]*\).*/\1/p'; }
+[ "$(echo "$(fit "$folder/improved.json") $(fit "$folder/linear.json")" | awk 'NF == 2 {print (1 - $1 < 0.5 * (1 - $2))}')" = 1 ] ||
+    { echo "indices: improved $(fit "$folder/improved.json"), base $(fit "$folder/linear.json")"; failures=$((failures + 1)); }
 grep -qF 'input_dead_zone' "$folder/page.html" || { echo "page.html: expected the effect's name"; failures=$((failures + 1)); }
 ! grep -qE 'https?://[^w]' "$folder/page.html" || { echo "page.html: expected nothing from the network"; failures=$((failures + 1)); }
 
 expect 0 "verdict: no_gap" diagnose drive --model "$folder/linear.json" --log "$folder/clean.csv" --validate "$folder/cleaner.csv"
 expect 0 "no validation record" diagnose drive --model "$folder/linear.json" --log "$folder/train.csv"
-expect 0 "is the training log itself" diagnose drive --model "$folder/linear.json" --log "$folder/train.csv" --validate "$folder/train.csv"
+expect 2 "found the training log itself" diagnose drive --model "$folder/linear.json" --log "$folder/train.csv" --validate "$folder/train.csv"
 expect 0 "fitting" diagnose drive --model fit:sopdt --log "$folder/clean.csv" --validate "$folder/cleaner.csv"
 
 expect 2 "expected fit:fopdt, fit:sopdt, fit:niopdt or fit:integrator" diagnose drive --model fit:pid --log "$folder/clean.csv"

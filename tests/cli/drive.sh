@@ -34,7 +34,7 @@ expect 2 "improper" stability --model "$folder/improper.json"
 expect 0 "NRMSE printed" indices "$folder/exact.csv" --model "$models/sopdt.json" --model "$models/fopdt.json"
 expect 2 "expected --model or --simulated" indices "$folder/exact.csv"
 expect 0 "501 samples at 0.01 s" resample "$folder/exact.csv" --step-s 0.01 --out "$folder/even.csv"
-expect 2 "expected a step" resample "$folder/exact.csv" --step-s 0
+expect 2 "--step-s: expected a number above 0, found 0" resample "$folder/exact.csv" --step-s 0
 
 expect 0 "time_constant_s" identify "$folder/even.csv" --form sopdt --out "$folder/found.json"
 grep -q '"time_constant_s": 0.319' "$folder/found.json" || { echo "identify: expected 0.319, found:"; cat "$folder/found.json"; failures=$((failures + 1)); }

@@ -12,7 +12,12 @@ expect 2 "bnech" bnech
 expect 2 "--no-such-option" bench --no-such-option
 expect 2 "--orders: expected a number in (-2, 2], found 3" bench --orders 3
 expect 2 "found -2" bench --orders -2,0.5
-expect 2 "--orders" bench --orders half
+expect 2 "--orders: expected a number in (-2, 2], found half" bench --orders half
+expect 2 "--jobs: expected a number of at least 1, found 0" bench --jobs 0
+expect 2 "--step-s: expected a number above 0, found -1" simulate --model any.json --step-s -1
+expect 2 "--out: expected a name that ends in .html, found page.pdf" report --out page.pdf
+expect 2 "found backlash.width; the nearest is backlash." stand --set backlash.width=1
+expect 2 "the nearest is backlash" stand --without bcklash
 expect 2 "--taps: expected a number of at least 1 and at most 1000000, full, or near taps and modes as 2+7, found 0" bench --taps 0
 expect 2 "found 1000001" bench --taps 1000001
 expect 2 "--jobs" bench --jobs 1000000

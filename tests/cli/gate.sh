@@ -13,6 +13,14 @@ gate="gate --thresholds $rules --baseline $a --current"
 expect 0 "Example:" gate --help
 expect 2 "--baseline" gate
 expect 0 "pass: " $gate "$a"
+# Times that cannot be judged are said so at once.
+expect 0 "against $a; not judged: 3 host times, no row of the anchor" $gate "$a"
+"$program" gate --baseline "$folder/untimed.json" --current "$a" --update-baseline --reason test --rows '*/accuracy/*' >/dev/null
+expect 0 "pass: " gate --thresholds $rules --baseline "$folder/untimed.json" --current "$a"
+! grep -q 'not judged: ' "$folder/said" || { echo "times that nobody asked for are told of"; failures=$((failures + 1)); }
+sed -i 's|"\*/accuracy/\*"|"*/accuracy/*", "*/host"|' "$folder/untimed.json"
+expect 0 "against $folder/untimed.json; not judged: host times, of which the baseline has none" gate --thresholds $rules --baseline "$folder/untimed.json" --current "$a"
+rm -f "$folder/untimed.json"
 # One number a little worse: the accuracy layer is named, with both values.
 sed '0,/"error_max": 0.0625/s//"error_max": 0.0635/' "$a" >"$folder/worse.json"
 cmp -s "$a" "$folder/worse.json" && { echo "the change does not match"; exit 1; }

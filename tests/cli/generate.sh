@@ -36,4 +36,46 @@ same "$source" >"$folder/committed"
 same "$folder" >"$folder/made"
 cmp -s "$folder/committed" "$folder/made" ||
     fail "the example's header is not what its command makes: $(diff "$folder/committed" "$folder/made" | head -n 4)"
+# Two headers of one program: apart by their files' names; of one prefix only the same design.
+for order in 0.5 -0.5; do
+    expect 0 "with 20 taps" generate --order $order --kernel ring_plain_f32 --taps 20 --quick --out "$folder/of_$order.h"
+    expect 0 "with 20 taps" generate --order $order --kernel ring_plain_f32 --taps 20 --quick --prefix same --out "$folder/same_$order.h"
+done
+cat >"$folder/two.c" <<'C'
+#include <stdio.h>
+#include "of_0.5.h"
+#include "of_-0.5.h"
+#include "same_0.5.h"
+#include "same_0.5.h"
+static of_0_5_f32_instance derivative;
+static of__0_5_f32_instance integral;
+static same_f32_instance same;
+int main(void)
+{
+    float d = 0, i = 0, s = 0;
+    int k;
+    for (k = 0; k < 10; ++k) {
+        d = of_0_5_step_f32(&derivative, 1.0F);
+        i = of__0_5_step_f32(&integral, 1.0F);
+        s = same_step_f32(&same, 1.0F);
+    }
+    printf("%.5f %.5f %d\n", (double)d, (double)i, d == s);
+    return 0;
+}
+C
+# Gamma(k + 1/2) / (Gamma(1/2) k!) and Gamma(k + 3/2) / (Gamma(3/2) k!) at k = 9
+cc -std=c99 -Wall -Wextra -Werror -o "$folder/two" "$folder/two.c" 2>"$folder/said" && [ "$("$folder/two")" = "0.18547 3.52394 1" ] ||
+    fail "two headers: expected 0.18547 3.52394 1, found $("$folder/two" 2>&1) $(cat "$folder/said")"
+printf '#include "same_0.5.h"\n#include "same_-0.5.h"\n' >"$folder/clash.c"
+if cc -std=c99 -c -o "$folder/clash.o" "$folder/clash.c" 2>"$folder/said"; then fail "two designs of one prefix: expected an error"; fi
+for design in 'error.*same_f32: another design' 'ring_plain_f32, 20, v = 0.5, h = 0.001 s' 'ring_plain_f32, 20, v = -0.5, h = 0.001 s'; do
+    grep -q "$design" "$folder/said" || fail "two designs of one prefix: expected $design, found $(cat "$folder/said")"
+done
+# Bounds are rounded up: an input reaches 0.00173273 of this design; a running sum's is of the record that the header speaks of.
+expect 0 "with 2+7 taps" generate --order 0.5 --kernel modes_plain_f32 --taps 2+7 --out "$folder/modes.h"
+grep -q 'full memory (5000 samples from rest): 0.00174$' "$folder/modes.h" || fail "expected 0.00174, found $(grep 'full memory' "$folder/modes.h")"
+expect 0 "" generate --order -1 --kernel modessum_plain_f32 --taps 3 --quick --out "$folder/sum.h"
+bound=$(sed -n 's/.*, over 1000 samples, rounding .* included: //p' "$folder/sum.h")
+[ -n "$bound" ] && [ "$(echo "$bound" | awk '{print ($1 > 1e-5 && $1 < 0.2)}')" = 1 ] ||
+    fail "running sum: expected a bound over 1000 samples, found $(grep included "$folder/sum.h")"
 [ "$failures" -eq 0 ]

@@ -7,7 +7,7 @@ fail() { echo "$*"; failures=$((failures + 1)); }
 expect 2 "--horizons: expected 100 to 10000000 samples, found 99" bench --horizons 99
 expect 2 "found 1e3" bench --horizons 600,1e3
 expect 2 "that are not whole, found 1" bench --horizons 600 --orders 1
-expect 2 "that are not whole, found -1.5" bench --horizons 600 --orders=-1.5
+expect 2 "expected a number from -1 to 2, found -1.5" bench --horizons 600 --orders=-1.5
 expect 2 "--taps" bench --horizons 600 --taps 16
 expect 2 "--equal-cost" bench --horizons 600 --equal-cost 16
 expect 0 "drawn in" bench --horizons 5000,600 --orders 0.5 --targets host --out "$folder/h.json"

@@ -443,7 +443,7 @@ TEST(Stand, SaysWhatIsWrongWithAFileAndWhere) {
     EXPECT_THAT(said("[parts]\nspread_s = 0.005\n"), HasSubstr("expected less than half of the interval"));
     EXPECT_THAT(said("[load_disturbance]\nsize = 1\n"), HasSubstr("expected from_s below to_s"));
     stand::Stand built;
-    EXPECT_THAT(message_of([&] { stand::set_size(built, "tau", 1.0); }), HasSubstr("actuator_lag.tau_s"));
+    EXPECT_THAT(message_of([&] { stand::set_size(built, "actuator_lag.tau", 1.0); }), HasSubstr("actuator_lag.tau_s"));
     EXPECT_THAT(message_of([&] { (void)stand::run(built, {.name = "square"}, 1); }), HasSubstr("found square"));
     EXPECT_THAT(message_of([&] { (void)stand::run(built, {.duty = 1.2}, 1); }), HasSubstr("duties"));
     EXPECT_THAT(message_of([&] { (void)stand::run(built, {.until_s = 1e9}, 1); }), HasSubstr("10^6 samples"));

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <random>
 
 #include "gap/drive/question.hpp"
 #include "gap/drive/ranking.hpp"
@@ -318,6 +319,35 @@ std::string message_of(const gap::Question& question) {
         return failure.what();
     }
     return "no failure";
+}
+
+// A base that is fitted to y' - y = u, as e^t grows by 20 in the 3 s of the training and by 10^17 in the 40 of the
+// other.
+TEST(Verdict, IsRefusedWhereAFittedBaseRunsAwayOnTheOtherRecord) {
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> noise(0.0, 1e-3);
+    gap::Record train;
+    train.name = "short";
+    train.usual_interval_s = 0.01;
+    gap::Record validate = train;
+    validate.name = "long";
+    double y = 0.0;
+    for (int k = 0; k < 300; ++k) {
+        const double u = k < 100 ? 0.1 : -0.02;
+        train.time_s.push_back(0.01 * k);
+        train.input.push_back(u);
+        train.output.push_back(y + noise(engine));
+        y = y * std::exp(0.01) + u * std::expm1(0.01);
+    }
+    for (int k = 0; k < 4000; ++k) {
+        validate.time_s.push_back(0.01 * k);
+        validate.input.push_back(std::sin(0.01 * k));
+        validate.output.push_back(std::sin(0.01 * k - 0.5) + noise(engine));
+    }
+    const drive::Model start = drive::make_sopdt(1.0, 0.5, 0.0);
+    const gap::Question question{
+        drive::Form(drive::Kind::niopdt, start), true, {train}, {validate}, {}, gap::Metric::simulation, {}, 2};
+    EXPECT_THAT(message_of(question), HasSubstr("runs away"));
 }
 
 TEST(Verdict, IsRefusedWhereModelAndLogCannotBelongTogether) {

@@ -1,6 +1,7 @@
 #!/bin/sh
-# plant.sh [--rotate N] [--only GLOB]... [--list]: plants the bugs of bugs.txt one at a time in a copy of the project, builds,
+# plant.sh [--bugs FILE] [--rotate N] [--only GLOB]... [--list]: plants the bugs of bugs.txt one at a time in a copy of the project, builds,
 # runs the unit tests there, and reports each bug that they do not catch. Exit 0 when all were caught.
+#   --bugs FILE  those of another list; each in the libraries and in the tests, which see headers
 #   --rotate N   only N of them, the next N at each commit: in time, all
 #   --only GLOB  only those whose name matches one of the globs
 # The copy stays in build/planted; a second run starts faster.
@@ -10,16 +11,19 @@ source=$(cd "$here/../.." && pwd)
 rotate=0
 only=
 list=no
+file=$here/bugs.txt
+mark=
 while [ $# -gt 0 ]; do
     case $1 in
         --rotate) rotate=$2; shift 2 ;;
         --only) only="$only $2"; shift 2 ;;
         --list) list=yes; shift ;;
-        *) echo "plant.sh: expected --rotate N, --only GLOB or --list, found $1" >&2; exit 2 ;;
+        --bugs) file=$2; mark='!'; shift 2 ;;
+        *) echo "plant.sh: expected --bugs FILE, --rotate N, --only GLOB or --list, found $1" >&2; exit 2 ;;
     esac
 done
 
-bugs=$(sed '/^ *#/d; /^ *$/d' "$here/bugs.txt")
+bugs=$(sed "/^ *#/d; /^ *\$/d; s/^/$mark/" "$file")
 total=$(printf '%s\n' "$bugs" | wc -l)
 [ "$list" = no ] || { printf '%s\n' "$bugs" | cut -d '|' -f 1; echo "$total bugs"; exit 0; }
 if [ "$rotate" -gt 0 ]; then
@@ -91,7 +95,9 @@ run_tests() {
             timing_tests) only_these='-Objdump.*' ;;
             *) only_these='*' ;;
         esac
-        timeout 240 "$build/tests/$test" --gtest_brief=1 --gtest_filter="$only_these" >"$source/build/planted/tests.log" 2>&1 || return 1
+        status=0
+        timeout 240 "$build/tests/$test" --gtest_brief=1 --gtest_filter="$only_these" >"$source/build/planted/tests.log" 2>&1 || status=$?
+        [ "$status" -eq 0 ] || return "$status"
     done
 }
 wanted() {
@@ -137,8 +143,11 @@ while IFS='|' read -r name file plant <&3; do
             ;;
     esac
     if [ "$how" = missed ]; then
-        run_tests $tests || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$source/build/planted/tests.log" | sed '1q;d')"
+        status=0
+        run_tests $tests || status=$?
+        [ "$status" -eq 0 ] || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$source/build/planted/tests.log" | sed '1q;d')"
         [ "$how" != "caught by " ] || how='caught by a crash'
+        [ "$status" -ne 124 ] || how=hangs
     fi
     # As it was: the file with its time, and no object that saw the bug.
     cp -p "$build/original" "$copy/$file"

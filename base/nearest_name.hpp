@@ -1,0 +1,38 @@
+// What was probably meant by a name that there is not.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace base {
+
+/// Letters to change, insert, drop or exchange with their neighbour.
+inline std::size_t letters_between(const std::string& from, const std::string& to) {
+    std::vector<std::vector<std::size_t>> steps(from.size() + 1, std::vector<std::size_t>(to.size() + 1));
+    for (std::size_t i = 0; i <= from.size(); ++i) {
+        for (std::size_t j = 0; j <= to.size(); ++j) {
+            if (i == 0 || j == 0) {
+                steps[i][j] = i + j;
+                continue;
+            }
+            const std::size_t change = from[i - 1] == to[j - 1] ? 0 : 1;
+            steps[i][j] = std::min({steps[i - 1][j] + 1, steps[i][j - 1] + 1, steps[i - 1][j - 1] + change});
+            if (i > 1 && j > 1 && from[i - 1] == to[j - 2] && from[i - 2] == to[j - 1]) {
+                steps[i][j] = std::min(steps[i][j], steps[i - 2][j - 2] + 1);
+            }
+        }
+    }
+    return steps[from.size()][to.size()];
+}
+
+/// Of `names`, not empty, the one at the least distance; the first of equals.
+[[nodiscard]] inline std::string nearest_name(const std::string& word, std::span<const std::string> names) {
+    return *std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
+        return letters_between(word, a) < letters_between(word, b);
+    });
+}
+
+}  // namespace base

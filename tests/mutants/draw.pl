@@ -1,0 +1,103 @@
+#!/usr/bin/perl
+# draw.pl ROOT SEED COUNT AREA: draws one-line changes of the product's code at random. Prints for each a line as planted/bugs.txt
+# has them: name | file | substitution. The same seed draws the same from the same code. What is in comments, in texts, in
+# includes and in the lists of names (*.def) is no code; equivalent.txt says which changes alter nothing.
+use strict;
+use warnings;
+
+my ($root, $seed, $count, $area) = @ARGV;
+my @areas = $area eq 'all' ? qw(kernels bench qemu gap drive) : ($area);
+
+# Park and Miller's generator: exact in a double, the same everywhere.
+my $state = ($seed % 2147483646) + 1;
+sub draw { my ($below) = @_; $state = ($state * 16807) % 2147483647; return $state % $below; }
+draw(2) for 1 .. 10;
+
+my %equivalent;
+if (open my $list, '<', "$root/tests/mutants/equivalent.txt") {
+    while (<$list>) { $equivalent{$1} = 1 if /^([^#\s][^|]*?)\s*\|/; }
+}
+
+# Operators as they stand in our format, between spaces; each with what it is swapped for.
+my %swapped = (
+    '+' => '-', '-' => '+', '*' => '/', '/' => '*', '<' => '<=', '<=' => '<', '>' => '>=', '>=' => '>',
+    '==' => '!=', '!=' => '==', '&&' => '||', '||' => '&&', '+=' => '-=', '-=' => '+=', '*=' => '/=', '/=' => '*=',
+    '>>' => '<<', '&' => '|', '|' => '&',
+);
+
+# In names, which a shell reads.
+my %words = (
+    '+' => 'plus', '-' => 'minus', '*' => 'times', '/' => 'by', '<' => 'below', '<=' => 'at-most', '>' => 'above', '>=' => 'at-least',
+    '==' => 'equal', '!=' => 'other', '&&' => 'and', '||' => 'or', '+=' => 'add', '-=' => 'take', '*=' => 'multiply', '/=' => 'divide',
+    '>>' => 'right', '<<' => 'left', '&' => 'bits-and', '|' => 'bits-or',
+);
+sub spelled { my ($text) = @_; return $words{$text} // $text =~ s/ \* 1\.01$/-and-1%/r; }
+
+# The places of a line where a change may be: [column, old, new].
+sub places {
+    my ($line, $code) = @_;  # $code: the line with texts and comments blanked
+    my @found;
+    while ($code =~ / (\S+) (?=\S)/g) {
+        my ($word, $at) = ($1, $-[1]);
+        pos($code) = $+[1];
+        next unless exists $swapped{$word};
+        push @found, [$at, $word, $swapped{$word}];
+    }
+    while ($code =~ /(?<![\w.'])(\d+(?:\.\d+)?(?:e-?\d+)?)(?![\w.'x])/g) {
+        my ($number, $at) = ($1, $-[1]);
+        next if substr($code, 0, $at) =~ /<[^<>;]*$/ && $number =~ /^\d+$/;  # of a template
+        next if $number =~ /[.e]/ && $number == 0;  # a per cent of nothing
+        push @found, $number =~ /[.e]/ ? [$at, $number, $number . ' * 1.01'] : [$at, $number, $number + 1],
+            ($number =~ /^[1-9]\d*$/ ? [$at, $number, $number - 1] : ());
+    }
+    push @found, [$-[1], $1, $1 eq 'min' ? 'max' : 'min'] while $code =~ /std::(min|max)\(/g;
+    push @found, [$-[1], $1, $1 eq 'true' ? 'false' : 'true'] while $code =~ /\b(true|false)\b/g;
+    # A whole statement: an assignment or a call, no declaration and no way out.
+    push @found, [length $1, $2, ';']
+        if $code =~ /^(\s++)((?!return|throw|break|continue|using|const|auto|static|constexpr|else|case|friend|delete|goto)[\w.\->\[\]*()+ ]+? ?(?:[-+*\/|&]?= |\().*;)\s*$/
+        && $code !~ /^\s+[\w:<>]+&?\*? \w+ ?[=({]/;
+    return @found;
+}
+
+sub code_of {
+    my ($line, $in_comment) = @_;
+    my $code = $line;
+    $code =~ s/"(?:[^"\\]|\\.)*"/'"' . ('~' x (length($&) - 2)) . '"'/ge;
+    $code =~ s{'(?:[^'\\]|\\.)'}{"'" . ('~' x (length($&) - 2)) . "'"}ge;
+    $code =~ s{//.*$}{' ' x length $&}e;
+    return $code;
+}
+
+my %places_of;
+for my $one (@areas) {
+    my @files = grep { !m{/(README|engines|peers|plugin|m7)} } split /\n/,
+        `cd '$root' && find '$one' \\( -name '*.cpp' -o -name '*.hpp' \\) -not -path '*/build/*' | LC_ALL=C sort`;
+    for my $file (@files) {
+        open my $in, '<', "$root/$file" or die "$file: $!";
+        my ($comment, $raw) = (0, 0);
+        while (my $line = <$in>) {
+            chomp $line;
+            $raw = 1 if $line =~ /R"\w*\(/;
+            my $skip = $raw || $comment || $line =~ m{^\s*(#|//|/\*|\*|namespace|static_assert|template|using)} || $line =~ /fmt::format|refuse\(|Failure\(|notes\.|warnings\./;
+            $raw = 0 if $raw && $line =~ /\)\w*"/;
+            $comment = 1 if $line =~ m{/\*} && $line !~ m{\*/};
+            $comment = 0 if $line =~ m{\*/};
+            next if $skip;
+            push @{$places_of{$one}}, [$file, $., @$_] for places($line, code_of($line));
+        }
+    }
+}
+
+my %drawn;
+for (my $i = 0; $i < $count;) {
+    my $all = $places_of{$areas[$i % @areas]} or die "draw.pl: no code in $areas[$i % @areas]\n";
+    my ($file, $line, $column, $old, $new) = @{$all->[draw(scalar @$all)]};
+    my $name = "$file:$line:" . ($column + 1) . ':' . ($new eq ';' ? 'removed' : spelled($old) . '-to-' . spelled($new));
+    next if $drawn{$name}++;
+    ++$i;
+    if ($equivalent{$name}) { print "# equivalent: $name\n"; next; }
+    my ($quoted, $put) = ("\Q$old\E", $new);
+    # The line is found by its number, as its text may stand elsewhere too.
+    my $before = $line - 1;
+    print "$name | $file | s{\\A((?:.*\\n){$before}.{$column})$quoted}{\${1}$put}\n";
+}
