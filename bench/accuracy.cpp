@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "bench/derivative_limits.hpp"
 #include "bench/designs.hpp"
 #include "bench/exact_weights.hpp"
 #include "bench/host_line.hpp"
@@ -14,7 +15,6 @@
 #include "bench/progress.hpp"
 #include "bench/reference/dropped.hpp"
 #include "bench/reference/sums.hpp"
-#include "bench/signal_derivatives.hpp"
 #include "bench/signals.hpp"
 #include "glsum/registry.hpp"
 
@@ -25,41 +25,6 @@ namespace {
 constexpr std::size_t amplitude_taps = 600;
 constexpr std::string_view amplitude_signals[] = {"sine5", "drive"};
 
-struct DiscretisationError {
-    double largest;
-    double late;  // the largest of the record's second half
-};
-
-// |E_k - h^v / w_0 D^v x(t_k - lag)| over some k > 0, dense where the start of the signal still shows.
-std::optional<DiscretisationError> discretisation_error(const reference::Sums& exact, double order,
-                                                        Discretisation weights, const Derivative& derivative) {
-    if (!derivative || exact.size() < 2) {
-        return std::nullopt;
-    }
-    constexpr int points = 200;  // within 1 % of the maximum over all k; 24 can miss a tenth of it
-    const reference::Real v = order;
-    const reference::Real scale = pow(reference::Real(step_s), v) / first_weight(weights, v);
-    const reference::Real lag = lag_steps(weights, v);
-    const auto last = static_cast<double>(exact.size() - 1);
-    DiscretisationError found{0.0, 0.0};
-    std::size_t before = 0;
-    for (int i = 0; i < points; ++i) {
-        const auto k = static_cast<std::size_t>(std::lround(std::pow(last, i / (points - 1.0))));
-        const reference::Real steps = k - lag;
-        if (k == before || steps <= 0) {  // at t = 0 there is no derivative
-            continue;
-        }
-        before = k;
-        const reference::Real limit = scale * derivative(v, steps * reference::Real(step_s));
-        const double error = std::fabs(exact[k].error_of(static_cast<double>(limit)));
-        found.largest = std::max(found.largest, error);
-        if (2 * k >= exact.size()) {
-            found.late = std::max(found.late, error);
-        }
-    }
-    return found;
-}
-
 // One order and one signal: the reference is made once and every kernel and length is held against it.
 struct Case {
     double order;
@@ -69,7 +34,8 @@ struct Case {
     std::vector<std::size_t> windows;    // lengths, full memory last
     std::vector<reference::Sums> exact;  // of each of them
     double peak = 0.0;                   // max_k |E_k|
-    std::optional<DiscretisationError> discretisation;
+    std::vector<DerivativeLimit> limits;  // none of a signal without a formula
+    LimitError discretisation;           // of the exact sum
     // Of those that do not end with their window: of each length with a window, of each design without one.
     std::map<reference::Dropped, std::vector<reference::Sums>> of_windows;
     std::map<std::pair<reference::Dropped, std::string>, reference::Sums> of_designs;
@@ -86,7 +52,8 @@ struct Case {
         for (const auto& sum : exact.back()) {
             peak = std::max(peak, std::fabs(sum.high));
         }
-        discretisation = discretisation_error(exact.back(), order, weights, derivative_of_signal(name, sweep.samples));
+        limits = derivative_limits(name, sweep.samples, order, weights);
+        discretisation = error_at(limits, [&](const DerivativeLimit& at) { return exact.back()[at.sample].error_of(at.value); });
     }
 
     /// The exact sums of what a kernel's design stands for.
@@ -199,9 +166,13 @@ Json measure(const Case& test, const Kernel& kernel, const Length& length, const
     row["error_rms"] = rms / test.peak;
     row["rounding_error_max"] = rounding / test.peak;
     row["truncation_error_max"] = largest_difference(same_length, full) / test.peak;
-    if (test.discretisation) {
-        row["discretisation_error_max"] = test.discretisation->largest / test.peak;
-        row["discretisation_error_late_max"] = test.discretisation->late / test.peak;
+    if (!test.limits.empty()) {
+        row["discretisation_error_max"] = test.discretisation.largest / test.peak;
+        row["discretisation_error_late_max"] = test.discretisation.late / test.peak;
+        const LimitError error =
+            error_at(test.limits, [&](const DerivativeLimit& at) { return found.sums[at.sample] - at.value; });
+        row["derivative_error_max"] = error.largest / test.peak;
+        row["derivative_error_late_max"] = error.late / test.peak;
     }
     if (found.saturations) {
         row["saturations"] = *found.saturations;

@@ -22,8 +22,8 @@ namespace bench {
 ///                                                   the order and the signal, whatever the kernel and the length; none
 ///                                                   for signals without a formula
 ///   discretisation_error_late_max                   the same of the record's second half, at about 16 k: what is left
-///   when
-///                                                   the start of the signal has faded
+///                                                   when the start of the signal has faded
+///   derivative_error_max, derivative_error_late_max  kernel against that derivative, at the same k
 /// `horizon_samples`: how far back the sum sees; of a design with modes, for how far its error holds.
 /// At 600 taps of a window the signals sine5 and drive are repeated at 2^-4 and 2^-8 of their size, named
 /// ".../signal:<s>/amplitude:<a>"; their errors are relative to their own, smaller, sums.

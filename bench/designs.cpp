@@ -72,7 +72,7 @@ std::optional<Length> shortest(const Named& named, std::size_t samples, double e
                            : names_weights(named.weights)
                                ? glsum::modes::design_fitted(named.to(samples), named.of_weights(), error)
                                : glsum::modes::design({named.of_weights(), samples}, error);
-        return found ? std::optional(Length{found->cost(), false, found->modes.size()}) : std::nullopt;
+        return found ? std::optional(Length{found->length(), false, found->modes.size()}) : std::nullopt;
     });
 }
 

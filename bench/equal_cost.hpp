@@ -21,21 +21,31 @@ struct EqualCost {
     unsigned jobs = 1;
 };
 
-/// A kernel, or `oustaloup_f64`, as tables and pictures call it.
+/// A kernel or a filter, and what tables and pictures call it.
 struct EqualCostWay {
-    std::string_view kernel;
+    std::string_view name;
     std::string_view label;
+    bool is_filter = false;
 };
 [[nodiscard]] std::span<const EqualCostWay> equal_cost_ways();
 
-/// Rows of `measure_accuracy` for each kernel, order, signal and cost, and of Oustaloup's filter with (cost - 1) / 2
-/// poles rows `filter/oustaloup_f64/order:<v>/poles:<P>/accuracy/signal:<s>` with `error_max`, `error_late_max` (of the
-/// record's second half), both against the sum as a kernel's are, `mapping`, `low_rad_s` and `high_rad_s`: of the bands
-/// and mappings that are tried, those with the smallest error of the row, which favours it. No filter for whole orders
-/// and outside (-1, 2). Each row has its `cost` and its `way`.
+/// Oustaloup's filter with one band and mapping, tuned to the sums of all signals together.
+inline constexpr std::string_view oustaloup_of_sums = "oustaloup_f64";
+/// With those of each signal alone, tuned to its exact derivative: what it can do at best.
+inline constexpr std::string_view oustaloup_of_derivative = "oustaloupown_f64";
+
+/// Of Oustaloup's filter with (cost - 1) / 2 poles, rows `filter/<way>/order:<v>/poles:<P>/accuracy/signal:<s>` with
+/// `error_max` against the sum, `derivative_error_max` and `derivative_error_late_max` as a kernel's are, `mapping`,
+/// `low_rad_s` and `high_rad_s`; tuned to one derivative, apart to its whole and to its second half (`late_mapping`
+/// ...). None for whole orders and outside (-1, 2). Each row has its `cost` and its `way`.
+[[nodiscard]] std::vector<Json> measure_filters(const EqualCost& wanted);
+
+/// These, after rows of `measure_accuracy` for each kernel, order, signal and cost: of the longest design that costs no
+/// more, with `cost` and `way`; that of the full memory is samples - 1, whatever is asked.
 [[nodiscard]] std::vector<Json> measure_equal_cost(const EqualCost& wanted);
 
-/// A table for each order: a line for each cost and way, a column for each signal, and the worst of them.
+/// Tables for each order, of the errors against the exact sum and against the exact derivative: a line for each cost
+/// and way, a column for each signal, and the worst of them.
 [[nodiscard]] std::string to_table(const EqualCost& wanted, const std::vector<Json>& rows);
 
 /// Writes `stem`.svg and `stem`.png: a panel for each order and signal. \throws as `draw`

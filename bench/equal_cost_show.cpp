@@ -9,18 +9,28 @@
 namespace bench {
 namespace {
 
-// In the order of tables and pictures; as many as there are colours.
+// In the order of tables and pictures.
 constexpr EqualCostWay ways[] = {
     {"shift_plain_f64", "window"},
     {"mirrorhold_oldest_f64", "window, oldest held"},
     {"mirrorlinear_oldest_f64", "window, line to first"},
     {"mirrordelta_oldest_f64", "window of increments"},
     {"nested_plain_f64", "nested blocks"},
-    {"oustaloup_f64", "Oustaloup's filter"},
+    {oustaloup_of_sums, "Oustaloup's filter", true},
+    {oustaloup_of_derivative, "... for one derivative", true},
     {"modes_plain_f64", "modes"},
     {"modesdelta_plain_f64", "modes of increments"},
+    {"mirror_multi_f64", "full memory"},
 };
-static_assert(std::size(ways) <= std::size(palette));
+
+// What the picture shows: errors against the sum at the costs that were asked for. As many as there are colours.
+std::vector<EqualCostWay> drawn_ways() {
+    std::vector<EqualCostWay> drawn(std::begin(ways), std::end(ways));
+    std::erase_if(drawn, [](const EqualCostWay& way) {
+        return way.name == oustaloup_of_derivative || way.label == "full memory";
+    });
+    return drawn;
+}
 
 // The part of a name behind `key`, to the next slash.
 std::string part(const std::string& name, std::string_view key) {
@@ -35,13 +45,13 @@ std::string key_of(std::string_view way, std::size_t cost, const std::string& or
     return fmt::format("{}|{}|{}|{}", way, cost, order, signal);
 }
 
-Found errors_by_key(const std::vector<Json>& rows) {
+Found errors_by_key(const std::vector<Json>& rows, const char* counter) {
     Found found;
     for (const Json& row : rows) {
         const std::string name = row.at("name").get<std::string>();
-        if (row.contains("error_max") && name.find("/amplitude:") == std::string::npos) {
+        if (row.contains(counter) && name.find("/amplitude:") == std::string::npos) {
             found[key_of(row.at("way").get<std::string>(), row.at("cost").get<std::size_t>(), part(name, "order:"),
-                         part(name, "signal:"))] = row.at("error_max").get<double>();
+                         part(name, "signal:"))] = row.at(counter).get<double>();
         }
     }
     return found;
@@ -52,28 +62,51 @@ Found errors_by_key(const std::vector<Json>& rows) {
 std::span<const EqualCostWay> equal_cost_ways() { return ways; }
 
 std::string to_table(const EqualCost& wanted, const std::vector<Json>& rows) {
-    const Found found = errors_by_key(rows);
+    struct Against {
+        const char* counter;
+        const char* title;
+    };
+    constexpr Against all[] = {
+        {"error_max", "the exact sum"},
+        {"derivative_error_max", "the exact derivative, where the signal has a formula"},
+        {"derivative_error_late_max", "the exact derivative, in the second half: the signal's start has faded"},
+    };
+    std::vector<std::size_t> costs = wanted.costs;
+    costs.push_back(wanted.samples - 1);
     std::string text;
     for (const double order : wanted.orders) {
-        text += fmt::format("\nOrder {}\n  {:>15}  {:<24}", order, "multiplications", "way");
-        for (const std::string& signal : wanted.signals) {
-            text += fmt::format(" {:>8}", signal);
-        }
-        text += fmt::format(" {:>8}\n", "worst");
-        for (const std::size_t cost : wanted.costs) {
-            for (const EqualCostWay& way : ways) {
-                double worst = 0.0;
-                std::string line;
-                for (const std::string& signal : wanted.signals) {
-                    const auto error = found.find(key_of(way.kernel, cost, fmt::format("{}", order), signal));
-                    if (error == found.end()) {
-                        break;
+        for (const Against& against : all) {
+            const Found found = errors_by_key(rows, against.counter);
+            std::vector<std::string> signals = wanted.signals;
+            std::erase_if(signals, [&](const std::string& signal) {
+                return std::ranges::none_of(found, [&](const auto& error) {
+                    return error.first.ends_with(fmt::format("|{}|{}", order, signal));
+                });
+            });
+            if (signals.empty()) {
+                continue;
+            }
+            text += fmt::format("\nOrder {}, against {}\n  {:>15}  {:<24}", order, against.title, "multiplications",
+                                "way");
+            for (const std::string& signal : signals) {
+                text += fmt::format(" {:>8}", signal);
+            }
+            text += fmt::format(" {:>8}\n", "worst");
+            for (const std::size_t cost : costs) {
+                for (const EqualCostWay& way : ways) {
+                    double worst = 0.0;
+                    std::string line;
+                    for (const std::string& signal : signals) {
+                        const auto error = found.find(key_of(way.name, cost, fmt::format("{}", order), signal));
+                        if (error == found.end()) {
+                            break;
+                        }
+                        worst = std::max(worst, error->second);
+                        line += fmt::format(" {:>8.1e}", error->second);
                     }
-                    worst = std::max(worst, error->second);
-                    line += fmt::format(" {:>8.1e}", error->second);
-                }
-                if (!line.empty()) {
-                    text += fmt::format("  {:>15}  {:<24}{} {:>8.1e}\n", cost, way.label, line, worst);
+                    if (!line.empty()) {
+                        text += fmt::format("  {:>15}  {:<24}{} {:>8.1e}\n", cost, way.label, line, worst);
+                    }
                 }
             }
         }
@@ -82,7 +115,8 @@ std::string to_table(const EqualCost& wanted, const std::vector<Json>& rows) {
 }
 
 void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, const std::filesystem::path& stem) {
-    const Found found = errors_by_key(rows);
+    const Found found = errors_by_key(rows, "error_max");
+    const std::vector<EqualCostWay> drawn_here = drawn_ways();
     constexpr double floor = 1e-10;  // exact ones would flatten all others
     const std::size_t height = 130 + 210 * wanted.orders.size();
     const std::size_t width = 280 + 230 * wanted.signals.size();
@@ -103,10 +137,10 @@ void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, con
             std::vector<std::string> lines;
             double smallest = 1e300;
             double largest = 0.0;
-            for (std::size_t i = 0; i < std::size(ways); ++i) {
+            for (std::size_t i = 0; i < drawn_here.size(); ++i) {
                 std::string data;
                 for (const std::size_t cost : wanted.costs) {
-                    const auto error = found.find(key_of(ways[i].kernel, cost, order, signal));
+                    const auto error = found.find(key_of(drawn_here[i].name, cost, order, signal));
                     if (error != found.end() && error->second > 0.0) {
                         const double drawn = std::max(floor, error->second);
                         data += fmt::format("{} {:.6e}\n", cost, drawn);
@@ -119,7 +153,7 @@ void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, con
                 script += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
                 lines.push_back(fmt::format("$d{} using 1:2 with linespoints lw 1.5 pt {} ps 0.7 lc rgb \"{}\" {}", i,
                                             4 + i, palette[i],
-                                            key ? fmt::format("title \"{}\" noenhanced", ways[i].label) : "notitle"));
+                                            key ? fmt::format("title \"{}\" noenhanced", drawn_here[i].label) : "notitle"));
             }
             const bool last = row + 1 == wanted.orders.size();
             script += fmt::format(

@@ -9,7 +9,7 @@ namespace bench {
 std::string to_text(Mapping mapping) { return mapping == Mapping::matched ? "matched" : "Tustin"; }
 
 Oustaloup::Oustaloup(double order, double step_s, std::size_t poles, Band band, Mapping mapping)
-    : poles_(poles), differs_(order > 1.0) {
+    : differs_(order > 1.0) {
     if (!(order > -1.0 && order < 2.0) || order == std::floor(order) || poles == 0 || !(step_s > 0.0) ||
         !(band.low_rad_s > 0.0 && band.high_rad_s > band.low_rad_s)) {
         throw std::invalid_argument("Oustaloup: order, poles, step or band out of range");
@@ -64,7 +64,5 @@ double Oustaloup::step(double sample) {
     }
     return value;
 }
-
-std::size_t Oustaloup::multiplications() const { return 2 * poles_ + 1; }
 
 }  // namespace bench

@@ -35,8 +35,8 @@ public:
     /// \return h^v times the derivative of order v: what S_k is an approximation of too
     double step(double sample);
 
-    /// 2 P + 1: two for a pole, one for the gain
-    [[nodiscard]] std::size_t multiplications() const;
+    /// 2 P + 1 a sample: two for a pole, one for the gain
+    [[nodiscard]] static constexpr std::size_t multiplications(std::size_t poles) { return 2 * poles + 1; }
 
 private:
     // (1 + b1/z + b2/z^2) / (1 + a1/z + a2/z^2); of a single pole b2 = a2 = 0.
@@ -49,7 +49,6 @@ private:
         double second = 0.0;
     };
     std::vector<Section> sections_;
-    std::size_t poles_;
     double gain_;
     bool differs_;
     double before_ = 0.0;

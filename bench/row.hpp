@@ -13,12 +13,13 @@ namespace bench {
 using Json = nlohmann::ordered_json;
 
 /// What a row says in numbers: these, and stall_<cause>.
-inline constexpr std::array<std::string_view, 30> counters = {
+inline constexpr std::array<std::string_view, 31> counters = {
     "error_max",
     "error_rms",
     "rounding_error_max",
     "truncation_error_max",
     "discretisation_error_max",
+    "derivative_error_max",
     "saturations",
     "effective_taps",
     "macs_per_sample",

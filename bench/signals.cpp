@@ -75,8 +75,7 @@ std::vector<double> drive(std::size_t samples, double h_s) {
     constexpr std::size_t longest = 50000;            // 50 s of 1 ms: long after the response has come to rest
     const auto finer = static_cast<std::size_t>(std::ceil(h_s / step_s * (1.0 - 1e-9)));
     const std::size_t wanted = samples == 0 ? 0 : (samples - 1) * finer + 1;
-    const std::vector<double> fine = step_response(std::min(std::max(wanted, samples), std::max(longest, samples)),
-                                                   h_s / static_cast<double>(finer));
+    const std::vector<double> fine = step_response(std::min(wanted, longest), h_s / static_cast<double>(finer));
     std::vector<double> y(samples);
     double peak = 0.0;
     for (std::size_t k = 0; k < samples; ++k) {

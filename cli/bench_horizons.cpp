@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 
+#include "base/rounded_up.hpp"
 #include "bench/context.hpp"
 #include "bench/files.hpp"
 #include "bench/gnuplot.hpp"
@@ -45,32 +46,32 @@ using glsum::modes::Approximation;
 using WithModes = glsum::Sum<glsum::Modes, glsum::Plain, glsum::F64>;
 
 constexpr double errors[] = {1e-2, 1e-4, 1e-6};  // of the sum, for |x| <= 1, before h^-v
-constexpr std::string_view signals[] = {"step", "sine5", "noise"};
 
 // What an error over a horizon takes.
 struct Cost {
     double order;
     double error;
     std::size_t samples;
-    std::optional<std::size_t> window;  // taps; nothing: all of them
-    std::optional<std::size_t> blocks;  // coefficients
+    std::optional<std::size_t> window;  // multiplications; nothing: as many as samples, but one
+    std::optional<std::size_t> blocks;  // multiplications
     std::optional<Approximation> modes;
     double largest_error = 0.0;  // of the modes' kernel over the whole record, found
     double promised = 0.0;       // the most that it may be
     std::optional<double> cycles = {};
 };
 
-// The fewest taps that leave less than the error of the weights up to the horizon.
+// Multiplications, counted as the kernels do (a_0 = 1 needs none), of the fewest taps that leave less than the error of
+// the weights up to the horizon.
 std::optional<std::size_t> window_for(const std::vector<double>& weights, double error) {
     double left = 0.0;
     std::size_t taps = weights.size();
     while (taps > 1 && left + std::fabs(weights[taps - 1]) <= error) {
         left += std::fabs(weights[--taps]);
     }
-    return taps < weights.size() ? std::optional(taps) : std::nullopt;
+    return taps < weights.size() ? std::optional(taps - 1) : std::nullopt;
 }
 
-// The fewest coefficients whose best layout keeps the error, within a sixty-fourth; nothing where a window is as short.
+// Of the fewest coefficients whose best layout keeps the error, within a sixty-fourth; nothing where a window is as short.
 std::optional<std::size_t> blocks_for(const glsum::modes::Tail& tail, double error) {
     std::size_t too_few = 1;
     std::size_t enough = 2;
@@ -85,26 +86,40 @@ std::optional<std::size_t> blocks_for(const glsum::modes::Tail& tail, double err
         const std::size_t middle = (enough + too_few) / 2;
         (glsum::modes::design_blocks(tail, middle).error > error ? too_few : enough) = middle;
     }
-    return enough;
+    return enough - 1;
 }
 
-void measure_error(Cost& cost, const std::vector<double>& weights) {
-    bench::HostLine<WithModes> line({.order = cost.order, .taps = cost.modes->cost(), .modes = cost.modes->modes});
+// The largest error of a design on a record, against the sums of all of it.
+double error_on(const Cost& cost, const std::vector<double>& record, const std::vector<double>& sums) {
+    bench::HostLine<WithModes> line({.order = cost.order, .taps = cost.modes->length(), .modes = cost.modes->modes});
     if (line.status() != glsum::Status::ok) {
         throw Failure(Exit::check_failed, bench::to_text(line.status()));
     }
-    for (const std::string_view signal : signals) {
-        const std::vector<double> record = bench::make_signal(signal, cost.samples, bench::Sweep().seed);
-        const std::vector<double> sums = drive::whole_record_sums(weights, record);
-        WithModes::reset(line.state());
-        double largest = 0.0;
-        for (std::size_t k = 0; k < record.size(); ++k) {
-            largest = std::max(largest, std::fabs(line.step(record[k]) - sums[k]));
-        }
-        cost.largest_error = std::max(cost.largest_error, largest);
+    double largest = 0.0;
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        largest = std::max(largest, std::fabs(line.step(record[k]) - sums[k]));
     }
-    // The design's certificate, and the rounding of both sides in double.
-    cost.promised = bench::signal_peak * (cost.modes->error + 1e-11);
+    return largest;
+}
+
+// Every design on every signal. A record is made once, and its sums once for each order.
+void measure_errors(std::vector<Cost>& all, const std::vector<double>& orders, const std::vector<std::size_t>& horizons) {
+    bench::Progress progress("errors", horizons.size() * std::size(bench::signal_names) * orders.size());
+    for (const std::size_t samples : horizons) {
+        for (const std::string_view signal : bench::signal_names) {
+            const std::vector<double> record = bench::make_signal(signal, samples, bench::Sweep().seed);
+            for (const double order : orders) {
+                const std::vector<double> sums =
+                    drive::whole_record_sums(drive::record_weights(order, samples), record);
+                for (Cost& cost : all) {
+                    if (cost.order == order && cost.samples == samples && cost.modes) {
+                        cost.largest_error = std::max(cost.largest_error, error_on(cost, record, sums));
+                    }
+                }
+                progress.advance();
+            }
+        }
+    }
 }
 
 Json to_row(const Cost& cost, std::string_view kernel, std::size_t macs) {
@@ -126,10 +141,10 @@ std::string to_table(double order, const std::vector<Cost>& costs) {
         };
         text += fmt::format("  {:>8g} {:>10}  {:>10} {:>10} {:>16} {:>12} {:>12} {:>8}{}\n", cost.error, cost.samples,
                             number(cost.window), number(cost.blocks),
-                            cost.modes ? fmt::format("{} ({}+2x{})", cost.modes->cost(), cost.modes->near_taps,
+                            cost.modes ? fmt::format("{} ({}+{})", cost.modes->multiplications(), cost.modes->near_taps,
                                                      cost.modes->modes.size())
                                        : "-",
-                            cost.modes ? fmt::format("{:.1e}", cost.modes->error) : "-",
+                            cost.modes ? base::rounded_up(cost.modes->error, 2) : "-",
                             cost.modes ? fmt::format("{:.1e}", cost.largest_error) : "-",
                             cost.cycles ? fmt::format("{:.0f}", *cost.cycles) : "-",
                             cost.largest_error > cost.promised ? "  WRONG" : "");
@@ -160,11 +175,11 @@ void plot(const std::vector<double>& orders, const std::vector<Cost>& all, const
             if (cost.order != order || cost.error != error) {
                 continue;
             }
-            std::optional<std::size_t> macs = cost.window.value_or(cost.samples);
+            std::optional<std::size_t> macs = cost.window.value_or(cost.samples - 1);
             if (way == 1) {
                 macs = cost.blocks;
             } else if (way == 2) {
-                macs = cost.modes ? std::optional(cost.modes->cost()) : std::nullopt;
+                macs = cost.modes ? std::optional(cost.modes->multiplications()) : std::nullopt;
             }
             data += macs ? fmt::format("{} {}\n", cost.samples, *macs) : "";
         }
@@ -199,9 +214,9 @@ void measure_cycles(std::vector<Cost>& all, const std::string& core) {
     std::map<std::pair<double, std::size_t>, std::size_t> planned;  // by order and cost: the plan's row
     std::vector<qemu::PlannedRow> plan;
     for (const Cost& cost : all) {
-        if (cost.modes && planned.emplace(std::pair(cost.order, cost.modes->cost()), plan.size()).second) {
-            plan.push_back({kernel, cost.order, cost.modes->cost(), 0,
-                            qemu::calls_to_measure(kernel, cost.modes->cost()), cost.modes->modes});
+        if (cost.modes && planned.emplace(std::pair(cost.order, cost.modes->length()), plan.size()).second) {
+            plan.push_back({kernel, cost.order, cost.modes->length(), 0,
+                            qemu::calls_to_measure(kernel, cost.modes->length()), cost.modes->modes});
         }
     }
     bench::Progress progress("emulated Cortex-M7", plan.size());
@@ -210,7 +225,7 @@ void measure_cycles(std::vector<Cost>& all, const std::string& core) {
         qemu::Counting::blocks, bench::timing_request(cores_folder(), {core}));
     for (Cost& cost : all) {
         if (cost.modes) {
-            cost.cycles = measured.at(planned.at({cost.order, cost.modes->cost()})).cores.at(0).cycles;
+            cost.cycles = measured.at(planned.at({cost.order, cost.modes->length()})).cores.at(0).cycles;
         }
     }
 }
@@ -235,24 +250,24 @@ void run(const Options& options) {
                 // The oldest sample that a record of N shows has the index N - 1.
                 const glsum::modes::Tail tail{order, samples - 1};
                 Cost cost{order, error, samples, window_for(seen, error), blocks_for(tail, error), design(tail, error)};
-                if (cost.modes) {
-                    measure_error(cost, seen);
-                }
+                // The design's certificate, and the rounding of both sides in double.
+                cost.promised = cost.modes ? bench::signal_peak * (cost.modes->error + 1e-11) : 0.0;
                 all.push_back(std::move(cost));
                 progress.advance();
             }
         }
     }
+    measure_errors(all, orders, horizons);
     if (!options.core.empty()) {
         measure_cycles(all, options.core);
     }
     std::string text =
-        "Multiplications a sample for an error of the sum (|x| <= 1, before h^-v) over the whole past: of a window, of "
-        "near\n"
-        "taps and blocks, of near taps and modes; the modes' certificate, the largest error found in double on step, "
-        "sine and\n";
+        "Multiplications a sample (a_0 = 1 needs none) for an error of the sum (|x| <= 1, before h^-v) over the whole "
+        "past: of a\n"
+        "window, of near taps and blocks, of near taps and modes; the modes' certificate, the largest error found in "
+        "double on all\n";
     text += fmt::format(
-        "noise of 0.9{}.\n",
+        "seven signals of 0.9{}.\n",
         options.core.empty() ? "" : "; modelled cycles of the same design in single precision, " + options.core);
     std::vector<Json> rows;
     std::size_t wrong = 0;
@@ -263,12 +278,12 @@ void run(const Options& options) {
         text += to_table(order, of_order);
     }
     for (const Cost& cost : all) {
-        rows.push_back(to_row(cost, "window", cost.window.value_or(cost.samples)));
+        rows.push_back(to_row(cost, "window", cost.window.value_or(cost.samples - 1)));
         if (cost.blocks) {
             rows.push_back(to_row(cost, "nested", *cost.blocks));
         }
         if (cost.modes) {
-            Json row = to_row(cost, "modes", cost.modes->cost());
+            Json row = to_row(cost, "modes", cost.modes->multiplications());
             row["near_taps"] = cost.modes->near_taps;
             row["modes"] = cost.modes->modes.size();
             row["design_error"] = cost.modes->error;
@@ -290,7 +305,7 @@ void run(const Options& options) {
     sweep.cores.clear();
     sweep.samples = horizons.back();
     sweep.orders = orders;
-    sweep.signals.assign(std::begin(signals), std::end(signals));
+    sweep.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
     Json context = bench::make_context(Json(), sweep, nullptr);
     context["horizons"] = horizons;
     context["core"] = options.core;

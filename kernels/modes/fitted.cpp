@@ -75,7 +75,7 @@ std::optional<Approximation> design_fitted(const std::vector<double>& weights, d
     for (const std::size_t near_taps : {4U, 6U, 8U, 12U, 16U, 24U, 32U}) {
         const Projection projection = poles_of(order, near_taps, weights.size() - 1);
         for (std::size_t modes = 1; modes <= std::min(most_modes, projection.size()); ++modes) {
-            if (best && near_taps + 2 * modes >= best->cost()) {
+            if (best && near_taps + 2 * modes >= best->length()) {
                 break;
             }
             if (Approximation found = fitted(projection, weights, near_taps, modes); found.error <= error) {

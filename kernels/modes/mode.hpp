@@ -16,8 +16,10 @@ struct Approximation {
     std::vector<Mode> modes;  ///< M of them, slowest first
     double error;             ///< the exact sum_{j=K..N} |weight - approximation|
 
-    /// K + 2M: multiplications a sample.
-    [[nodiscard]] std::size_t cost() const { return near_taps + 2 * modes.size(); }
+    /// L = K + 2M: what a design of it counts as its taps.
+    [[nodiscard]] std::size_t length() const { return near_taps + 2 * modes.size(); }
+    /// A sample: a_0 = 1 needs none, so one less than its length, as of a window.
+    [[nodiscard]] std::size_t multiplications() const { return length() - 1; }
 };
 
 /// a_0 ... a_N of an order.

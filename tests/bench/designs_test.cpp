@@ -57,7 +57,7 @@ TEST(Designs, OfAKernelWithModesAreTheShortestForTheErrors) {
             ASSERT_TRUE(found);
             EXPECT_TRUE(std::any_of(lengths.begin(), lengths.end(),
                                     [&](const bench::Length& length) {
-                                        return length.taps == found->cost() && length.modes == found->modes.size();
+                                        return length.taps == found->length() && length.modes == found->modes.size();
                                     }))
                 << order << " " << error;
         }

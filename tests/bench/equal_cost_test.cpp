@@ -4,13 +4,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include "bench/oustaloup.hpp"
+#include "bench/signals.hpp"
 
 namespace {
 
@@ -63,7 +67,7 @@ TEST(Oustaloup, AboveOneADifferenceGoesBefore) {
         EXPECT_EQ(above.step(x), below.step(x - before)) << k;
         before = x;
     }
-    EXPECT_EQ(above.multiplications(), 11u);
+    EXPECT_EQ(Oustaloup::multiplications(5), 11u);
 }
 
 TEST(Oustaloup, RefusesWhatItCannotBe) {
@@ -86,25 +90,102 @@ TEST(EqualCost, EachWayIsThereAtEachCostAndNoneCostsMore) {
     for (const bench::Json& row : rows) {
         const auto cost = row.at("cost").get<std::size_t>();
         EXPECT_LE(row.at("macs_per_sample").get<std::size_t>(), cost) << row.dump();
-        EXPECT_TRUE(row.contains("error_max")) << row.dump();
+        EXPECT_TRUE(row.contains("error_max") || row.contains("derivative_error_max")) << row.dump();
         costs[row.at("way").get<std::string>()].insert(cost);
     }
     EXPECT_EQ(costs.size(), bench::equal_cost_ways().size());
     for (const bench::EqualCostWay& way : bench::equal_cost_ways()) {
-        EXPECT_EQ(costs[std::string(way.kernel)], (std::set<std::size_t>{15, 16})) << way.kernel;
+        const std::set<std::size_t> expected =
+            way.label == "full memory" ? std::set<std::size_t>{299} : std::set<std::size_t>{15, 16};
+        EXPECT_EQ(costs[std::string(way.name)], expected) << way.name;
     }
     const std::string table = to_table(wanted, rows);
-    EXPECT_NE(table.find("Order 0.5\n"), std::string::npos) << table;
+    EXPECT_NE(table.find("Order 0.5, against the exact sum\n"), std::string::npos) << table;
     EXPECT_NE(table.find("Oustaloup's filter"), std::string::npos) << table;
     // Of a whole order there is no tail to stand for, and nothing to approximate.
-    const std::string whole = table.substr(table.find("Order 1\n"));
+    const std::string whole = table.substr(table.find("Order 1,"));
     EXPECT_EQ(whole.find("modes "), std::string::npos) << whole;
     EXPECT_EQ(whole.find("Oustaloup"), std::string::npos) << whole;
 }
 
+// A design takes as many multiplications as it was asked for, where its kind can: a_0 = 1 needs none.
+TEST(EqualCost, SixteenMultiplicationsAreSixteen) {
+    bench::EqualCost wanted;
+    wanted.costs = {16};
+    wanted.orders = {0.5};
+    wanted.signals = {"step"};
+    wanted.samples = 300;
+    const std::map<std::string, std::pair<std::string, std::size_t>> expected = {
+        {"shift_plain_f64", {"/taps:17/", 16}},      {"mirrorhold_oldest_f64", {"/taps:15/", 16}},
+        {"mirrorlinear_oldest_f64", {"/taps:14/", 16}}, {"modes_plain_f64", {"/taps:1+8/", 16}},
+        {"oustaloup_f64", {"/poles:7/", 15}},
+    };
+    std::size_t met = 0;
+    for (const bench::Json& row : bench::measure_equal_cost(wanted)) {
+        const auto found = expected.find(row.at("way").get<std::string>());
+        if (found != expected.end()) {
+            ++met;
+            EXPECT_NE(row.at("name").get<std::string>().find(found->second.first), std::string::npos) << row.dump();
+            EXPECT_EQ(row.at("macs_per_sample").get<std::size_t>(), found->second.second) << row.dump();
+        }
+    }
+    EXPECT_EQ(met, expected.size());
+}
+
+// Figures of an independent tuning of the same filter, one band for the seven signals, to within what its search left.
+TEST(EqualCost, OustaloupIsTunedAtLeastAsWellAsByOthers) {
+    bench::EqualCost wanted;
+    wanted.costs = {16, 24, 32};
+    wanted.orders = {0.2, 0.5, 0.9};
+    wanted.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
+    std::map<std::pair<double, std::size_t>, double> worst;
+    std::map<std::pair<double, std::size_t>, std::set<std::string>> tunings;
+    std::map<std::string, double> own;
+    for (const bench::Json& row : bench::measure_filters(wanted)) {
+        const std::string name = row.at("name").get<std::string>();
+        const std::size_t order = name.find("order:") + 6;
+        const std::pair key(std::stod(name.substr(order)), row.at("cost").get<std::size_t>());
+        if (row.at("way") == bench::oustaloup_of_sums) {
+            worst[key] = std::max(worst[key], row.at("error_max").get<double>());
+            tunings[key].insert(row.at("mapping").dump() + row.at("low_rad_s").dump() + row.at("high_rad_s").dump());
+        } else if (key == std::pair(0.5, std::size_t{24})) {
+            own[name.substr(name.rfind(':') + 1)] = row.at("derivative_error_late_max").get<double>();
+        }
+    }
+    EXPECT_LT((worst[{0.5, 24}]), 1.76e-3);
+    EXPECT_LT((worst[{0.5, 32}]), 7.2e-4);
+    EXPECT_LT((worst[{0.9, 32}]), 2.8e-4);
+    EXPECT_LT((worst[{0.2, 32}]), 3.5e-4);
+    EXPECT_LT((worst[{0.9, 16}]), 6.2e-3);
+    for (const auto& [key, ways] : tunings) {
+        EXPECT_EQ(ways.size(), 1U) << key.first << ' ' << key.second;  // one for all signals
+    }
+    EXPECT_EQ(own.size(), 5U);  // the signals with a formula
+    EXPECT_LT(own["sine5"], 2.0e-3);
+}
+
+// Of a sine of 5 Hz at order 0.5 the sum itself errs by 2.2e-2 of its largest, at the first sample, whatever keeps it.
+TEST(EqualCost, AgainstTheDerivativeTheSumsOwnDiscretisationCounts) {
+    bench::EqualCost wanted;
+    wanted.costs = {32};
+    wanted.orders = {0.5};
+    wanted.signals = {"sine5"};
+    std::map<std::string, bench::Json> rows;
+    for (const bench::Json& row : bench::measure_equal_cost(wanted)) {
+        rows[row.at("way").get<std::string>()] = row;
+    }
+    const auto error = [&](const char* way, const char* counter) { return rows.at(way).at(counter).get<double>(); };
+    EXPECT_NEAR(error("mirror_multi_f64", "derivative_error_max"), 2.2e-2, 5e-4);
+    EXPECT_NEAR(error("modes_plain_f64", "derivative_error_max"), 2.2e-2, 5e-4);
+    EXPECT_LT(error("mirror_multi_f64", "error_max"), 1e-12);
+    EXPECT_NEAR(error("mirror_multi_f64", "derivative_error_late_max"),
+                error("mirror_multi_f64", "discretisation_error_late_max"), 1e-12);
+    EXPECT_LT(error("oustaloupown_f64", "derivative_error_max"), 1e-2);
+}
+
 // Against the sum, relative to its largest, as the kernels' are: the facts' figures for order 0.5 and a step of 1 are
-// 9.2e-3 and 3.6e-3 with 7 and 9 poles, in units of the sum, whose largest is 1.
-TEST(EqualCost, OustaloupsErrorsAreThoseOfThePublishedComparison) {
+// 9.2e-3 and 3.6e-3 with 7 and 9 poles of a usual band; tuned to that record alone it can only be better.
+TEST(EqualCost, TunedToOneRecordOustaloupBeatsThePublishedComparison) {
     bench::EqualCost wanted;
     wanted.costs = {15, 19};
     wanted.orders = {0.5};
@@ -113,11 +194,10 @@ TEST(EqualCost, OustaloupsErrorsAreThoseOfThePublishedComparison) {
     for (const bench::Json& row : bench::measure_equal_cost(wanted)) {
         if (row.at("way") == "oustaloup_f64") {
             errors[row.at("cost").get<std::size_t>()] = row.at("error_max").get<double>();
-            EXPECT_LE(row.at("error_late_max").get<double>(), row.at("error_max").get<double>());
         }
     }
-    EXPECT_NEAR(errors[15], 9.2e-3, 3e-3);
-    EXPECT_NEAR(errors[19], 3.6e-3, 3e-4);
+    EXPECT_LT(errors[15], 9.2e-3);
+    EXPECT_LT(errors[19], 3.6e-3);
 }
 
 }  // namespace

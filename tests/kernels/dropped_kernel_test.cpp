@@ -75,7 +75,7 @@ std::vector<Design> designs(double order) {
         for (const double error : {1e-2, 1e-4, 1e-6}) {
             if (glsum::modes::has_tail(order - 1.0)) {
                 made.push_back(*glsum::modes::design({order - 1.0, 1000}, error));
-                all.push_back({order, made.back().cost(), made.back().modes});
+                all.push_back({order, made.back().length(), made.back().modes});
             }
         }
     }

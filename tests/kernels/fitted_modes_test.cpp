@@ -48,8 +48,8 @@ TEST(FittedModes, KeepTheErrorThatTheyAreDesignedFor) {
                     }
                     EXPECT_LE(error, wanted * (1.0 + 1e-6)) << steps << ", " << order;
                     EXPECT_NEAR(found->error, error, 1e-6 * wanted) << steps << ", " << order;
-                    EXPECT_GE(found->cost(), before);
-                    before = found->cost();
+                    EXPECT_GE(found->length(), before);
+                    before = found->length();
                 }
             }
         }
@@ -63,7 +63,7 @@ TEST(FittedModes, OfFirstOrderCostNoMoreThanAFewMore) {
     const auto own = glsum::modes::design({0.5, 5000}, 1e-4);
     const auto found = design_fitted(half, 0.5, 1e-4);
     ASSERT_TRUE(own && found);
-    EXPECT_LE(found->cost(), own->cost() + 6);
+    EXPECT_LE(found->length(), own->length() + 6);
     EXPECT_FALSE(design_fitted(half, 0.5, 1e-15));
     EXPECT_TRUE(approximate_fitted(half, 0.5, 4, 0).modes.empty());
     EXPECT_EQ(approximate_fitted(half, 0.5, 4, 7).modes.size(), 7U);

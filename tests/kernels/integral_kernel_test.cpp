@@ -89,7 +89,7 @@ TYPED_TEST(IntegralTest, StaysWithinItsBoundOverARecordOfAnyMean) {
         glsum::modes::approximate_integral(weights_to(-0.5, samples), -0.5, 3, 8);
     ASSERT_EQ(design.modes.front().decay, 0.0);
     const std::vector<Mode> alone{{0.0, 1.0}};
-    const glsum::Design half{-0.5, design.cost(), design.modes};
+    const glsum::Design half{-0.5, design.length(), design.modes};
     // At order -1 the running sum is all there is, so that nothing else of the bound can make up for its share.
     const glsum::Design whole{-1.0, 3, alone};
     for (const double mean : {0.0, 0.7}) {
@@ -108,7 +108,7 @@ TYPED_TEST(IntegralTest, IsItsModesAndANeumaierSumBitForBit) {
     using Sample = typename TypeParam::Sample;
     for (const std::size_t near_taps : {1U, 2U, 4U}) {
         const auto design = glsum::modes::approximate_integral(weights_to(-0.5, 1000), -0.5, near_taps, 5);
-        const glsum::Design asked{-0.5, design.cost(), design.modes};
+        const glsum::Design asked{-0.5, design.length(), design.modes};
         Line<TypeParam> line(asked);
         Line<typename TypeParam::Inner> modes(TypeParam::inner_design(asked));
         ASSERT_EQ(line.status, glsum::Status::ok);
@@ -137,7 +137,7 @@ TYPED_TEST(IntegralTest, IsItsModesAndANeumaierSumBitForBit) {
 TYPED_TEST(IntegralTest, AddsALevelUpForEver) {
     constexpr std::size_t horizon = 600;
     const auto design = glsum::modes::approximate_integral(weights_to(-0.5, horizon), -0.5, 1, 6);
-    Line<TypeParam> line({-0.5, design.cost(), design.modes});
+    Line<TypeParam> line({-0.5, design.length(), design.modes});
     ASSERT_EQ(line.status, glsum::Status::ok);
     const auto grown = [&](std::size_t count) {
         double sum = 0.0;

@@ -44,9 +44,9 @@ TEST(IntegralDesignTest, KeepsTheErrorItIsAskedFor) {
                     // A running sum for the slowest mode costs a mode more at most, here and there beside a tap.
                     const auto decaying = glsum::modes::design({order, horizon}, error);
                     ASSERT_TRUE(decaying.has_value());
-                    EXPECT_LE(found->cost(), decaying->cost() + 3) << order << " " << horizon << " " << error;
+                    EXPECT_LE(found->length(), decaying->length() + 3) << order << " " << horizon << " " << error;
                 } else {
-                    EXPECT_EQ(found->cost(), 3U);
+                    EXPECT_EQ(found->length(), 3U);
                 }
             }
         }

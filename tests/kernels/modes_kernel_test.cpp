@@ -24,7 +24,7 @@ template <class K>
 class ModesKernelTest : public testing::Test {};
 TYPED_TEST_SUITE(ModesKernelTest, ModesKernels, test::KernelNames);
 
-Design design_of(double order, const Approximation& found) { return {order, found.cost(), found.modes}; }
+Design design_of(double order, const Approximation& found) { return {order, found.length(), found.modes}; }
 
 // The kernel as its header states it, one number at a time, the modes as they are designed: the slowest first.
 template <class K>

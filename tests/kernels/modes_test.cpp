@@ -75,7 +75,7 @@ TEST(Modes, CostNoMoreThanPublished) {
         for (std::size_t i = 0; i < 4; ++i) {
             const auto found = design({row.order, row.horizon}, errors[i]);
             ASSERT_TRUE(found) << row.order << " " << row.horizon << " " << errors[i];
-            EXPECT_LE(found->cost(), row.cost[i]) << row.order << " " << row.horizon << " " << errors[i];
+            EXPECT_LE(found->length(), row.cost[i]) << row.order << " " << row.horizon << " " << errors[i];
         }
     }
 }
@@ -99,8 +99,8 @@ TEST(Modes, ALengthHasTheModesThatLeaveTheFewestTapsOrOneMore) {
 }
 
 TEST(Modes, WholeOrdersNeedTheTapsThatTheyHave) {
-    EXPECT_EQ(design({1.0, 5000}, 1e-12)->cost(), 2U);
-    EXPECT_EQ(design({2.0, 5000}, 1e-12)->cost(), 3U);
+    EXPECT_EQ(design({1.0, 5000}, 1e-12)->length(), 2U);
+    EXPECT_EQ(design({2.0, 5000}, 1e-12)->length(), 3U);
     EXPECT_FALSE(design({-1.5, 5000}, 1e-3));
 }
 
