@@ -11,20 +11,32 @@
 
 namespace drive {
 
+/// What a scheme asks of a kernel's sum, whatever its type.
+class PastSum {
+public:
+    virtual ~PastSum() = default;
+    [[nodiscard]] virtual glsum::Status status() const = 0;
+    /// sum_{j>=1} a_j x_(k-j), before h^-v.
+    virtual double past() = 0;
+    /// x_k; the sum of order v over it is not looked at.
+    virtual void push(double sample) = 0;
+    /// Samples beyond full scale, and sums that saturated.
+    [[nodiscard]] virtual std::size_t saturations() const = 0;
+};
+
 /// A kernel sums and stores in one step, and a_0 = 1 with no multiplication: its sum for a sample of 0 is that of the
 /// past. The state is kept, tried with 0, put back, and stepped with the sample, so that any kernel serves unchanged.
 template <class K>
-class KernelSum {
+class KernelSum final : public PastSum {
 public:
     explicit KernelSum(const glsum::Design& design)
         : table_(K::table_count(design.taps) + 1), past_(K::past_count(design.taps) + 1), kept_(past_.size()) {
         status_ = K::prepare(state_, design, table_, past_);
     }
 
-    [[nodiscard]] glsum::Status status() const { return status_; }
+    [[nodiscard]] glsum::Status status() const override { return status_; }
 
-    /// sum_{j>=1} a_j x_(k-j), before h^-v.
-    double past() {
+    double past() override {
         const auto state = state_;
         std::copy(past_.begin(), past_.end(), kept_.begin());
         const double sum = K::to_real(state_, K::step(state_, K::from_real(0.0)));
@@ -33,16 +45,14 @@ public:
         return sum;
     }
 
-    /// x_k; the sum of order v over it is not looked at.
-    void push(double sample) {
+    void push(double sample) override {
         if constexpr (!std::is_floating_point_v<typename K::Sample>) {
             clipped_ += sample >= 1.0 || sample < -1.0 ? 1 : 0;
         }
         (void)K::step(state_, K::from_real(sample));
     }
 
-    /// Samples beyond full scale, and sums that saturated.
-    [[nodiscard]] std::size_t saturations() const {
+    [[nodiscard]] std::size_t saturations() const override {
         if constexpr (requires { state_.scale.saturations; }) {
             return clipped_ + state_.scale.saturations;
         }

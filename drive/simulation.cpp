@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <deque>
+#include <memory>
 #include <type_traits>
 
 #include "drive/fast_memory.hpp"
@@ -91,15 +91,41 @@ std::vector<glsum::modes::Term> derivatives_of(const std::vector<Term>& terms) {
     return derivatives;
 }
 
-// One sum of the kernel for each order, or one for all; what surrounds them in `Real`.
+// A kernel of the registry, by what a scheme asks of it.
+struct SchemeKernel {
+    std::string_view name;
+    bool single;  // sums are floats
+    bool fixed_point;
+    bool keeps_increments;
+    bool keeps_modes;
+    bool keeps_running_sum;
+    std::unique_ptr<PastSum> (*sum)(const glsum::Design& design);
+    [[nodiscard]] bool is_modes_alone() const { return keeps_modes && !keeps_increments && !keeps_running_sum; }
+};
+
 template <class K>
-Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vector<double>& forcing) {
-    using Real = std::conditional_t<std::is_same_v<typename K::Output, float>, float, double>;
+SchemeKernel scheme_kernel() {
+    using History = typename K::HistoryPart;
+    return {K::name(),
+            std::is_same_v<typename K::Output, float>,
+            !std::is_floating_point_v<typename K::Sample>,
+            glsum::keeps_increments<History>,
+            glsum::keeps_modes<History>,
+            glsum::keeps_running_sum<History>,
+            [](const glsum::Design& design) -> std::unique_ptr<PastSum> {
+                return std::make_unique<KernelSum<K>>(design);
+            }};
+}
+
+// One sum of the kernel for each order, or one for all; what surrounds them in `Real`.
+template <class Real>
+Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Scheme& scheme,
+                      const std::vector<double>& forcing) {
     const std::size_t count = forcing.size();
     const std::size_t taps = std::min(count, scheme.taps.value_or(count));
     Simulated simulated;
     double scale = 1.0;
-    if constexpr (!std::is_floating_point_v<typename K::Sample>) {
+    if (kernel.fixed_point) {
         scale = scheme.full_scale;
         if (scale == 0.0) {
             double peak = 0.0;
@@ -111,14 +137,14 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
         }
         simulated.full_scale = scale;
     }
-    std::deque<KernelSum<K>> sums;
+    std::vector<std::unique_ptr<PastSum>> sums;
     std::vector<Real> factors;
     const auto add_sum = [&](const glsum::Design& design, double factor) {
-        sums.emplace_back(design);
-        if (const glsum::Status status = sums.back().status(); status != glsum::Status::ok) {
+        sums.push_back(kernel.sum(design));
+        if (const glsum::Status status = sums.back()->status(); status != glsum::Status::ok) {
             refuse(fmt::format(
-                "{}: no sum of order {} over {} taps: {}", K::name(), design.order, taps,
-                status == glsum::Status::order_out_of_range     ? (glsum::keeps_increments<typename K::HistoryPart>
+                "{}: no sum of order {} over {} taps: {}", kernel.name, design.order, taps,
+                status == glsum::Status::order_out_of_range     ? (kernel.keeps_increments
                                                                        ? "over increments kernels take orders in (-1, 2]"
                                                                        : "kernels take orders in (-2, 2]")
                 : status == glsum::Status::weights_out_of_range ? "it cannot take the weights of a merged table"
@@ -127,31 +153,31 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
         factors.push_back(static_cast<Real>(factor));
     };
     // With modes a length of taps is parted as a design of so many has them.
-    constexpr bool with_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
-    if (glsum::keeps_running_sum<typename K::HistoryPart>) {
+    const bool with_modes = kernel.is_modes_alone();
+    if (kernel.keeps_running_sum) {
         refuse(fmt::format(
             "{}: expected a kernel modes_...: a running sum is for integrals, and a plant's orders are above 0",
-            K::name()));
+            kernel.name));
     }
-    if (glsum::keeps_increments<typename K::HistoryPart> && glsum::keeps_modes<typename K::HistoryPart>) {
-        refuse(fmt::format("{}: expected increments and a kernel modes_..., which is the same sum", K::name()));
+    if (kernel.keeps_increments && kernel.keeps_modes) {
+        refuse(fmt::format("{}: expected increments and a kernel modes_..., which is the same sum", kernel.name));
     }
     if (with_modes && !scheme.taps) {
         refuse(
-            fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few", K::name()));
+            fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few", kernel.name));
     }
     const auto constant = static_cast<Real>(constant_coefficient(model.denominator));
     Real newest = 0;
     if (scheme.merged) {
         std::size_t near_taps = taps;
         std::vector<glsum::Mode> modes;
-        if constexpr (with_modes) {
+        if (with_modes) {
             // The parting of an order in (0, 1), as increments leave them; the table has one tap more than that needs.
             const std::size_t wanted = glsum::modes::modes_within(0.5, taps - std::min<std::size_t>(taps, 1));
             near_taps = taps - 2 * wanted;
             if (!scheme.increments || near_taps < 2) {
                 refuse(fmt::format(
-                    "{}: expected increments and at least 2 taps: the modes of a merged table are theirs", K::name()));
+                    "{}: expected increments and at least 2 taps: the modes of a merged table are theirs", kernel.name));
             }
             modes = glsum::modes::approximate_merged(derivatives_of(model.denominator), scheme.step_s,
                                                      glsum::modes::Discretisation::grunwald_letnikov,
@@ -162,7 +188,7 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
         const double whole = weights[0] + (scheme.increments ? constant_coefficient(model.denominator) : 0.0);
         newest = static_cast<Real>(whole);
         double factor = 1.0;
-        if constexpr (!std::is_floating_point_v<typename K::Sample>) {
+        if (kernel.fixed_point) {
             factor = whole;  // fractions
             for (double& weight : weights) {
                 weight /= whole;
@@ -194,7 +220,7 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
     for (std::size_t k = 0; k < count; ++k) {
         Real rest = static_cast<Real>(forcing[k]);
         for (std::size_t i = 0; i < sums.size(); ++i) {
-            rest -= factors[i] * static_cast<Real>(sums[i].past() * scale);
+            rest -= factors[i] * static_cast<Real>(sums[i]->past() * scale);
         }
         Real stored = 0;
         if (scheme.increments) {
@@ -204,13 +230,13 @@ Simulated step_kernel(const Model& model, const Scheme& scheme, const std::vecto
             stored = k == 0 ? Real(0) : rest / newest;
             before = stored;
         }
-        for (KernelSum<K>& sum : sums) {
-            sum.push(static_cast<double>(stored) / scale);
+        for (const auto& sum : sums) {
+            sum->push(static_cast<double>(stored) / scale);
         }
         simulated.output.push_back(before);
     }
-    for (const KernelSum<K>& sum : sums) {
-        simulated.saturations += sum.saturations();
+    for (const auto& sum : sums) {
+        simulated.saturations += sum->saturations();
     }
     return simulated;
 }
@@ -254,7 +280,9 @@ Simulated simulate(const Model& model, const Scheme& scheme, std::span<const dou
     glsum::Registry::for_each([&]<class K>() {
         if constexpr (!std::is_same_v<K, glsum::Null>) {
             if (K::name() == scheme.kernel) {
-                simulated = step_kernel<K>(model, scheme, forcing);
+                const SchemeKernel kernel = scheme_kernel<K>();
+                simulated = kernel.single ? step_kernel<float>(kernel, model, scheme, forcing)
+                                          : step_kernel<double>(kernel, model, scheme, forcing);
             }
         }
     });
