@@ -28,6 +28,8 @@ for design in '0.5 100' '0.98319 51' '-0.5 62'; do
     [ -z "$dearer" ] || fail "expected no header of more instructions or cycles than its kernel, found $dearer"
 done
 expect 0 "the kernel's" generate --order 0.5 --kernel 'nested_*' --taps 300 --verify
+# Of three taps, where a branch that goes another way weighs most.
+expect 0 "the kernel's" generate --order 0.5 --kernel '*_f64' --taps 3 --verify
 # The committed example, made again: all but where and by what it was made.
 command=$(sed -n 's/^ \* Command: glsum //p' "$source/targets/example/half_derivative.h")
 (cd "$folder" && mkdir -p targets/example && "$program" $command >/dev/null 2>&1) || fail "the example's command fails: $command"
