@@ -53,7 +53,8 @@ struct Case {
             peak = std::max(peak, std::fabs(sum.high));
         }
         limits = derivative_limits(name, sweep.samples, order, weights);
-        discretisation = error_at(limits, [&](const DerivativeLimit& at) { return exact.back()[at.sample].error_of(at.value); });
+        discretisation = error_at(
+            limits, [&](const DerivativeLimit& at) { return exact.back()[at.sample].error_of(at.value); });
     }
 
     /// The exact sums of what a kernel's design stands for.

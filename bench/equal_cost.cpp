@@ -46,8 +46,8 @@ std::optional<Length> length_within(const std::string& kernel, double order, std
     return length.modes && *length.modes == 0 ? std::nullopt : std::optional(length);
 }
 
-// A signal, what the full memory makes of it, and its exact derivative, the whole and its second half; these two wait
-// for nothing where the signal has no formula.
+// A signal, what the full memory makes of it, and its exact derivative, the whole and its second half. Nothing is
+// wanted of these two where the signal has no formula.
 struct Targets {
     FilterTarget sum;
     FilterTarget derivative;
@@ -173,7 +173,11 @@ std::vector<Json> measure_equal_cost(const EqualCost& wanted) {
             for (const std::size_t cost : wanted.costs) {
                 if (const auto length = length_within(kernel, order, cost, wanted.samples)) {
                     ask(cost, *length);
-                    length->modes ? void(with_modes.emplace(length->taps, *length->modes)) : void(windows.insert(length->taps));
+                    if (length->modes) {
+                        with_modes.emplace(length->taps, *length->modes);
+                    } else {
+                        windows.insert(length->taps);
+                    }
                 }
             }
         }
@@ -192,7 +196,10 @@ std::vector<Json> measure_equal_cost(const EqualCost& wanted) {
         for (const Json& row : of_case) {
             const std::string name = row.at("name").get<std::string>();
             const auto found = asked.find(name.substr(0, name.find("accuracy/")));
-            for (const auto& [cost, way] : found == asked.end() ? decltype(found->second)() : found->second) {
+            if (found == asked.end()) {
+                continue;  // of a length that is another kernel's
+            }
+            for (const auto& [cost, way] : found->second) {
                 rows.push_back(row);
                 rows.back()["cost"] = cost;
                 rows.back()["way"] = way;

@@ -63,7 +63,8 @@ public:
         while (step > 1e-3) {
             const Candidate centre = best;
             for (const auto& [low_steps, high_steps] : ways) {
-                Candidate tried{centre.low + low_steps * step, centre.high + high_steps * step, centre.mapping, infinite};
+                Candidate tried{centre.low + low_steps * step, centre.high + high_steps * step, centre.mapping,
+                                infinite};
                 if (tried.low < tried.high && std::fabs(tried.low) < decades && std::fabs(tried.high) < decades) {
                     tried.error = error_of(tried, best.error);
                     best = tried.error < best.error ? tried : best;

@@ -144,9 +144,9 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
         if (const glsum::Status status = sums.back()->status(); status != glsum::Status::ok) {
             refuse(fmt::format(
                 "{}: no sum of order {} over {} taps: {}", kernel.name, design.order, taps,
-                status == glsum::Status::order_out_of_range     ? (kernel.keeps_increments
-                                                                       ? "over increments kernels take orders in (-1, 2]"
-                                                                       : "kernels take orders in (-2, 2]")
+                status == glsum::Status::order_out_of_range
+                    ? (kernel.keeps_increments ? "over increments kernels take orders in (-1, 2]"
+                                               : "kernels take orders in (-2, 2]")
                 : status == glsum::Status::weights_out_of_range ? "it cannot take the weights of a merged table"
                                                                 : "its coefficients do not fit the format"));
         }
@@ -164,7 +164,8 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
     }
     if (with_modes && !scheme.taps) {
         refuse(
-            fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few", kernel.name));
+            fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few",
+                        kernel.name));
     }
     const auto constant = static_cast<Real>(constant_coefficient(model.denominator));
     Real newest = 0;
@@ -177,7 +178,8 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
             near_taps = taps - 2 * wanted;
             if (!scheme.increments || near_taps < 2) {
                 refuse(fmt::format(
-                    "{}: expected increments and at least 2 taps: the modes of a merged table are theirs", kernel.name));
+                    "{}: expected increments and at least 2 taps: the modes of a merged table are theirs",
+                    kernel.name));
             }
             modes = glsum::modes::approximate_merged(derivatives_of(model.denominator), scheme.step_s,
                                                      glsum::modes::Discretisation::grunwald_letnikov,

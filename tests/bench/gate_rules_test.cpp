@@ -130,4 +130,27 @@ TEST(GateRules, ThatAreCommittedSpeakOfEveryLayer) {
     EXPECT_FALSE(better_of(rules, "gl/a/order:1/taps:2/m7:count", "no_such_counter"));
 }
 
+// What is beyond the allowed change, by which way is better; at most 0 within it.
+TEST(GateRules, AllowAsMuchAsTheySayAndNoMore) {
+    Rule rule;
+    rule.relative = 0.25;
+    rule.absolute = 1.0;
+    EXPECT_EQ(rule.allowed(8.0), 2.0);
+    EXPECT_EQ(rule.allowed(-8.0), 2.0);
+    EXPECT_EQ(rule.allowed(2.0), 1.0);  // the larger of both
+    rule.better = Better::lower;
+    EXPECT_EQ(rule.excess(8.0, 10.0), 0.0);
+    EXPECT_EQ(rule.excess(8.0, 11.0), 1.0);
+    EXPECT_EQ(rule.excess(8.0, 4.0), -6.0);
+    rule.better = Better::higher;
+    EXPECT_EQ(rule.excess(8.0, 6.0), 0.0);
+    EXPECT_EQ(rule.excess(8.0, 5.0), 1.0);
+    EXPECT_EQ(rule.excess(8.0, 12.0), -6.0);
+    rule.better = Better::equal;
+    EXPECT_EQ(rule.excess(8.0, 6.0), 0.0);
+    EXPECT_EQ(rule.excess(8.0, 10.0), 0.0);
+    EXPECT_EQ(rule.excess(8.0, 5.0), 1.0);
+    EXPECT_EQ(rule.excess(8.0, 11.0), 1.0);
+}
+
 }  // namespace

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -232,6 +233,7 @@ TEST(BlindCases, ShowTheirEffects) {
     std::vector<std::string> all = blind::listed_effects();
     all.insert(all.end(), blind::unlisted_effects().begin(), blind::unlisted_effects().end());
     std::size_t number = 0;
+    std::map<std::string, int> plants;
     for (const std::string& effect : all) {
         ++number;
         const bool listed = number <= blind::listed_effects().size();
@@ -244,8 +246,14 @@ TEST(BlindCases, ShowTheirEffects) {
         const drive::Log train = drive::parse_log(made.train, "train.csv");
         EXPECT_GE(train.output.size(), 1000U);
         EXPECT_NO_THROW((void)drive::parse_log(made.validate, "validate.csv"));
-        EXPECT_NO_THROW((void)drive::parse_model(made.model, "model.json"));
+        const drive::Model model = drive::parse_model(made.model, "model.json");
+        ++plants[made.truth.plant];
+        const bool whole = std::ranges::all_of(
+            model.denominator, [](const drive::Term& term) { return term.order == std::round(term.order); });
+        EXPECT_EQ(whole, made.truth.plant != "fractional") << made.truth.plant << ' ' << made.model;
     }
+    EXPECT_GE(plants["whole"], 3);
+    EXPECT_GE(plants["fractional"], 3);
 }
 
 TEST(BlindCases, ThatAreTheSameAsOthersHoldOneLevel) {

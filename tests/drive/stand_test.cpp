@@ -7,6 +7,7 @@
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -399,6 +400,74 @@ TEST(Stand, ThreeSeriesRepeatAndTheFourthIsDisturbed) {
     EXPECT_LT(top, 1.0);
     EXPECT_EQ(series[0].duty[259], 0.27);
     EXPECT_EQ(series[0].duty[262], 0.0);
+}
+
+// The stand that published fits and pictures are of. Whoever changes one of these changes them, and says so here.
+TEST(Stand, IsTheOneThatResultsAreOf) {
+    constexpr double unlimited = std::numeric_limits<double>::infinity();
+    const std::map<std::string, double> expected = {
+        {"inertia_kg_m2", 0.03},
+        {"damping_n_m_s", 0.11},
+        {"gravity_n_m", 0.18},
+        {"full_thrust_n", 7.0},
+        {"arm_m", 0.25},
+        {"delay_s", 0.02},
+        {"interval_s", 0.01},
+        {"spread_s", 0.001},
+        {"gain_error.gain", 1.0},
+        {"time_scale_error.scale", 1.0},
+        {"dead_time_error.extra_s", 0.0},
+        {"start_up_time.duration_s", 0.85},
+        {"start_up_threshold.threshold", 0.05},
+        {"input_dead_zone.width", 0.0},
+        {"input_saturation.limit", 1.0},
+        {"rate_limit.per_s", unlimited},
+        {"actuator_lag.tau_s", 0.12},
+        {"input_curve.curvature", 1.0},
+        {"input_curve.reference", 1.0},
+        {"supply_sag.per_unit_s", 0.004},
+        {"supply_sag.resistance", 0.3},
+        {"gain_drift.per_s", 0.0},
+        {"coulomb_friction.force", 0.0015},
+        {"coulomb_friction.stiction", 1.4},
+        {"direction_dependent_friction.force_up", 0.0},
+        {"direction_dependent_friction.force_down", 0.0},
+        {"quadratic_drag.coefficient", 0.0005},
+        {"gravity_nonlinearity.angle_per_unit", 1.0},
+        {"end_stop.limit", 1.3},
+        {"end_stop.lower", 0.0},
+        {"end_stop.restitution", 0.35},
+        {"load_disturbance.from_s", 0.0},
+        {"load_disturbance.to_s", 0.0},
+        {"load_disturbance.size", 0.0},
+        {"backlash.gap", 0.0},
+        {"output_curve.curvature", 0.0},
+        {"output_curve.reference", 1.0},
+        {"direction_asymmetry.tau_up_s", 0.0},
+        {"direction_asymmetry.tau_down_s", 0.0},
+        {"structural_resonance.hz", 12.0},
+        {"structural_resonance.damping", 0.03},
+        {"structural_resonance.share", 0.0},
+        {"sensor_lag.tau_s", 0.0},
+        {"sensor_offset.offset", 0.0},
+        {"sensor_drift.per_s", 0.0},
+        {"noise.deviation", 0.0},
+        {"sensor_saturation.limit", unlimited},
+        {"encoder_quantisation.step", 0.006283185307179586},
+        {"missed_counts.at_s", 0.0},
+        {"missed_counts.sizes", 0.0},
+        {"sampling_jitter.half_width_s", 0.0},
+        {"dropped_samples.rate", 0.0},
+    };
+    const stand::Stand built;
+    std::size_t met = 0;
+    for (const stand::Size& size : stand::sizes()) {
+        const std::string name = *size.effect == '\0' ? size.name : std::string(size.effect) + '.' + size.name;
+        ASSERT_TRUE(expected.contains(name)) << name;
+        EXPECT_EQ(built.*size.value, expected.at(name)) << name;
+        ++met;
+    }
+    EXPECT_EQ(met, expected.size());
 }
 
 TEST(Stand, EachEffectCanBeAbsentAndBeBroughtBack) {

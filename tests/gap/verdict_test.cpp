@@ -4,7 +4,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <random>
@@ -118,6 +120,31 @@ TEST(Ranking, OfWhatRanAwayIsANumberAndLast) {
     gap::judge(away, ground.validation, whitener);
     EXPECT_TRUE(std::isfinite(away.score()));
     EXPECT_LT(away.score(), usual.score());
+}
+
+// A likelihood is of every reading that counts, and of no other; what it is worth is that less the penalty.
+TEST(Ranking, CountsEveryReadingOnce) {
+    const gap::Question question = gap_test::question_of({}, {.seed = 37}, {.experiment = "prbs", .seed = 38});
+    gap::Ground ground = gap::prepare(question);
+    const gap::Candidate none = gap::fit(ground.study, {}, {}, nullptr);
+    const gap::Whitener whitener = gap::whitener_of(ground.study, none);
+    const gap::Ranked whole = gap::validated(ground.validation, none, whitener, nullptr, false);
+    std::size_t readings = 0;
+    for (const auto& counts : ground.validation.counts) {
+        readings += static_cast<std::size_t>(std::count(counts.begin(), counts.end(), 1));
+    }
+    EXPECT_EQ(whole.by_sample.size(), readings);
+    EXPECT_NEAR(whole.log_likelihood, std::accumulate(whole.by_sample.begin(), whole.by_sample.end(), 0.0),
+                1e-9 * std::fabs(whole.log_likelihood));
+    EXPECT_EQ(whole.score(), whole.log_likelihood - whole.penalty);
+    // The first and the last left out are theirs, and theirs alone.
+    auto& counts = ground.validation.counts.front();
+    counts.front() = 0;
+    counts.back() = 0;
+    gap::Ranked fewer = whole;
+    gap::judge(fewer, ground.validation, whitener);
+    EXPECT_EQ(fewer.by_sample.size(), readings - 2);
+    EXPECT_EQ(fewer.by_sample.front(), whole.by_sample[1]);
 }
 
 TEST(Verdict, OfTwoEffectsIsTheirPair) {

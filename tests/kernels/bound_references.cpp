@@ -21,7 +21,9 @@ using reference::Sums;
 class Store {
 public:
     Store(const std::filesystem::path& path, bool writes)
-        : path_(path), writes_(writes), file_(path, std::ios::binary | (writes ? std::ios::out | std::ios::trunc : std::ios::in)) {}
+        : path_(path),
+          writes_(writes),
+          file_(path, std::ios::binary | (writes ? std::ios::out | std::ios::trunc : std::ios::in)) {}
 
     template <class Compute>
     Sums sums(std::size_t samples, Compute compute) {
@@ -62,10 +64,11 @@ std::vector<BoundReference> bound_references(const std::filesystem::path& folder
     Store store(folder / ("bound-" + std::to_string(static_cast<int>(dropped))), writes);
     std::vector<BoundReference> made;
     constexpr std::size_t samples = 400;
+    constexpr std::size_t lengths[] = {1, 7, 50, 150, samples};
     for (const double order : {0.2, 0.5, 0.9, 0.98319, 1.0, 1.5, 1.9909, 2.0, -0.5, -1.5}) {
         for (const std::string_view signal : bench::signal_names) {
             const auto record = bench::make_signal(signal, samples, 1);
-            for (const std::size_t taps : {std::size_t{1}, std::size_t{7}, std::size_t{50}, std::size_t{150}, samples}) {
+            for (const std::size_t taps : lengths) {
                 made.push_back({order, taps, record, store.sums(samples, [&] {
                                     return reference::sums_of(dropped, {order, taps}, record);
                                 })});

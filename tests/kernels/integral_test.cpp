@@ -69,4 +69,23 @@ TEST(IntegralDesignTest, OfOrderMinusOneTakesTheTapsThatHigherOrdersNeed) {
     }
 }
 
+// Where so many taps leave nothing to fit, what is left is a level: the last weight, added up.
+TEST(IntegralDesignTest, OfWeightsThatTheTapsReachIsALevel) {
+    const std::vector<double> weights = weights_to(-0.5, 4);
+    ASSERT_EQ(weights.size(), 5U);
+    const auto three = glsum::modes::approximate_integral(weights, -0.5, 3, 6);
+    EXPECT_EQ(three.near_taps, 3U);
+    ASSERT_EQ(three.modes.size(), 1U);
+    EXPECT_EQ(three.modes[0].decay, 0.0);
+    EXPECT_EQ(three.modes[0].weight, weights[4]);
+    EXPECT_DOUBLE_EQ(three.error, std::fabs(weights[3] - weights[4]));
+    // No tap beyond the last weight but one.
+    const auto ten = glsum::modes::approximate_integral(weights, -0.5, 10, 6);
+    EXPECT_EQ(ten.near_taps, 4U);
+    EXPECT_EQ(ten.error, 0.0);
+    // Of order -1, whatever the length, and of others beyond it modes as asked.
+    EXPECT_EQ(glsum::modes::approximate_integral(weights_to(-1.0, 600), -1.0, 2, 6).modes.size(), 1U);
+    EXPECT_EQ(glsum::modes::approximate_integral(weights_to(-0.5, 600), -0.5, 2, 6).modes.size(), 6U);
+}
+
 }  // namespace

@@ -100,6 +100,7 @@ TEST(Modes, ALengthHasTheModesThatLeaveTheFewestTapsOrOneMore) {
 
 TEST(Modes, WholeOrdersNeedTheTapsThatTheyHave) {
     EXPECT_EQ(design({1.0, 5000}, 1e-12)->length(), 2U);
+    EXPECT_EQ(design({1.0, 5000}, 1e-12)->multiplications(), 1U);  // a_0 = 1 needs none
     EXPECT_EQ(design({2.0, 5000}, 1e-12)->length(), 3U);
     EXPECT_FALSE(design({-1.5, 5000}, 1e-3));
 }

@@ -33,9 +33,9 @@ my %words = (
 );
 sub spelled { my ($text) = @_; return $words{$text} // $text =~ s/ \* 1\.01$/-and-1%/r; }
 
-# The places of a line where a change may be: [column, old, new].
+# The places of a line where a change may be: [column, old, new]. Its texts and comments are blanked.
 sub places {
-    my ($line, $code) = @_;  # $code: the line with texts and comments blanked
+    my ($code) = @_;
     my @found;
     while ($code =~ / (\S+) (?=\S)/g) {
         my ($word, $at) = ($1, $-[1]);
@@ -60,8 +60,7 @@ sub places {
 }
 
 sub code_of {
-    my ($line, $in_comment) = @_;
-    my $code = $line;
+    my ($code) = @_;
     $code =~ s/"(?:[^"\\]|\\.)*"/'"' . ('~' x (length($&) - 2)) . '"'/ge;
     $code =~ s{'(?:[^'\\]|\\.)'}{"'" . ('~' x (length($&) - 2)) . "'"}ge;
     $code =~ s{//.*$}{' ' x length $&}e;
@@ -83,7 +82,7 @@ for my $one (@areas) {
             $comment = 1 if $line =~ m{/\*} && $line !~ m{\*/};
             $comment = 0 if $line =~ m{\*/};
             next if $skip;
-            push @{$places_of{$one}}, [$file, $., @$_] for places($line, code_of($line));
+            push @{$places_of{$one}}, [$file, $., @$_] for places(code_of($line));
         }
     }
 }

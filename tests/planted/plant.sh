@@ -58,7 +58,7 @@ library_of() {
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/report/*) echo bench/libglsum_report.a ;;
-        bench/equal_cost*.cpp | bench/oustaloup.cpp) echo bench/libglsum_studies.a ;;
+        bench/equal_cost*.cpp | bench/*oustaloup.cpp) echo bench/libglsum_studies.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
         drive/*) echo drive/libglsum_drive.a ;;
@@ -96,7 +96,7 @@ run_tests() {
             *) only_these='*' ;;
         esac
         status=0
-        timeout 240 "$build/tests/$test" --gtest_brief=1 --gtest_filter="$only_these" >"$source/build/planted/tests.log" 2>&1 || status=$?
+        timeout 240 "$build/tests/$test" --gtest_brief=1 --gtest_fail_fast --gtest_filter="$only_these" >"$source/build/planted/tests.log" 2>&1 || status=$?
         [ "$status" -eq 0 ] || return "$status"
     done
 }

@@ -1,0 +1,105 @@
+// Two runs side by side, as JSON: read back field by field.
+#include "bench/gate/compare.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace {
+
+using namespace bench::gate;
+using bench::Json;
+using bench::Results;
+
+const char rules_text[] = R"([[rule]]
+layer = "accuracy"
+rows = "gl/*/accuracy/*"
+counters = "error_max"
+better = "lower"
+relative = 0.1
+level = "fail"
+reason = "because"
+[[rule]]
+layer = "accuracy"
+rows = "gl/*/accuracy/*"
+counters = "effective_taps"
+better = "higher"
+absolute = 0
+level = "fail"
+reason = "because"
+[[rule]]
+layer = "host_time"
+rows = "gl/*/host"
+counters = "cpu_time"
+better = "lower"
+relative = 0.05
+anchor = "anchor"
+level = "fail"
+reason = "ratio"
+)";
+
+Results run(double error, double taps, double ns, const char* compiler, const std::string& own) {
+    Results made;
+    made.context = {{"compiler", compiler}, {"flags", "-O3"}, {"n_samples", 100}, {"seed", 1}, {"cpu", "one"}};
+    Json row = bench::make_row("gl/a/order:0.5/taps:50/accuracy/signal:step", 100);
+    row["error_max"] = error;
+    row["effective_taps"] = taps;
+    row["saturations"] = 0;
+    made.rows.push_back(row);
+    Json wrong = bench::make_row("gl/b/order:0.5/taps:50/accuracy/signal:step", 100);
+    bench::mark_error(wrong, "wrong");
+    made.rows.push_back(wrong);
+    made.rows.push_back(bench::make_row("gl/" + own + "/order:0.5/taps:50/accuracy/signal:step", 100));
+    for (int i = 0; i < 20; ++i) {
+        for (const auto& [kernel, time] : {std::pair("a", ns), std::pair("anchor", 10.0)}) {
+            Json host = bench::make_row(std::string("gl/") + kernel + "/order:0.5/taps:50/host", 100);
+            host["repetition_index"] = i;
+            host["cpu_time"] = time * (1.0 + 0.0001 * (i * 7 % 20));
+            made.rows.push_back(host);
+        }
+    }
+    return made;
+}
+
+TEST(CompareJson, HoldsEveryPairWithItsRatioAndWhichWayIsBetter) {
+    const Results a = run(1e-3, 50.0, 100.0, "GNU 12.2.0", "only_here");
+    const Results b = run(1.5e-3, 60.0, 80.0, "GNU 14.2.0", "only_there");
+    const Json json = Json::parse(to_json(compare(a, b, parse_rules(rules_text, "rules"), {"*"}, {"*"})));
+    EXPECT_EQ(json.at("schema"), "glsum-compare-1");
+    ASSERT_EQ(json.at("conditions").size(), 1U) << json.at("conditions").dump();
+    EXPECT_EQ(json.at("conditions")[0].at("field"), "compiler");
+    EXPECT_EQ(json.at("conditions")[0].at("a"), "GNU 12.2.0");
+    EXPECT_EQ(json.at("conditions")[0].at("b"), "GNU 14.2.0");
+    EXPECT_TRUE(json.at("conditions")[0].at("comparable").is_boolean());
+    EXPECT_EQ(json.at("only_a"), Json::parse(R"(["gl/only_here/order:0.5/taps:50/accuracy/signal:step"])"));
+    EXPECT_EQ(json.at("only_b"), Json::parse(R"(["gl/only_there/order:0.5/taps:50/accuracy/signal:step"])"));
+    EXPECT_EQ(json.at("wrong"), Json::parse(R"(["gl/b/order:0.5/taps:50/accuracy/signal:step"])"));
+    std::map<std::string, Json> pairs;
+    for (const Json& pair : json.at("pairs")) {
+        if (pair.at("row").get<std::string>().starts_with("gl/a/")) {
+            pairs[pair.at("counter").get<std::string>()] = pair;
+        }
+    }
+    const Json& error = pairs.at("error_max");
+    EXPECT_EQ(error.at("row"), "gl/a/order:0.5/taps:50/accuracy/signal:step");
+    EXPECT_EQ(error.at("a"), 1e-3);
+    EXPECT_EQ(error.at("b"), 1.5e-3);
+    EXPECT_NEAR(error.at("ratio").get<double>(), 1.5, 1e-12);
+    EXPECT_EQ(error.at("change"), "worse");
+    EXPECT_FALSE(error.contains("ratio_low"));
+    EXPECT_EQ(pairs.at("effective_taps").at("change"), "better");
+    EXPECT_NEAR(pairs.at("effective_taps").at("ratio").get<double>(), 1.2, 1e-12);
+    // Of a 0 there is no ratio, and where nothing changed no way.
+    EXPECT_FALSE(pairs.at("saturations").contains("ratio"));
+    EXPECT_FALSE(pairs.at("saturations").contains("change"));
+    // Times by their ratio to the anchor's, with an interval.
+    const Json& time = pairs.at("cpu_time");
+    EXPECT_NEAR(time.at("ratio").get<double>(), 0.8, 0.01);
+    EXPECT_LE(time.at("ratio_low").get<double>(), time.at("ratio").get<double>());
+    EXPECT_GE(time.at("ratio_high").get<double>(), time.at("ratio").get<double>());
+    EXPECT_GT(time.at("ratio_low").get<double>(), 0.75);
+    EXPECT_LT(time.at("ratio_high").get<double>(), 0.85);
+    EXPECT_EQ(time.at("change"), "better");
+}
+
+}  // namespace
