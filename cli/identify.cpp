@@ -109,6 +109,7 @@ void apply(const Options& options, drive::Form& form) {
                           fmt::format("--bound {}: expected the lower bound below the upper, found {}", name, range));
         }
         parameter.value = std::clamp(parameter.value, parameter.lower, parameter.upper);
+        parameter.bounds_are_given = true;
     }
 }
 

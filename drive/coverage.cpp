@@ -67,7 +67,21 @@ Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOpt
     first.prediction_error = false;
     first.profile = false;
     first.accepted_error = 0.0;
-    return last(Form(kind, fit(Form(Kind::sopdt, search_start(Kind::sopdt, records)), records, first).model));
+    first.starts_if_poor = 0;  // of what swings it is poor by its form
+    const Model damped = fit(Form(Kind::sopdt, search_start(Kind::sopdt, records)), records, first).model;
+    // Two equal time constants cannot swing: a descent from there ends in the first valley of a plant that does.
+    const Model swinging = search_start(Kind::niopdt, records);
+    const auto sum_of_squares = [&](const Model& model) {
+        double sum = 0.0;
+        for (const Record& record : records) {
+            const std::vector<double> output = respond_to(model, record);
+            for (std::size_t k = 0; k < output.size(); ++k) {
+                sum += (output[k] - record.output[k]) * (output[k] - record.output[k]);
+            }
+        }
+        return sum;
+    };
+    return last(Form(kind, sum_of_squares(swinging) < sum_of_squares(damped) ? swinging : damped));
 }
 
 Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acquisition, std::size_t runs,

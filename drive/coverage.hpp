@@ -46,7 +46,8 @@ struct Coverage {
                                         std::uint64_t set, unsigned jobs, const std::function<void()>& done = {});
 
 /// The way from a record to a fit of `kind` without a start: FOPDT and SOPDT from a search; others from a fitted SOPDT,
-/// as the paper does. \param prepare  may change the form before the last fit
+/// as the paper does, or from a search among second orders that swing, where that explains more. \param prepare  may
+/// change the form before the last fit
 [[nodiscard]] Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOptions& options,
                                    const std::function<void(Form&)>& prepare = {});
 

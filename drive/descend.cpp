@@ -1,9 +1,8 @@
 #include "drive/descend.hpp"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 
+#include "drive/solve.hpp"
 #include "qemu/failure.hpp"
 
 namespace drive {
@@ -71,21 +70,20 @@ Attempt descend(const Form& form, const Predictor& predictor, std::vector<double
     solver.function_tolerance = how.tolerance;
     solver.parameter_tolerance = 1e-10;
     solver.gradient_tolerance = 1e-14;
-    solver.logging_type = ceres::SILENT;
     StopWhenAccepted accepted(how.accepted_error);
     if (how.accepted_error > 0.0) {
         solver.callbacks.push_back(&accepted);
     }
-    ceres::Solver::Summary summary;
-    ceres::Solve(solver, &problem, &summary);
+    const ceres::Solver::Summary summary = solve_in_silence(solver, problem);
     Attempt attempt;
     if (summary.IsSolutionUsable()) {
         attempt.values = std::move(start);
         attempt.sum_of_squares = 2.0 * summary.final_cost;
         attempt.iterations = static_cast<int>(summary.iterations.size()) - 1;
-        attempt.stopped = summary.termination_type == ceres::USER_SUCCESS     ? "the accepted error E_c was reached"
-                          : summary.termination_type == ceres::NO_CONVERGENCE ? "the number of iterations was reached"
-                                                                              : "nothing better is near";
+        attempt.ended = summary.termination_type != ceres::NO_CONVERGENCE;
+        attempt.stopped = summary.termination_type == ceres::USER_SUCCESS ? "the accepted error E_c was reached"
+                          : attempt.ended                                 ? "nothing better is near"
+                                                                          : "the number of iterations was reached";
     }
     return attempt;
 }

@@ -13,6 +13,7 @@ struct Attempt {
     std::vector<double> values;                                       ///< of the free parameters
     double sum_of_squares = std::numeric_limits<double>::infinity();  ///< that if no step could be simulated
     int iterations = 0;
+    bool ended = true;    ///< false: at its number of iterations it was still on its way
     std::string stopped;  ///< why
 };
 

@@ -7,6 +7,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <random>
 
 #include "bench/parallel.hpp"
@@ -21,6 +22,10 @@ namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw glsum::Failure(glsum::Exit::bad_input, message); }
 
+bool is_order(const Parameter& parameter) {
+    return parameter.name.starts_with("alpha") || parameter.name.starts_with("beta");
+}
+
 std::vector<double> random_start(const Form& form, const Predictor& predictor, double longest_s, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     const auto uniform = [&](double from, double to) {
@@ -32,7 +37,7 @@ std::vector<double> random_start(const Form& form, const Predictor& predictor, d
         double value = parameter.value;
         if (parameter.name == "delay_s") {
             value = uniform(0.0, 0.5 * longest_s);
-        } else if (parameter.name.find("alpha") == 0 || parameter.name.find("beta") == 0) {
+        } else if (is_order(parameter)) {
             value += uniform(-0.3, 0.3);
         } else if (parameter.name != "offset") {
             value *= std::exp(uniform(-1.2, 1.2));
@@ -94,6 +99,22 @@ double lag_one(const Eigen::VectorXd& residuals) {
 bool at_a_bound(const Parameter& parameter, double value) {
     const double reach = 1e-7 * std::max(1.0, std::fabs(value));
     return value <= parameter.lower + reach || value >= parameter.upper - reach;
+}
+
+// Where an order has run away to a bound of the form's own that no kernel reaches: the form with orders of kernels.
+std::optional<Form> with_orders_of_kernels(const Form& form, const Predictor& predictor, const Attempt& attempt) {
+    std::optional<Form> lower;
+    for (std::size_t p = 0; p < attempt.values.size(); ++p) {
+        const std::size_t i = predictor.free()[p];
+        const Parameter& parameter = form.parameters()[i];
+        if (is_order(parameter) && !parameter.bounds_are_given && parameter.upper > highest_order_of_kernels &&
+            attempt.values[p] >= parameter.upper - 1e-7) {
+            lower = lower.value_or(form);
+            lower->parameters()[i].upper = highest_order_of_kernels;
+            lower->parameters()[i].value = std::min(parameter.value, highest_order_of_kernels);
+        }
+    }
+    return lower;
 }
 
 // Whether a minimum is likely not to be the least. A dead time of 0 is one like another.
@@ -213,36 +234,52 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
             refuse(fmt::format("{}: expected a start within its bounds {} and {}, found {}", parameter.name,
                                parameter.lower, parameter.upper, parameter.value));
         }
-        start.push_back(parameter.value);
+        // A step that is cut off at a bound leads nowhere: an order begins inside.
+        const double inside = 0.01 * (parameter.upper - parameter.lower);
+        start.push_back(is_order(parameter)
+                            ? std::clamp(parameter.value, parameter.lower + inside, parameter.upper - inside)
+                            : parameter.value);
     }
     const Descent descent{options.accepted_error, options.iterations};
     std::vector<double> noise_model;
     std::vector<Attempt> attempts;
-    Attempt best;
-    const auto attempt = [&](std::size_t more, const Descent& how) {
+    const auto attempt = [&](std::size_t more, int iterations) {
         const std::size_t before = attempts.size();
         attempts.resize(before + more);
         bench::parallel_for(more, options.jobs, [&](std::size_t k) {
             const std::size_t i = before + k;
             attempts[i] =
                 descend(form, predictor, i == 0 ? start : random_start(form, predictor, longest_s, options.seed + i),
-                        noise_model, how);
+                        noise_model, {descent.accepted_error, std::min(descent.iterations, iterations)});
         });
-        best = *std::min_element(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
+    };
+    const auto leader = [&]() -> Attempt& {
+        return *std::min_element(attempts.begin(), attempts.end(), [](const Attempt& a, const Attempt& b) {
             return a.sum_of_squares < b.sum_of_squares;
         });
     };
-    attempt(std::max<std::size_t>(options.starts, 1), descent);
-    if (options.starts_if_poor > 0 && ends_poorly(form, predictor, best)) {
-        // Some start where nothing is near, and go on for ever: who leads after a few steps goes on alone.
-        Descent few = descent;
-        few.iterations = std::min(descent.iterations, 25);
-        attempt(options.starts_if_poor, few);
-        const int before = best.iterations;
-        if (before >= few.iterations) {
-            best = descend(form, predictor, best.values, noise_model, descent);
-            best.iterations += before;
-        }
+    // Some start where nothing is near, and go on for ever: who leads after some steps goes on alone.
+    attempt(std::max<std::size_t>(options.starts, 1), options.starts_if_poor > 0 ? 50 : descent.iterations);
+    if (options.starts_if_poor > 0 && (!leader().ended || ends_poorly(form, predictor, leader()))) {
+        attempt(options.starts_if_poor, 25);
+    }
+    if (Attempt& first = leader(); !first.ended && first.iterations < descent.iterations) {
+        const int before = first.iterations;
+        first =
+            descend(form, predictor, first.values, noise_model, {descent.accepted_error, descent.iterations - before});
+        first.iterations += before;
+    }
+    Attempt best = leader();
+    if (const auto lower = with_orders_of_kernels(form, predictor, best)) {
+        Fit found = fit(*lower, records, options);
+        found.warnings.insert(
+            found.warnings.begin(),
+            fmt::format(
+                "with orders beyond 2 the sum of squares is {:.4g}, and an order ends at its bound: the form does "
+                "not describe the record, and `glsum diagnose` with this model as its base says what it lacks; "
+                "orders are held below 2, as no kernel sums a higher one",
+                best.sum_of_squares));
+        return found;
     }
     if (!std::isfinite(best.sum_of_squares)) {
         throw glsum::Failure(

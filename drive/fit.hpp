@@ -17,7 +17,8 @@ struct FitOptions {
     double accepted_error = 0.0;  ///< E_c of (9): stop when the sum of squares is at most this
     int iterations = 200;         ///< or after so many
     std::size_t starts = 1;       ///< the first from the parameters as they are, others from seeded random ones
-    /// So many more where the best of them ends at a bound, grows, or leaves what no noise is: neighbours that are alike.
+    /// So many more where the best of them ends at a bound, grows, leaves what no noise is, neighbours that are alike,
+    /// or has not ended after 50 iterations.
     std::size_t starts_if_poor = 0;
     std::uint64_t seed = 1;
     /// Prediction-error method: the residuals are whitened by an autoregressive noise model of BIC's order, fitted in
@@ -67,7 +68,8 @@ struct Fit {
 [[nodiscard]] std::vector<double> simulate_fit(const Fit& fit, const Record& record);
 
 /// A start without any: the time constant and the delay (in a closed loop also the gain) of a grid whose response,
-/// scaled, leaves the least sum of squares. \param kind  fopdt or sopdt
+/// scaled, leaves the least sum of squares. \param kind  fopdt or sopdt; niopdt: a second order of any damping from
+/// 0.05 to 1 (in a closed loop 1)
 [[nodiscard]] Model search_start(Kind kind, const std::vector<Record>& records);
 
 /// Kuepfmueller's tangent at the inflection of a step response. It meets the old level after a dead time and the new

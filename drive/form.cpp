@@ -64,9 +64,9 @@ Form::Form(Kind kind, const Model& start) : kind_(kind), shape_(start) {
             const std::size_t index = terms.size() - 1 - i;
             parameters_.push_back(
                 {fmt::format("{}{}", coefficient, index), terms[i].coefficient, -unbounded, unbounded, fixed});
-            parameters_.push_back({fmt::format("{}{}", order, index), terms[i].order,
-                                   terms[i].order == 0.0 ? 0.0 : 0.01, std::max(2.0, terms[i].order + 0.5),
-                                   fixed || terms[i].order == 0.0});
+            parameters_.push_back(
+                {fmt::format("{}{}", order, index), terms[i].order, terms[i].order == 0.0 ? 0.0 : 0.01,
+                 std::max(highest_order_of_kernels, terms[i].order + 0.5), fixed || terms[i].order == 0.0});
         }
     };
     add(shape_.numerator, "b", "beta", !free_form || shape_.numerator.size() == 1);

@@ -14,7 +14,11 @@ struct Parameter {
     double lower;
     double upper;
     bool fixed = false;
+    bool bounds_are_given = false;  ///< by who asks, not by the form
 };
+
+/// No kernel sums a higher order, and a s^v + 1 with a higher one is unstable.
+constexpr double highest_order_of_kernels = 2.0;
 
 /// A family of models and its parameters:
 ///   fopdt, sopdt  gain, time_constant_s, delay_s
@@ -22,7 +26,8 @@ struct Parameter {
 ///   fotf          gain, b<i> beta<i> of each numerator term, a<i> alpha<i> of each denominator term, delay_s; those
 ///   that are
 ///                 superfluous (gain, a numerator of one term, orders of 0) are fixed
-/// and `offset`, of the output, fixed at 0. Indices count down with the order, to 0.
+/// and `offset`, of the output, fixed at 0. Orders may go half of one beyond those of the start, and to 2 in any case:
+/// the intervals of a plant whose order is close to 2 want room on both sides. Indices count down with the order, to 0.
 class Form {
 public:
     /// The parameters of `kind` that are nearest to a start of any kind: (11) as the start of (12) becomes

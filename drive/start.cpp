@@ -90,7 +90,7 @@ Model search_loop_start(Kind kind, const Record& record) {
                 const double gain = 0.02 / controller * std::pow(2000.0, g / 15.0);
                 for (std::size_t k = 0; k < step.size(); ++k) {
                     const double x = (static_cast<double>(k) * loop.step_s() - delay_s) / time_constant_s;
-                    step[k] = x <= 0.0 ? 0.0 : gain * (1.0 - (kind == Kind::sopdt ? 1.0 + x : 1.0) * std::exp(-x));
+                    step[k] = x <= 0.0 ? 0.0 : gain * (1.0 - (kind == Kind::fopdt ? 1.0 : 1.0 + x) * std::exp(-x));
                 }
                 const double error = loop.sum_of_squares(step);
                 if (error < least) {
@@ -107,6 +107,52 @@ Model search_loop_start(Kind kind, const Record& record) {
     return best;
 }
 
+// The response to a unit step of unit gain, x time constants after it; damping: of a second order.
+double unit_step(bool second_order, double damping, double x) {
+    if (!second_order) {
+        return 1.0 - std::exp(-x);
+    }
+    if (damping == 1.0) {
+        return 1.0 - (1.0 + x) * std::exp(-x);
+    }
+    const double swing = std::sqrt(1.0 - damping * damping);
+    return 1.0 - std::exp(-damping * x) * (std::cos(swing * x) + damping / swing * std::sin(swing * x));
+}
+
+// An open loop on an even grid of some hundred points, where a dead time is a shift.
+class RoughRecord {
+public:
+    RoughRecord(const Record& record, double step_s) : changes_(record.changes), step_s_(step_s) {
+        std::size_t at = 0;
+        for (double time_s = 0.0; time_s <= record.time_s.back(); time_s += step_s) {
+            while (at + 1 < record.time_s.size() && record.time_s[at + 1] <= time_s + 1e-9 * step_s) {
+                ++at;
+            }
+            output_.push_back(record.output[at]);
+        }
+    }
+    [[nodiscard]] const std::vector<double>& output() const { return output_; }
+    /// Without a dead time, for a gain of 1.
+    [[nodiscard]] std::vector<double> respond(bool second_order, double damping, double time_constant_s) const {
+        std::vector<double> response(output_.size(), 0.0);
+        for (std::size_t k = 0; k < response.size(); ++k) {
+            for (const Change& change : changes_) {
+                const double x = (static_cast<double>(k) * step_s_ - change.time_s) / time_constant_s;
+                if (x <= 0.0) {
+                    break;
+                }
+                response[k] += change.size * unit_step(second_order, damping, x);
+            }
+        }
+        return response;
+    }
+
+private:
+    std::vector<Change> changes_;
+    double step_s_;
+    std::vector<double> output_;
+};
+
 }  // namespace
 
 Model search_start(Kind kind, const std::vector<Record>& records) {
@@ -116,48 +162,65 @@ Model search_start(Kind kind, const std::vector<Record>& records) {
         }
     }
     double longest_s = 0.0;
-    double shortest_s = std::numeric_limits<double>::infinity();
     for (const Record& record : records) {
         longest_s = std::max(longest_s, record.time_s.back());
-        shortest_s = std::min(shortest_s, record.time_s.back() / static_cast<double>(record.time_s.size()));
     }
-    Model best;
+    constexpr int points = 400;
+    const double step_s = longest_s / points;
+    std::vector<RoughRecord> rough;
+    for (const Record& record : records) {
+        rough.emplace_back(record, step_s);
+    }
+    // What swings has to be met within a part of its period: the lightest damping rings for some three of them.
+    const std::vector<double> dampings =
+        kind == Kind::niopdt ? std::vector{1.0, 0.5, 0.25, 0.1, 0.05} : std::vector{1.0};
+    constexpr int constants = 60;
     double least = std::numeric_limits<double>::infinity();
-    constexpr int constants = 14;
-    constexpr int delays = 16;
+    double gain = 0.0;
+    double time_constant_s = 0.0;
+    double damping = 0.0;
+    double delay_s = 0.0;
     for (int i = 0; i < constants; ++i) {
-        const double time_constant_s = longest_s * std::pow(0.003 / 1.0, static_cast<double>(i) / (constants - 1));
-        for (int j = 0; j < delays; ++j) {
-            const double delay_s = 0.5 * longest_s * j / delays;
-            double product = 0.0;
-            double square = 0.0;
-            double output_square = 0.0;
-            for (const Record& record : records) {
-                const std::size_t stride = std::max<std::size_t>(1, record.time_s.size() / 400);
-                for (std::size_t k = 0; k < record.time_s.size(); k += stride) {
-                    double y = 0.0;
-                    for (const Change& change : record.changes) {
-                        const double x = (record.time_s[k] - change.time_s - delay_s) / time_constant_s;
-                        if (x <= 0.0) {
-                            break;
-                        }
-                        y += change.size * (1.0 - (kind == Kind::sopdt ? 1.0 + x : 1.0) * std::exp(-x));
-                    }
-                    product += y * record.output[k];
-                    square += y * y;
-                    output_square += record.output[k] * record.output[k];
-                }
+        const double now_s = longest_s * std::pow(0.003, static_cast<double>(i) / (constants - 1));
+        for (const double damped : dampings) {
+            std::vector<std::vector<double>> responses;
+            for (const RoughRecord& record : rough) {
+                responses.push_back(record.respond(kind != Kind::fopdt, damped, now_s));
             }
-            const double error = square > 0.0 ? output_square - product * product / square : output_square;
-            if (square > 0.0 && product != 0.0 && error < least) {
-                least = error;
-                best = kind == Kind::fopdt ? make_fopdt(product / square, time_constant_s, delay_s)
-                                           : make_sopdt(product / square, time_constant_s, delay_s);
+            for (std::size_t shift = 0; shift < points / 2; shift += 4) {
+                double product = 0.0;
+                double square = 0.0;
+                double output_square = 0.0;
+                for (std::size_t r = 0; r < rough.size(); ++r) {
+                    const std::vector<double>& output = rough[r].output();
+                    for (std::size_t k = 0; k < output.size(); ++k) {
+                        const double y = k < shift ? 0.0 : responses[r][k - shift];
+                        product += y * output[k];
+                        square += y * y;
+                        output_square += output[k] * output[k];
+                    }
+                }
+                const double error = square > 0.0 ? output_square - product * product / square : output_square;
+                if (square > 0.0 && product != 0.0 && error < least) {
+                    least = error;
+                    gain = product / square;
+                    time_constant_s = now_s;
+                    damping = damped;
+                    delay_s = static_cast<double>(shift) * step_s;
+                }
             }
         }
     }
     if (!std::isfinite(least)) {
         refuse("no start found: the output does not follow the input at all");
+    }
+    if (kind == Kind::fopdt) {
+        return make_fopdt(gain, time_constant_s, delay_s);
+    }
+    Model best = make_sopdt(gain, time_constant_s, delay_s);
+    if (kind == Kind::niopdt) {
+        best.kind = Kind::fotf;
+        best.denominator[1].coefficient *= damping;
     }
     return best;
 }

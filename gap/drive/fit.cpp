@@ -1,12 +1,12 @@
 #include "gap/drive/fit.hpp"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
+
+#include "drive/solve.hpp"
 
 namespace gap {
 namespace {
@@ -151,9 +151,7 @@ bool descend_along(const std::vector<std::size_t>& which, const Study& study, Ca
     options.max_num_iterations = iterations;
     // Half the sum of squares of some thousand samples is some thousand: a twentieth of a unit of likelihood.
     options.function_tolerance = iterations < 10 ? 5e-4 : 2e-5;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem, &summary);
+    const ceres::Solver::Summary summary = drive::solve_in_silence(options, problem);
     if (!summary.IsSolutionUsable() || !(summary.final_cost <= candidate.cost)) {
         return false;
     }
