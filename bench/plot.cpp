@@ -113,14 +113,21 @@ std::string data_block(const std::vector<Group>& groups, const std::string& orde
     return block;
 }
 
+// Marks of the lengths: first those of windows and `full`, then, as far as there is room, those of taps and modes.
 std::string tics(const std::vector<Group>& groups) {
+    constexpr double room = 1.18;  // between two marks, as a factor
     std::vector<std::string> marks;
-    std::vector<std::string> seen;
-    for (const Group& group : groups) {
-        const auto taps = taps_of(group, groups);
-        if (taps && std::find(seen.begin(), seen.end(), group.taps) == seen.end()) {
-            seen.push_back(group.taps);
-            marks.push_back(fmt::format("\"{}\" {}", gnuplot_text(group.taps), *taps));
+    std::vector<double> marked;
+    for (const bool windows : {true, false}) {
+        for (const Group& group : groups) {
+            const auto taps = taps_of(group, groups);
+            const bool has_room = taps && std::none_of(marked.begin(), marked.end(), [&](double other) {
+                                      return windows ? other == *taps : other < *taps * room && *taps < other * room;
+                                  });
+            if (has_room && (group.taps.find('+') == std::string::npos) == windows) {
+                marked.push_back(*taps);
+                marks.push_back(fmt::format("\"{}\" {}", gnuplot_text(group.taps), *taps));
+            }
         }
     }
     return fmt::format("({})", fmt::join(marks, ", "));
@@ -165,7 +172,8 @@ std::string script(const std::vector<Group>& groups, const std::vector<std::stri
         "set multiplot layout {},2 margins 0.06,0.82,{:.3f},{:.3f} spacing 0.06,{:.3f} title \"Grünwald-Letnikov sum: "
         "error against memory length (worst over the signals, relative to the largest exact sum)\"\n"
         "set logscale xy\nset format y \"10^{{%L}}\"\nset xrange [{}:{}]\nset xtics {} nomirror rotate by -45\n"
-        "set ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xlabel \"taps\"\n",
+        "set ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xlabel \"terms of the sum: taps, or taps + "
+        "modes\"\n",
         orders.size(), 75.0 / height, 1.0 - 65.0 / height, 110.0 / height, shortest / 1.25, longest * 1.25,
         tics(groups));
     bool key = true;

@@ -101,17 +101,17 @@ bool at_a_bound(const Parameter& parameter, double value) {
     return value <= parameter.lower + reach || value >= parameter.upper - reach;
 }
 
-// Where an order has run away to a bound of the form's own that no kernel reaches: the form with orders of kernels.
-std::optional<Form> with_orders_of_kernels(const Form& form, const Predictor& predictor, const Attempt& attempt) {
+// Where an order has run away to a bound of the form's own: the form with orders to 2.
+std::optional<Form> with_usual_orders(const Form& form, const Predictor& predictor, const Attempt& attempt) {
     std::optional<Form> lower;
     for (std::size_t p = 0; p < attempt.values.size(); ++p) {
         const std::size_t i = predictor.free()[p];
         const Parameter& parameter = form.parameters()[i];
-        if (is_order(parameter) && !parameter.bounds_are_given && parameter.upper > highest_order_of_kernels &&
+        if (is_order(parameter) && !parameter.bounds_are_given && parameter.upper > highest_usual_order &&
             attempt.values[p] >= parameter.upper - 1e-7) {
             lower = lower.value_or(form);
-            lower->parameters()[i].upper = highest_order_of_kernels;
-            lower->parameters()[i].value = std::min(parameter.value, highest_order_of_kernels);
+            lower->parameters()[i].upper = highest_usual_order;
+            lower->parameters()[i].value = std::min(parameter.value, highest_usual_order);
         }
     }
     return lower;
@@ -270,14 +270,14 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
         first.iterations += before;
     }
     Attempt best = leader();
-    if (const auto lower = with_orders_of_kernels(form, predictor, best)) {
+    if (const auto lower = with_usual_orders(form, predictor, best)) {
         Fit found = fit(*lower, records, options);
         found.warnings.insert(
             found.warnings.begin(),
             fmt::format(
                 "with orders beyond 2 the sum of squares is {:.4g}, and an order ends at its bound: the form does "
                 "not describe the record, and `glsum diagnose` with this model as its base says what it lacks; "
-                "orders are held below 2, as no kernel sums a higher one",
+                "orders are held to 2",
                 best.sum_of_squares));
         return found;
     }

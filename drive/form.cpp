@@ -66,7 +66,7 @@ Form::Form(Kind kind, const Model& start) : kind_(kind), shape_(start) {
                 {fmt::format("{}{}", coefficient, index), terms[i].coefficient, -unbounded, unbounded, fixed});
             parameters_.push_back(
                 {fmt::format("{}{}", order, index), terms[i].order, terms[i].order == 0.0 ? 0.0 : 0.01,
-                 std::max(highest_order_of_kernels, terms[i].order + 0.5), fixed || terms[i].order == 0.0});
+                 std::max(highest_usual_order, terms[i].order + 0.5), fixed || terms[i].order == 0.0});
         }
     };
     add(shape_.numerator, "b", "beta", !free_form || shape_.numerator.size() == 1);

@@ -17,8 +17,8 @@ struct Parameter {
     bool bounds_are_given = false;  ///< by who asks, not by the form
 };
 
-/// No kernel sums a higher order, and a s^v + 1 with a higher one is unstable.
-constexpr double highest_order_of_kernels = 2.0;
+/// That of a mass on a spring; a s^v + 1 with a higher one is unstable.
+constexpr double highest_usual_order = 2.0;
 
 /// A family of models and its parameters:
 ///   fopdt, sopdt  gain, time_constant_s, delay_s

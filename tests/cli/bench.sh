@@ -20,6 +20,10 @@ bench second --taps 50,full --kernels 'ring_*_f32,ring_*_q31,modes_*,null,peer_s
 for file in first.json first.csv first.svg first.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
 done
+# Windows are marked by their lengths, however long the designs beside them are.
+for length in 50 120; do
+    grep -q ">$length *<" "$folder/first.svg" || fail "expected the mark $length in the picture"
+done
 grep -q '"json_schema_version"\|"library_build_type"' "$folder/first.json" || fail "expected Google Benchmark's context"
 for field in glsum_version commit compiler flags contraction cpu cycle_counter core_file qemu_version elf_sha256 target_count_order placement n_samples seed; do
     grep -q "\"$field\"" "$folder/first.json" || fail "expected the context field $field"

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <random>
+#include <utility>
 
 #include "drive/coverage.hpp"
 #include "qemu/failure.hpp"
@@ -303,6 +304,35 @@ TEST(Fit, ThePredictionErrorMethodWhitensColouredNoise) {
     EXPECT_NEAR(whitened.noise_deviation, 0.01, 0.001);
     EXPECT_LT(std::fabs(whitened.lag_one), 0.1);
     EXPECT_GT(whitened.parameters[0].deviation, 2.0 * white.parameters[0].deviation);
+}
+
+// The noise model solves Yule's and Walker's equations of the residuals that it was made of.
+TEST(Fit, TheNoiseModelSolvesYuleAndWalkersEquations) {
+    Record record = record_of(plants::sopdt(), {.excitation = {.name = "step"}, .noise = 0.01, .quantum = 0.0});
+    const std::vector<double> exact = drive::respond(plants::sopdt(), record.changes, record.time_s);
+    double before = 0.0;
+    double earlier = 0.0;
+    for (std::size_t i = 0; i < exact.size(); ++i) {
+        const double noise = 1.1 * before - 0.5 * earlier + (record.output[i] - exact[i]);
+        earlier = std::exchange(before, noise);
+        record.output[i] = exact[i] + noise;
+    }
+    const Fit found = drive::fit(Form(Kind::sopdt, plants::sopdt()), {record}, {.prediction_error = true});
+    ASSERT_EQ(found.noise_model.size(), 2U);
+    const std::vector<double> fitted = drive::simulate_fit(found, record);
+    const auto covariance = [&](std::size_t lag) {
+        double sum = 0.0;
+        for (std::size_t i = lag; i < fitted.size(); ++i) {
+            sum += (record.output[i] - fitted[i]) * (record.output[i - lag] - fitted[i - lag]);
+        }
+        return sum;
+    };
+    const double c0 = covariance(0);
+    const double c1 = covariance(1);
+    const double c2 = covariance(2);
+    const double determinant = c0 * c0 - c1 * c1;
+    EXPECT_NEAR(found.noise_model[0], -(c1 * c0 - c1 * c2) / determinant, 1e-3);
+    EXPECT_NEAR(found.noise_model[1], -(c2 * c0 - c1 * c1) / determinant, 1e-3);
 }
 
 TEST(Record, RefusesWhatCannotBeIdentifiedFrom) {

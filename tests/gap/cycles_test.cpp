@@ -1,4 +1,5 @@
 // The diagnosis of cycles on made-up cores: what was done to the measurement is what is found.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,6 +147,88 @@ TEST(Cycles, AnotherCostOfAnEffectIsFound) {
     EXPECT_EQ(found.verdict, "attributed");
     ASSERT_EQ(effects_of(found), std::vector<std::string>{"load_bank_conflict"});
     EXPECT_NEAR(found.steps[0].parameters.at("factor"), 1.8, 0.02);
+}
+
+// With one row of a kernel and placement there is none left to judge on, and that is said.
+TEST(Cycles, WhatIsJudgedOnTheRowsThatItIsFittedToSaysSo) {
+    const auto notes = [](std::vector<std::uint32_t> taps) {
+        Question question;
+        question.base = "real";
+        question.references = {"real"};
+        question.sets["real"] = question.fitting["real"] = {"nominal"};
+        for (const std::uint32_t length : taps) {
+            question.rows.push_back({"ring_plain_q31", "itcm", "dtcm", false, length, 4.0 * length, 0});
+        }
+        return gap::cycles::explain(question,
+                                    [&](const std::vector<qemu::CoreVariant>& variants) {
+                                        std::vector<std::vector<qemu::PredictedCycles>> all;
+                                        for (const auto& variant : variants) {
+                                            all.push_back(predict(question.rows, variant));
+                                        }
+                                        return all;
+                                    })
+            .notes;
+    };
+    const auto says_so = testing::Contains(testing::HasSubstr("judged on the same rows"));
+    EXPECT_THAT(notes({100}), says_so);
+    EXPECT_THAT(notes({100, 200}), testing::Not(says_so));
+}
+
+// Rules were fitted to floating-point loops: where they explain what published ones leave there, by the length alone,
+// no row tells which effect it is.
+TEST(Cycles, WhatPublishedRulesLeaveOfFloatingRowsIsAmbiguous) {
+    Question question;
+    question.base = "ideal";
+    question.references = {"real"};
+    question.sets["real"] = question.fitting["real"] = {"published", "fitted"};
+    for (const std::string_view name : timing::effect_names) {
+        question.base_off.emplace_back(name);
+    }
+    const auto cycles = [&](const qemu::CoreVariant& variant) {
+        std::vector<qemu::PredictedCycles> all;
+        for (const auto& row : question.rows) {
+            qemu::PredictedCycles p{2.0 * row.taps, 0, 0, 0, 100, {}};
+            const bool floating = row.kernel == "ring_plain_f32";
+            const std::string effect = floating ? "fpu_latency" : "single_issue";
+            const double lost = 8.0 + row.taps * (floating ? (variant.set == "published" ? 2.0 : 3.5) : 1.0);
+            if (variant.core != "ideal" && std::count(variant.without.begin(), variant.without.end(), effect) == 0) {
+                p.nominal += lost;
+                p.half_cycles[timing::index(*timing::effect_named(effect))] = std::llround(2.0 * lost);
+            }
+            all.push_back(p);
+        }
+        return all;
+    };
+    for (const char* kernel : {"ring_plain_q31", "ring_plain_f32"}) {
+        for (const std::uint32_t taps : {10U, 20U, 50U, 100U, 200U, 400U}) {
+            question.rows.push_back({kernel, "itcm", "dtcm", false, taps, 0.0, 0});
+        }
+    }
+    const auto truth = cycles({"real", "fitted", {}});
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        question.rows[i].cycles = truth[i].nominal;
+    }
+    const Explanation found = gap::cycles::explain(question, [&](const std::vector<qemu::CoreVariant>& variants) {
+        std::vector<std::vector<qemu::PredictedCycles>> all;
+        for (const auto& variant : variants) {
+            all.push_back(cycles(variant));
+        }
+        return all;
+    });
+    EXPECT_EQ(found.verdict, "ambiguous");
+    EXPECT_THAT(found.apart, testing::HasSubstr("floating-point rows"));
+    std::vector<std::string> names;
+    for (const auto& one : found.alternatives) {
+        names.push_back(one.effect);
+        ASSERT_EQ(one.parameters.size(), 1U);  // q31 rows leave nothing
+        EXPECT_THAT(one.parameters.begin()->first, testing::StartsWith("cycles_per_tap f32"));
+        EXPECT_NEAR(one.parameters.begin()->second, 1.5, 1e-9);
+        EXPECT_NEAR(one.gap_after, found.after_gap, 1e-12);
+        EXPECT_GT(one.gap_before, 0.1);
+    }
+    EXPECT_THAT(names, testing::ElementsAre("fpu_latency", "load_bank_conflict", "store_buffer", "load_use"));
+    EXPECT_LT(found.after_gap, 1e-9);
+    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("fitted leaves 0.00 %")));
 }
 
 TEST(Cycles, TheSameCoreIsNoGap) { EXPECT_EQ(diagnose("real", {}, unchanged).verdict, "no_gap"); }

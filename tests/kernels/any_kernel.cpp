@@ -1,7 +1,9 @@
 #include "tests/kernels/any_kernel.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <limits>
+#include <type_traits>
 
 #include "glsum/registry.hpp"
 
@@ -47,6 +49,13 @@ public:
     [[nodiscard]] glsum::Status status() const override { return status_; }
     glsum::Status prepare(const glsum::Design& design, std::size_t less_table, std::size_t less_past) override {
         return status_ = K::prepare(state_, design, table_.span(less_table), past_.span(less_past));
+    }
+    void spoil() override {
+        constexpr int pattern = 0xa5;
+        static_assert(std::is_trivially_copyable_v<typename K::State>);
+        std::memset(static_cast<void*>(&state_), pattern, sizeof state_);
+        std::memset(static_cast<void*>(table_.span().data()), pattern, table_.span().size_bytes());
+        std::memset(static_cast<void*>(past_.span().data()), pattern, past_.span().size_bytes());
     }
     void reset() override { K::reset(state_); }
     double step(double sample) override { return K::to_real(state_, K::step(state_, K::from_real(sample))); }

@@ -28,6 +28,8 @@ public:
     /// Once more, in the same buffers but for so many elements at their ends.
     virtual glsum::Status prepare(const glsum::Design& design, std::size_t less_table = 0,
                                   std::size_t less_past = 0) = 0;
+    /// What lies in memory that nobody has set: in the state and in both buffers.
+    virtual void spoil() = 0;
     virtual void reset() = 0;
     virtual double step(double sample) = 0;
     [[nodiscard]] virtual double bound(const glsum::Design& design, double peak,

@@ -249,6 +249,23 @@ TEST_P(KernelTest, PrepareServesAnyLengthAndOrderWithinTheCapacity) {
     EXPECT_EQ(line->step(0.25), -0.25);
 }
 
+// On a microcontroller a state may lie anywhere and begin as anything.
+TEST_P(KernelTest, PrepareLeavesNothingOfWhatLayInItsMemory) {
+    for (const std::size_t taps : {1U, 2U, 5U, 33U}) {
+        const glsum::Design design{0.5, taps};
+        const auto fresh = kernel.line(design);
+        const auto spoilt = kernel.line(design);
+        spoilt->spoil();
+        ASSERT_EQ(spoilt->prepare(design), Status::ok);
+        std::mt19937_64 generator(4);
+        for (int k = 0; k < 100; ++k) {
+            const double x = noise(generator);
+            ASSERT_EQ(std::bit_cast<std::uint64_t>(spoilt->step(x)), std::bit_cast<std::uint64_t>(fresh->step(x)))
+                << taps << " taps, k " << k;
+        }
+    }
+}
+
 TEST_P(KernelTest, StaysInsideItsBuffersAndWorksAtAnyAlignmentOfItsType) {
     const glsum::Design design{0.5, 37};
     for (const std::size_t offset : {0U, 1U, 3U}) {

@@ -82,7 +82,8 @@ for my $one (@areas) {
             $comment = 1 if $line =~ m{/\*} && $line !~ m{\*/};
             $comment = 0 if $line =~ m{\*/};
             next if $skip;
-            push @{$places_of{$one}}, [$file, $., @$_] for places(code_of($line));
+            # What is blanked for the search is as it was where it is put back.
+            push @{$places_of{$one}}, [$file, $., $_->[0], substr($line, $_->[0], length $_->[1]), $_->[2]] for places(code_of($line));
         }
     }
 }

@@ -1,0 +1,83 @@
+// The core's rules, one at a time: instructions of one's own, and what each of them waits for.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "listing.hpp"
+#include "qemu/timing/decode.hpp"
+#include "qemu/timing/model.hpp"
+
+namespace {
+
+// What a program that runs from the ITCM, a few times over, loses to an effect in its last turn, in half cycles.
+// \param accesses  of each instruction: address or 0 for none carried out
+std::int64_t lost(const std::string& program, const std::vector<std::uint32_t>& accesses, timing::Effect effect) {
+    const timing::CoreFile core = timing::read_core(TEST_CORES, "stm32f746-itcm");
+    timing::Model model(core.sets[0].figures, core.placement, core.off);
+    std::vector<std::unique_ptr<timing::Prepared>> sites;
+    std::vector<std::uint32_t> addresses;
+    std::uint32_t address = 0x100;
+    for (const listing::Line& line : listing::assemble(program)) {
+        sites.push_back(std::make_unique<timing::Prepared>(timing::decode(line.encoding, line.bytes)));
+        addresses.push_back(address);
+        address += line.bytes;
+    }
+    std::int64_t before = 0;
+    for (int turn = 0; turn < 8; ++turn) {
+        before = model.losses()[timing::index(effect)];
+        for (std::size_t i = 0; i < sites.size(); ++i) {
+            const timing::Decoded& d = sites[i]->decoded;
+            std::vector<qemu::Access> made;
+            if (accesses[i] != 0) {
+                made.push_back({accesses[i], d.access_bytes, d.is_store()});
+            }
+            model.execute(*sites[i], addresses[i], made, i + 1 < sites.size() ? addresses[i + 1] : addresses[0]);
+        }
+    }
+    return model.losses()[timing::index(effect)] - before;
+}
+
+// The DTCM's two banks hold even and odd words: two loads of one bank do not go together, of two banks they do, and
+// a load whose condition fails asks for none.
+TEST(Pipeline, LoadsMeetInABankWhereBothAreCarriedOut) {
+    const std::string two = "nop.w\nnop.w\nldr.w r2,[r0]\nldr.w r3,[r1]\nnop.w\nnop.w\nb.w .-20\n";
+    const auto conflict = timing::Effect::load_bank_conflict;
+    EXPECT_GT(lost(two, {0, 0, 0x20000000, 0x20000008, 0, 0, 0}, conflict), 0);
+    EXPECT_EQ(lost(two, {0, 0, 0x20000000, 0x20000004, 0, 0, 0}, conflict), 0);
+    EXPECT_EQ(lost(two, {0, 0, 0, 0x20000008, 0, 0, 0}, conflict), 0);
+    EXPECT_EQ(lost(two, {0, 0, 0x20000000, 0, 0, 0, 0}, conflict), 0);
+}
+
+// While the core waits, fetching goes on until the queue is full; how many words then follow at once tells its length.
+TEST(Pipeline, FetchesAQueueOfWordsAheadOfTheirUse) {
+    timing::CoreFile core = timing::read_core(TEST_CORES, "stm32f746-itcm");
+    for (const int queue : {1, 2, 4, 8}) {
+        core.sets[0].figures.fetch_queue = queue;
+        timing::Pipeline pipeline(core.sets[0].figures, 40, core.off);
+        const auto prepared = [](const std::string& text) {
+            const listing::Line line = listing::assemble(text + "\n").front();
+            return timing::Prepared(timing::decode(line.encoding, line.bytes));
+        };
+        timing::Event load;
+        load.accesses = 1;
+        load.access_bytes = 4;
+        load.load_delay = 400;
+        pipeline.execute(prepared("ldr.w r2,[r0]"), load);
+        pipeline.execute(prepared("add.w r3,r2,r2"), {});
+        timing::Event word;  // two instructions each, and longer on its way than the queue lasts
+        word.words = 1;
+        word.fetch_delays[0] = 32;
+        word.fetch_effect = timing::Effect::flash_wait_states;
+        const timing::Prepared nop = prepared("nop.w");
+        const auto late = timing::index(timing::Effect::flash_wait_states);
+        int at_once = 0;
+        while (pipeline.losses[late] == 0 && at_once < 20) {
+            pipeline.execute(nop, word);
+            pipeline.execute(nop, {});
+            at_once += pipeline.losses[late] == 0 ? 1 : 0;
+        }
+        EXPECT_EQ(at_once, queue);
+    }
+}
+
+}  // namespace
