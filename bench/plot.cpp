@@ -115,7 +115,7 @@ std::string data_block(const std::vector<Group>& groups, const std::string& orde
 
 // Marks of the lengths: first those of windows and `full`, then, as far as there is room, those of taps and modes.
 std::string tics(const std::vector<Group>& groups) {
-    constexpr double room = 1.18;  // between two marks, as a factor
+    constexpr double room = 1.45;  // between two marks, as a factor
     std::vector<std::string> marks;
     std::vector<double> marked;
     for (const bool windows : {true, false}) {

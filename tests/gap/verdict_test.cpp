@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <nlohmann/json.hpp>
 #include <numbers>
-#include <numeric>
 #include <random>
 
 #include "gap/drive/question.hpp"
@@ -371,9 +371,9 @@ TEST(Verdict, IsRefusedWhereAFittedBaseRunsAwayOnTheOtherRecord) {
         validate.input.push_back(std::sin(0.01 * k));
         validate.output.push_back(std::sin(0.01 * k - 0.5) + noise(engine));
     }
-    drive::Form form(drive::Kind::niopdt, drive::make_sopdt(1.0, 0.5, 0.0));
-    form.parameter("alpha2").bounds_are_given = true;  // who asks for an order of 2.5 gets one
-    const gap::Question question{form, true, {train}, {validate}, {}, gap::Metric::simulation, {}, 2};
+    const drive::Model start = drive::make_sopdt(1.0, 0.5, 0.0);
+    const gap::Question question{
+        drive::Form(drive::Kind::niopdt, start), true, {train}, {validate}, {}, gap::Metric::simulation, {}, 2};
     EXPECT_THAT(message_of(question), HasSubstr("runs away"));
 }
 
