@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/math/distributions/fisher_f.hpp>
 #include <cmath>
 #include <mutex>
 #include <numbers>
 #include <random>
 
 #include "bench/parallel.hpp"
+#include "drive/quantiles.hpp"
 #include "qemu/failure.hpp"
 
 namespace drive {
@@ -108,8 +108,7 @@ Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acqu
         const auto parameters = static_cast<double>(free);
         const double freedom = static_cast<double>(output.size()) - parameters;
         const double variance = found.sum_of_squares / freedom;
-        return (sum - found.sum_of_squares) / (parameters * variance) <=
-               boost::math::quantile(boost::math::fisher_f(parameters, freedom), 0.95);
+        return (sum - found.sum_of_squares) / (parameters * variance) <= fisher_f_quantile(parameters, freedom, 0.95);
     };
     std::mutex mutex;
     bench::parallel_for(runs, jobs, [&](std::size_t run) {

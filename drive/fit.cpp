@@ -4,7 +4,6 @@
 
 #include <Eigen/SVD>
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -14,6 +13,7 @@
 #include "drive/descend.hpp"
 #include "drive/predictor.hpp"
 #include "drive/profile.hpp"
+#include "drive/quantiles.hpp"
 #include "drive/stability.hpp"
 #include "qemu/failure.hpp"
 
@@ -107,11 +107,11 @@ std::optional<Form> with_usual_orders(const Form& form, const Predictor& predict
     for (std::size_t p = 0; p < attempt.values.size(); ++p) {
         const std::size_t i = predictor.free()[p];
         const Parameter& parameter = form.parameters()[i];
-        if (is_order(parameter) && !parameter.bounds_are_given && parameter.upper > highest_usual_order &&
+        const bool begins_usual = is_order(parameter) && parameter.value <= highest_usual_order;
+        if (begins_usual && !parameter.bounds_are_given && parameter.upper > highest_usual_order &&
             attempt.values[p] >= parameter.upper - 1e-7) {
             lower = lower.value_or(form);
             lower->parameters()[i].upper = highest_usual_order;
-            lower->parameters()[i].value = std::min(parameter.value, highest_usual_order);
         }
     }
     return lower;
@@ -160,7 +160,7 @@ void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::
         inverse = half * half.transpose();
     }
     fit.correlation = Eigen::MatrixXd::Identity(free, free);
-    const double quantile = boost::math::quantile(boost::math::students_t(freedom), 0.975);
+    const double quantile = students_t_quantile(freedom, 0.975);
     Eigen::Index p = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
         const Parameter& parameter = form.parameters()[i];

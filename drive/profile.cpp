@@ -1,7 +1,6 @@
 #include "drive/profile.hpp"
 
 #include <algorithm>
-#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -9,6 +8,7 @@
 #include "bench/parallel.hpp"
 #include "drive/descend.hpp"
 #include "drive/predictor.hpp"
+#include "drive/quantiles.hpp"
 #include "qemu/failure.hpp"
 
 namespace drive {
@@ -118,7 +118,7 @@ void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& re
     const auto samples = static_cast<double>(samples_of(records));
     const auto free = static_cast<Eigen::Index>(fit.free_names.size());
     const double freedom = samples - static_cast<double>(free);
-    const double quantile = boost::math::quantile(boost::math::students_t(freedom), 0.975);
+    const double quantile = students_t_quantile(freedom, 0.975);
     const double variance = fit.noise_deviation * fit.noise_deviation;
     const Profile profile(form, records, fit.noise_model, options.iterations);
     std::vector<std::size_t> asked;

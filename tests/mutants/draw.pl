@@ -77,7 +77,7 @@ for my $one (@areas) {
         while (my $line = <$in>) {
             chomp $line;
             $raw = 1 if $line =~ /R"\w*\(/;
-            my $skip = $raw || $comment || $line =~ m{^\s*(#|//|/\*|\*|namespace|static_assert|template|using)} || $line =~ /fmt::format|refuse\(|Failure\(|notes\.|warnings\./;
+            my $skip = $raw || $comment || $line =~ m{^\s*(#|//|/\*|\*|namespace|static_assert|template|using)} || $line =~ /= (delete|default|0);$/ || $line =~ /fmt::format|refuse\(|Failure\(|notes\.|warnings\./;
             $raw = 0 if $raw && $line =~ /\)\w*"/;
             $comment = 1 if $line =~ m{/\*} && $line !~ m{\*/};
             $comment = 0 if $line =~ m{\*/};

@@ -62,8 +62,10 @@ TEST(Pipeline, FetchesAQueueOfWordsAheadOfTheirUse) {
         load.accesses = 1;
         load.access_bytes = 4;
         load.load_delay = 400;
-        pipeline.execute(prepared("ldr.w r2,[r0]"), load);
-        pipeline.execute(prepared("add.w r3,r2,r2"), {});
+        const timing::Prepared first = prepared("ldr.w r2,[r0]");  // the pipeline looks back at it
+        const timing::Prepared second = prepared("add.w r3,r2,r2");
+        pipeline.execute(first, load);
+        pipeline.execute(second, {});
         timing::Event word;  // two instructions each, and longer on its way than the queue lasts
         word.words = 1;
         word.fetch_delays[0] = 32;
