@@ -30,6 +30,18 @@ std::uint64_t seed_of(std::uint64_t set, std::size_t run) {
     return std::uint64_t{mixed[0]} << 32U | mixed[1];
 }
 
+// Of what a model leaves of some records.
+double sum_of_squares(const Model& model, const std::vector<Record>& records) {
+    double sum = 0.0;
+    for (const Record& record : records) {
+        const std::vector<double> output = respond_to(model, record);
+        for (std::size_t k = 0; k < output.size(); ++k) {
+            sum += (output[k] - record.output[k]) * (output[k] - record.output[k]);
+        }
+    }
+    return sum;
+}
+
 }  // namespace
 
 Log take_log(const Model& model, const Acquisition& acquisition, std::uint64_t seed) {
@@ -71,17 +83,7 @@ Fit fit_from_nothing(Kind kind, const std::vector<Record>& records, const FitOpt
     const Model damped = fit(Form(Kind::sopdt, search_start(Kind::sopdt, records)), records, first).model;
     // Two equal time constants cannot swing: a descent from there ends in the first valley of a plant that does.
     const Model swinging = search_start(Kind::niopdt, records);
-    const auto sum_of_squares = [&](const Model& model) {
-        double sum = 0.0;
-        for (const Record& record : records) {
-            const std::vector<double> output = respond_to(model, record);
-            for (std::size_t k = 0; k < output.size(); ++k) {
-                sum += (output[k] - record.output[k]) * (output[k] - record.output[k]);
-            }
-        }
-        return sum;
-    };
-    return last(Form(kind, sum_of_squares(swinging) < sum_of_squares(damped) ? swinging : damped));
+    return last(Form(kind, sum_of_squares(swinging, records) < sum_of_squares(damped, records) ? swinging : damped));
 }
 
 Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acquisition, std::size_t runs,
@@ -100,13 +102,9 @@ Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acqu
     coverage.claimed.assign(free, 0.0);
     std::vector<std::vector<double>> estimates(free);
     const auto jointly_holds = [&](const Fit& found, const Record& record) {
-        const std::vector<double> output = respond_to(truth, record);
-        double sum = 0.0;
-        for (std::size_t k = 0; k < output.size(); ++k) {
-            sum += (output[k] - record.output[k]) * (output[k] - record.output[k]);
-        }
+        const double sum = sum_of_squares(truth, {record});
         const auto parameters = static_cast<double>(free);
-        const double freedom = static_cast<double>(output.size()) - parameters;
+        const double freedom = static_cast<double>(record.output.size()) - parameters;
         const double variance = found.sum_of_squares / freedom;
         return (sum - found.sum_of_squares) / (parameters * variance) <= fisher_f_quantile(parameters, freedom, 0.95);
     };

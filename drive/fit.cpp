@@ -259,9 +259,12 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
         });
     };
     // Some start where nothing is near, and go on for ever: who leads after some steps goes on alone.
-    attempt(std::max<std::size_t>(options.starts, 1), options.starts_if_poor > 0 ? 50 : descent.iterations);
+    constexpr int first_iterations = 50;
+    constexpr int other_iterations = 25;
+    attempt(std::max<std::size_t>(options.starts, 1),
+            options.starts_if_poor > 0 ? first_iterations : descent.iterations);
     if (options.starts_if_poor > 0 && (!leader().ended || ends_poorly(form, predictor, leader()))) {
-        attempt(options.starts_if_poor, 25);
+        attempt(options.starts_if_poor, other_iterations);
     }
     if (Attempt& first = leader(); !first.ended && first.iterations < descent.iterations) {
         const int before = first.iterations;

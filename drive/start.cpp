@@ -119,10 +119,11 @@ double unit_step(bool second_order, double damping, double x) {
     return 1.0 - std::exp(-damping * x) * (std::cos(swing * x) + damping / swing * std::sin(swing * x));
 }
 
-// An open loop on an even grid of some hundred points, where a dead time is a shift.
+// An open loop on an even grid of some hundred points, where a dead time is a shift and a log whose input changes at
+// each stamp costs no more than a step.
 class RoughRecord {
 public:
-    RoughRecord(const Record& record, double step_s) : changes_(record.changes), step_s_(step_s) {
+    RoughRecord(const Record& record, double step_s) {
         std::size_t at = 0;
         for (double time_s = 0.0; time_s <= record.time_s.back(); time_s += step_s) {
             while (at + 1 < record.time_s.size() && record.time_s[at + 1] <= time_s + 1e-9 * step_s) {
@@ -130,26 +131,30 @@ public:
             }
             output_.push_back(record.output[at]);
         }
+        input_change_.assign(output_.size(), 0.0);
+        for (const Change& change : record.changes) {
+            const auto nearest = static_cast<std::size_t>(std::lround(std::max(0.0, change.time_s) / step_s));
+            if (nearest < input_change_.size()) {
+                input_change_[nearest] += change.size;
+            }
+        }
     }
     [[nodiscard]] const std::vector<double>& output() const { return output_; }
-    /// Without a dead time, for a gain of 1.
-    [[nodiscard]] std::vector<double> respond(bool second_order, double damping, double time_constant_s) const {
+    /// \param step  the response after each number of steps, of at least as many as the output has
+    [[nodiscard]] std::vector<double> respond(const std::vector<double>& step) const {
         std::vector<double> response(output_.size(), 0.0);
-        for (std::size_t k = 0; k < response.size(); ++k) {
-            for (const Change& change : changes_) {
-                const double x = (static_cast<double>(k) * step_s_ - change.time_s) / time_constant_s;
-                if (x <= 0.0) {
-                    break;
+        for (std::size_t j = 0; j < response.size(); ++j) {
+            if (input_change_[j] != 0.0) {
+                for (std::size_t k = j; k < response.size(); ++k) {
+                    response[k] += input_change_[j] * step[k - j];
                 }
-                response[k] += change.size * unit_step(second_order, damping, x);
             }
         }
         return response;
     }
 
 private:
-    std::vector<Change> changes_;
-    double step_s_;
+    std::vector<double> input_change_;
     std::vector<double> output_;
 };
 
@@ -183,9 +188,13 @@ Model search_start(Kind kind, const std::vector<Record>& records) {
     for (int i = 0; i < constants; ++i) {
         const double now_s = longest_s * std::pow(0.003, static_cast<double>(i) / (constants - 1));
         for (const double damped : dampings) {
+            std::vector<double> step(points + 2);
+            for (std::size_t k = 0; k < step.size(); ++k) {
+                step[k] = unit_step(kind != Kind::fopdt, damped, static_cast<double>(k) * step_s / now_s);
+            }
             std::vector<std::vector<double>> responses;
             for (const RoughRecord& record : rough) {
-                responses.push_back(record.respond(kind != Kind::fopdt, damped, now_s));
+                responses.push_back(record.respond(step));
             }
             for (std::size_t shift = 0; shift < points / 2; shift += 4) {
                 double product = 0.0;
