@@ -28,6 +28,8 @@ struct Columns {
     std::string time = {};
     std::string input = {};
     std::string output = {};
+    std::vector<std::string> more_inputs = {};   ///< further logged inputs, in this order
+    std::string simulated = {};                  ///< what the user's own simulator gave for the same input
     bool needs_input = true;
     std::string reference = {};                  ///< of a closed loop; usually `reference`
     bool takes_reference = false;                ///< where the log has such a column, it need not have an input
@@ -41,6 +43,8 @@ struct Log {
     std::vector<double> time_s;
     std::vector<double> input;  ///< empty if there is none and none is needed
     std::vector<double> output;
+    std::vector<std::vector<double>> more_inputs;  ///< one for each that was named
+    std::vector<double> simulated;                 ///< empty unless it was named
     std::vector<double> reference;  ///< empty unless it was asked for and is there
     std::vector<std::size_t> line;  ///< of each sample, for messages
     std::vector<std::string> warnings;

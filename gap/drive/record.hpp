@@ -24,6 +24,8 @@ struct Record {
     std::vector<double> input;   ///< held from its stamp to the next
     std::vector<double> output;  ///< as read
     double usual_interval_s = 0.0;
+    std::vector<std::vector<double>> more_inputs = {};  ///< further logged inputs, held likewise
+    std::vector<double> simulated = {};  ///< what the user's own simulator gave; empty: there is none
 
     [[nodiscard]] std::size_t size() const { return time_s.size(); }
     /// From the first stamp to the last, `per_interval` nodes to the usual interval; below 1 a node spans several.
