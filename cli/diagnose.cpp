@@ -29,7 +29,8 @@ struct Options {
     drive::Columns columns;
     std::optional<double> split_s;
     bool refit = false;
-    std::string metric = "simulation";
+    std::string metric;
+    std::optional<double> horizon_s;
     std::vector<std::string> without;
     std::filesystem::path json;
     std::filesystem::path html;
@@ -123,17 +124,23 @@ void run(const Options& options) {
     for (const std::string& name : options.without) {
         (void)gap::effect_named(name);
     }
+    const bool found = options.model == "fit";
     const bool fitted = options.model.starts_with("fit:");
-    const drive::Form form =
-        fitted ? gap::search_form(options.model.substr(4), train) : gap::form_of(read_model(options.model));
-    const gap::Question question{form,
-                                 fitted || options.refit,
-                                 std::move(train),
-                                 read_records(options.validate, options.columns),
-                                 options.split_s,
-                                 options.metric == "prediction" ? gap::Metric::prediction : gap::Metric::simulation,
-                                 options.without,
-                                 options.jobs};
+    const drive::Form form = found    ? gap::form_to_find()
+                             : fitted ? gap::search_form(options.model.substr(4), train)
+                                      : gap::form_of(read_model(options.model));
+    gap::Question question{form,
+                           found || fitted || options.refit,
+                           std::move(train),
+                           read_records(options.validate, options.columns),
+                           options.split_s,
+                           options.metric == "prediction" ? gap::Metric::prediction : gap::Metric::simulation,
+                           options.without,
+                           options.jobs};
+    question.find = found;
+    question.metric_free = options.metric.empty();
+    question.horizon_s = options.horizon_s;
+    question.base_name = fitted ? options.model.substr(4) : options.refit ? "the model, refitted" : "";
     check_split(question);
     refuse_training_as_validation(question);
     const gap::Answer answer =
@@ -183,7 +190,7 @@ void add_options(Command& command, const Words&) {
         "dynamics,\n"
         "dead time, offset and initial state are fitted first.\n"
         "Example: glsum diagnose drive --model model.json --log train.csv --validate other.csv --json verdict.json");
-    of_drive.add_option("--model", options->model, "Model JSON, or fit:fopdt, fit:sopdt, fit:niopdt, fit:integrator")
+    of_drive.add_option("--model", options->model, "fit: the linear description that does best by itself; fit:FORM: one of a form; or a model JSON")
         .required();
     of_drive.add_option("--log", options->logs, "Logs that are fitted").required();
     of_drive.add_option("--validate", options->validate, "Logs that are not: the verdict is taken there");
@@ -193,9 +200,11 @@ void add_options(Command& command, const Words&) {
     of_drive.add_flag("--refit", options->refit, "Fit the model first");
     of_drive
         .add_option("--metric", options->metric,
-                    "simulation, or prediction: for drives that integrate or were logged in a closed loop")
-        .one_of({"simulation", "prediction"})
-        .capture_default_str();
+                    "simulation, or prediction: for drives that integrate or were logged in a closed loop; simulation unless a "
+                    "base is found that integrates")
+        .one_of({"simulation", "prediction"});
+    of_drive.add_option("--horizon", options->horizon_s, "SECONDS that a prediction looks ahead; a fiftieth of the record unless given")
+        .above(0);
     of_drive.add_option("--without", options->without, "Effects to leave off the list").delimiter(',');
     add_column_options(of_drive, options->columns);
     of_drive.add_option("--json", options->json, "The verdict, schema glsum-gap-1");

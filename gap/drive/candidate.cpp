@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
 
 namespace gap {
 namespace {
@@ -67,7 +69,7 @@ std::vector<FreeParameter> base_of(const Study& study) {
             continue;
         }
         const bool delay = parameter.name == "delay_s";
-        const double size = std::max(std::fabs(parameter.value), 1e-3);
+        const double size = parameter.value != 0.0 ? std::fabs(parameter.value) : 1e-3;
         // Far enough to reach any sensible value, not so far that a step leaves all sense.
         const double lower = delay ? 0.0 : std::max(parameter.lower, parameter.value - 30.0 * size);
         const double upper = delay ? std::min(parameter.upper, 0.5 * study.scales.length_s)
@@ -76,6 +78,46 @@ std::vector<FreeParameter> base_of(const Study& study) {
         free.push_back(to_free(parameter.name, parameter.value, lower, std::max(upper, lower + 1e-9), scale));
     }
     return free;
+}
+
+drive::Form with_values(const drive::Form& form, const Candidate& candidate) {
+    drive::Form filled = form;
+    for (drive::Parameter& parameter : filled.parameters()) {
+        const auto mine = std::find_if(candidate.base.begin(), candidate.base.end(),
+                                       [&](const FreeParameter& free) { return free.name == parameter.name; });
+        parameter.value = mine == candidate.base.end() ? parameter.value : mine->value;
+    }
+    return filled;
+}
+
+// Where nothing was put in at first and the readings stayed, they are the operating point: an effect must not hide in a
+// free one.
+struct Rest {
+    double level;
+    double known_to;
+};
+
+std::optional<Rest> rest_of(const Study& study, const Record& record) {
+    constexpr std::size_t enough = 8;
+    std::size_t count = 0;
+    while (count < record.size() && record.input[count] == 0.0) {
+        ++count;
+    }
+    if (!study.scales.steady || count < enough || count == record.size()) {
+        return std::nullopt;
+    }
+    const auto [low, high] =
+        std::minmax_element(record.output.begin(), record.output.begin() + static_cast<std::ptrdiff_t>(count));
+    const double noise = std::max(study.noise, study.least_deviation);
+    if (*high - *low > 8.0 * noise + study.scales.quantum) {
+        return std::nullopt;
+    }
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        sum += record.output[i];
+    }
+    const auto number = static_cast<double>(count);
+    return Rest{sum / number, std::max(3.0 * noise / std::sqrt(number), 0.5 * study.scales.quantum)};
 }
 
 std::vector<FreeParameter> state_of(const Study& study, const Record& record) {
@@ -88,11 +130,24 @@ std::vector<FreeParameter> state_of(const Study& study, const Record& record) {
     const double far = 1e3 * span + std::fabs(first);
     const double force = study.scales.force;
     // Where it would rest without input; what does not rest has a force in its place, a ramp of its own in each record.
-    return {study.scales.steady ? to_free("offset", record.input.front() == 0.0 ? first : 0.0, -far, far, span)
-                                : to_free("bias", 0.0, -force, force, 0.1 * force),
-            to_free("initial_output", first, first - 3.0 * span, first + 3.0 * span, span),
-            to_free("initial_velocity", 0.0, -3.0 * speed, 3.0 * speed, speed),
-            to_free("input_before", 0.0, -study.scales.input_max, study.scales.input_max, study.scales.input_max)};
+    const double mean =
+        std::accumulate(record.output.begin(), record.output.end(), 0.0) / static_cast<double>(record.size());
+    const double rests_at = !study.scales.driven ? mean : record.input.front() == 0.0 ? first : 0.0;
+    std::vector<FreeParameter> state = {study.scales.steady ? to_free("offset", rests_at, -far, far, span)
+                                                            : to_free("bias", 0.0, -force, force, 0.1 * force),
+                                        to_free("initial_output", first, first - 3.0 * span, first + 3.0 * span, span),
+                                        to_free("initial_velocity", 0.0, -3.0 * speed, 3.0 * speed, speed),
+                                        to_free("input_before", 0.0, -study.scales.input_max, study.scales.input_max,
+                                                std::max(study.scales.input_max, 1e-300))};
+    state[3].fixed = !study.scales.driven;
+    if (const auto rest = rest_of(study, record)) {
+        for (const std::size_t i : {0, 1}) {
+            state[i] =
+                to_free(state[i].name, rest->level, rest->level - rest->known_to, rest->level + rest->known_to, span);
+        }
+        state[2].fixed = state[3].fixed = true;
+    }
+    return state;
 }
 
 std::vector<FreeParameter> parameters_of(const Effect& effect, const Scales& scales, std::size_t start) {

@@ -16,7 +16,10 @@ struct FreeParameter {
     double upper;
     double scale;  ///< what counts as a step: differences are taken over 3e-4 of it
     bool fixed = false;
-    double deviation = 0.0;  ///< of a fitted value, by `add_deviations`; infinite if nothing tells it
+    double deviation = 0.0;      ///< of a fitted value, by `add_deviations`; infinite if nothing tells it
+    bool moves_nothing = false;  ///< found by `add_deviations`: close by, no residual depends on it
+    double low = 0.0;            ///< 95 % interval, by `add_intervals`
+    double high = 0.0;
 };
 
 struct Candidate {
@@ -33,6 +36,8 @@ struct Candidate {
 
 /// The base's free numbers at their starts; none unless it is refitted.
 [[nodiscard]] std::vector<FreeParameter> base_of(const Study& study);
+/// The form with the numbers that a candidate has of it.
+[[nodiscard]] drive::Form with_values(const drive::Form& form, const Candidate& candidate);
 /// A record's own state likewise.
 [[nodiscard]] std::vector<FreeParameter> state_of(const Study& study, const Record& record);
 /// An effect's parameters at one of its starts.

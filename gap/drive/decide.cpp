@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <string_view>
 
+#include "gap/drive/determined.hpp"
 #include "gap/drive/outside.hpp"
 #include "gap/flexible.hpp"
 #include "gap/pattern.hpp"
@@ -38,6 +40,9 @@ constexpr double wave_share = 0.25;
 constexpr double wave_of_input = 30.0;
 // What is left over what differs from sample to sample: sensors' noise is seldom so coloured.
 constexpr double usual_ratio = 7.0;
+constexpr std::size_t most_effects = 4;
+// More alternatives than this say nothing.
+constexpr std::size_t most_alternatives = 3;
 
 std::vector<Remainder> remainders(const Study& study, const std::vector<std::vector<double>>& residuals) {
     std::vector<Remainder> all;
@@ -89,8 +94,9 @@ double confidence_by(double advantage) { return 0.5 + 0.47 * (1.0 - std::exp(-st
 
 class Deciding {
 public:
-    Deciding(const std::vector<Ranked>& ranking, const Study& study, const Study& validation, bool same_records)
-        : ranking_(ranking), study_(study), validation_(validation), same_records_(same_records) {}
+    Deciding(const std::vector<Ranked>& ranking, const Whitener& whitener, const Study& study, const Study& validation,
+             bool same_records)
+        : ranking_(ranking), whitener_(whitener), study_(study), validation_(validation), same_records_(same_records) {}
 
     Decision decide() {
         const std::size_t none = *best_of(0);
@@ -103,7 +109,7 @@ public:
                 least = std::min(least, ranked.gap_after);
             }
         }
-        for (std::size_t size = 1; size <= 3; ++size) {
+        for (std::size_t size = 1; size <= most_effects; ++size) {
             const auto wider = best_of(size);
             // The best with one effect less may have been too small a step to be taken; it must be beaten all the same.
             if (const auto narrower = best_of(size - 1);
@@ -152,20 +158,99 @@ public:
             nothing_listed(pattern);
         }
         doubt_events();
+        limit_alternatives();
         doubt_what_does_not_belong(after);
+        name_a_suspect(none);
         return decision_;
     }
 
 private:
     static double square(double value) { return value * value; }
 
+    // Of those whose numbers training tells.
     [[nodiscard]] std::optional<std::size_t> best_of(std::size_t size) const {
         for (std::size_t i = 0; i < ranking_.size(); ++i) {
-            if (ranking_[i].trained.effects.size() == size) {
+            if (ranking_[i].trained.effects.size() == size && objection(i).empty()) {
                 return i;
             }
         }
         return std::nullopt;
+    }
+
+    // Why a candidate cannot be named, whatever its likelihood: training leaves it open, or every record needs an event
+    // of its own, which none from outside would be. Empty: it can.
+    [[nodiscard]] const std::string& objection(std::size_t i) const {
+        const auto known = objections_.find(i);
+        if (known != objections_.end()) {
+            return known->second;
+        }
+        std::string what;
+        if (!ranking_[i].trained.effects.empty()) {
+            Candidate trained = ranking_[i].trained;
+            add_intervals(study_, trained, study_.base.refit ? nullptr : &whitener_);
+            what = untold_of(study_, trained);
+        }
+        return objections_.emplace(i, std::move(what)).first->second;
+    }
+
+    /// \param trained  with its intervals
+    [[nodiscard]] std::string event_everywhere(const Candidate& trained, Candidate judged) const {
+        add_intervals(validation_, judged, nullptr);
+        for (const Effect* effect : trained.effects) {
+            const auto in_all = [&](const Study& study, const Candidate& candidate) {
+                return std::all_of(candidate.own.begin(), candidate.own.end(),
+                                   [&](const auto& own) { return needs_event(study, own, *effect); });
+            };
+            if (effect->kind == Kind::event && !same_records_ && in_all(study_, trained) &&
+                in_all(validation_, judged)) {
+                return fmt::format("every record needs a {} of its own", effect->name);
+            }
+        }
+        return "";
+    }
+
+    // Three at most. Beside a given model any effect that equals a gain change is the gain's alternative, which is
+    // kept.
+    void limit_alternatives() {
+        if (decision_.effects.size() <= most_alternatives) {
+            return;
+        }
+        if (study_.base.refit) {
+            std::string names;
+            for (const std::size_t i : decision_.effects) {
+                names += (names.empty() ? "" : ", ") + ranking_[i].trained.name();
+            }
+            decision_.notes.push_back(
+                fmt::format("{} causes explain these records equally well: {}", decision_.effects.size(), names));
+            decision_.outcome = Outcome::unknown;
+            decision_.effects.clear();
+            decision_.confidence = std::min(decision_.confidence, 0.7);
+            return;
+        }
+        const auto gain = std::find_if(decision_.effects.begin(), decision_.effects.end(),
+                                       [&](std::size_t i) { return ranking_[i].trained.name() == "gain_error"; });
+        if (gain != decision_.effects.end() &&
+            gain - decision_.effects.begin() >= static_cast<std::ptrdiff_t>(most_alternatives)) {
+            std::iter_swap(gain, decision_.effects.begin() + most_alternatives - 1);
+        }
+        decision_.effects.resize(most_alternatives);
+        decision_.confidence = 0.9 / static_cast<double>(most_alternatives);
+    }
+
+    // The leading candidate whose numbers training tells, where nothing is named.
+    void name_a_suspect(std::size_t none) {
+        if (decision_.outcome != Outcome::unknown) {
+            return;
+        }
+        if (decision_.chosen != none) {
+            decision_.suspect = decision_.chosen;
+            return;
+        }
+        for (std::size_t i = 0; i < ranking_.size() && !decision_.suspect; ++i) {
+            if (i != none && ranking_[i].gap_after < ranking_[none].gap_after && objection(i).empty()) {
+                decision_.suspect = i;
+            }
+        }
     }
 
     [[nodiscard]] bool is_better(std::size_t wider, std::size_t chosen, double least) const {
@@ -192,7 +277,11 @@ private:
                 continue;
             }
             const Interval over = advantage(ranking_[chosen], ranking_[i]);
-            if (over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage)) {
+            const bool near = over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage);
+            if (near && !objection(i).empty()) {
+                continue;
+            }
+            if (near) {
                 if (generalises(ranking_[chosen].trained, other) && decision_.effects.front() == chosen) {
                     decision_.effects.front() = decision_.chosen = i;  // the simpler one says as much
                 } else {
@@ -349,6 +438,8 @@ private:
     }
 
     const std::vector<Ranked>& ranking_;
+    const Whitener& whitener_;
+    mutable std::map<std::size_t, std::string> objections_;
     const Study& study_;
     const Study& validation_;
     bool same_records_;
@@ -357,8 +448,9 @@ private:
 
 }  // namespace
 
-Decision decide(const std::vector<Ranked>& ranking, const Study& study, const Study& validation, bool same_records) {
-    return Deciding(ranking, study, validation, same_records).decide();
+Decision decide(const std::vector<Ranked>& ranking, const Whitener& whitener, const Study& study,
+                const Study& validation, bool same_records) {
+    return Deciding(ranking, whitener, study, validation, same_records).decide();
 }
 
 }  // namespace gap

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/drive/determined.hpp"
 #include "gap/drive/experiment.hpp"
 #include "gap/drive/search.hpp"
 #include "qemu/failure.hpp"
@@ -48,6 +49,10 @@ std::string next_experiment(const Answer& answer, const Study& study, const Audi
     return part(study, alternatives, noise).text;
 }
 
+double linear_share_of(double gap) { return std::clamp(1.0 - gap * gap, 0.0, 1.0); }
+
+bool rests(const drive::Form& form) { return drive::constant_coefficient(gap::model_of(form).denominator) != 0.0; }
+
 }  // namespace
 
 const Ranked& Answer::none() const {
@@ -59,16 +64,12 @@ drive::Model Answer::model_of(const Candidate& candidate) const {
     if (!refit) {
         return gap::model_of(*form);
     }
-    std::vector<double> values;
-    for (const drive::Parameter& parameter : form->parameters()) {
-        const auto mine = std::find_if(candidate.base.begin(), candidate.base.end(),
-                                       [&](const FreeParameter& free) { return free.name == parameter.name; });
-        values.push_back(mine == candidate.base.end() ? parameter.value : mine->value);
-    }
-    return form->to_model(values);
+    return gap::model_of(with_values(*form, candidate));
 }
 
-Answer diagnose(const Question& question, const std::function<void(const std::string&)>& say) {
+namespace {
+
+Answer answer_to(const Question& question, const std::function<void(const std::string&)>& say) {
     const Ground ground = prepare(question);
     const Study& study = ground.study;
     const Study& validation = ground.validation;
@@ -93,10 +94,13 @@ Answer diagnose(const Question& question, const std::function<void(const std::st
                         answer.records.front().name, drive::to_text(answer.model_of(answer.none().trained))));
     }
     say("deciding");
-    answer.decision = decide(answer.ranking, study, validation, split);
-    for (const std::size_t i : answer.decision.effects) {
-        add_deviations(study, answer.ranking[i].trained, answer.whitener);
-        add_deviations(validation, answer.ranking[i].candidate, answer.whitener);
+    answer.decision = decide(answer.ranking, answer.whitener, study, validation, split);
+    const Whitener* fits_by = question.refit ? nullptr : &answer.whitener;
+    std::vector<std::size_t> shown = answer.decision.effects;
+    shown.push_back(answer.decision.suspect.value_or(answer.decision.chosen));
+    for (const std::size_t i : shown) {
+        add_intervals(study, answer.ranking[i].trained, fits_by);
+        add_intervals(validation, answer.ranking[i].candidate, fits_by);
     }
     answer.base = answer.model_of(answer.none().trained);
     answer.where = where_of(validation, answer.none(), answer.records);
@@ -104,6 +108,80 @@ Answer diagnose(const Question& question, const std::function<void(const std::st
     answer.next_experiment = next_experiment(answer, study, ground.found);
     answer.notes = ground.found.notes;
     answer.notes.insert(answer.notes.end(), answer.decision.notes.begin(), answer.decision.notes.end());
+    answer.linear_share = linear_share_of(answer.none().gap_after);
+    return answer;
+}
+
+// What a richer linear description makes of the same candidate.
+struct Beside {
+    double none;
+    double effects;
+};
+
+Beside beside(const Described& description, Question question, const std::vector<const Effect*>& effects) {
+    question.form = description.form;
+    const Ground ground = prepare(question);
+    const auto gap_of = [&](const Candidate& trained) {
+        const Candidate judged = ground.same_records ? trained : carried_over(ground.validation, trained, nullptr);
+        return rms_of(ground.validation, all_residuals(ground.validation, judged)) /
+               output_deviation(ground.validation);
+    };
+    const Candidate none = fit(ground.study, {}, ground.base, nullptr);
+    return {gap_of(none), gap_of(fit(ground.study, effects, none, nullptr))};
+}
+
+}  // namespace
+
+Answer diagnose(Question question, const std::function<void(const std::string&)>& say) {
+    if (!question.find) {
+        Answer answer = answer_to(question, say);
+        answer.base_name = question.base_name;
+        return answer;
+    }
+    std::vector<Described> found = find_base(question, say);
+    const auto begin_with = [&](const Described& description) {
+        question.form = description.form;
+        question.refit = true;
+        if (question.metric_free) {
+            question.metric = rests(description.form) ? Metric::simulation : Metric::prediction;
+        }
+        say(fmt::format("the base: {} ({})", description.name, description.meaning));
+    };
+    begin_with(found.front());
+    Answer answer = answer_to(question, say);
+    std::string name = found.front().name;
+    // What an effect seems to do may be a lag that the base lacks: a richer linear description is asked with the same
+    // effects, and where it goes much further, all of it once more with that.
+    if (!answer.chosen().trained.effects.empty()) {
+        double left = answer.chosen().gap_after;
+        const Described* further = nullptr;
+        for (const Described& richer : found) {
+            if (richer.numbers <= found.front().numbers || richer.numbers > found.front().numbers + 2 ||
+                rests(richer.form) != rests(found.front().form)) {
+                continue;
+            }
+            say(fmt::format("asking {} with the same effects", richer.name));
+            const Beside both = beside(richer, question, answer.chosen().trained.effects);
+            const double least = std::min(both.none, both.effects);
+            constexpr double much_further = 0.85;
+            if (least < much_further * left) {
+                left = least;
+                further = &richer;
+            }
+        }
+        if (further != nullptr) {
+            name = further->name;
+            begin_with(*further);
+            answer = answer_to(question, say);
+        }
+    }
+    answer.base_name = name;
+    double best = answer.none().gap_after;
+    for (const Described& one : found) {
+        best = std::min(best, one.validation);
+    }
+    answer.linear_share = linear_share_of(best);
+    answer.descriptions = std::move(found);
     return answer;
 }
 

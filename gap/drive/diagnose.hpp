@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gap/drive/base/find.hpp"
 #include "gap/drive/decide.hpp"
 #include "gap/drive/question.hpp"
 #include "gap/locate.hpp"
@@ -29,10 +30,14 @@ struct Answer {
     [[nodiscard]] drive::Model model_of(const Candidate& candidate) const;
     std::optional<drive::Form> form;
     bool refit = false;
+    std::string base_name;                ///< of a base that was found or fitted; empty: a model was given
+    double linear_share = 0.0;            ///< of the validation output's variance, by the best linear description
+    std::vector<Described> descriptions;  ///< of a base that was looked for, the best first
+    std::vector<std::string> extrapolated;
 };
 
 /// \throws glsum::Failure (bad input): records and model that cannot belong together: a dead time as long as the
 /// record, stamps or readings in other units, a model that runs away. \param say  told of progress
-[[nodiscard]] Answer diagnose(const Question& question, const std::function<void(const std::string&)>& say);
+[[nodiscard]] Answer diagnose(Question question, const std::function<void(const std::string&)>& say);
 
 }  // namespace gap

@@ -29,6 +29,7 @@ struct Scales {
     double held_share;         ///< of the readings that repeat the one before; 0 where a quantum explains them
     double deployed_step_s;  ///< of the simulation that ran, where one may have: fractional, given, not too long; or 0
     bool steady;             ///< the model rests somewhere for each input: it does not integrate
+    bool driven = true;      ///< something is put in; free motions otherwise
 };
 
 struct EffectParameter {

@@ -1,6 +1,6 @@
 #include "gap/drive/fit.hpp"
 
-#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -114,6 +114,59 @@ private:
     std::vector<std::size_t> which_;
     const Whitener* whitener_;
 };
+
+// Standard deviations by least squares, from the residuals' size and from how blocks of them pull, whichever is larger:
+// what is left of a fitted form is no noise, and says the same again and again. Infinite for what moves nothing, and
+// for what moves with others in a direction that nothing tells.
+/// \param least_variance  of the residuals: a perfect simulation of rounded readings has none
+Eigen::VectorXd deviations_of(const Eigen::MatrixXd& slopes, const Eigen::VectorXd& residuals, double least_variance) {
+    const Eigen::Index rows = slopes.rows();
+    const Eigen::Index columns = slopes.cols();
+    const Eigen::VectorXd length = slopes.colwise().norm();
+    Eigen::VectorXd spread = Eigen::VectorXd::Constant(columns, infinity);
+    std::vector<Eigen::Index> moving;
+    for (Eigen::Index i = 0; i < columns; ++i) {
+        if (length(i) > 0.0) {
+            moving.push_back(i);
+        }
+    }
+    const auto size = static_cast<Eigen::Index>(moving.size());
+    if (size == 0) {
+        return spread;
+    }
+    const Eigen::MatrixXd scaled = slopes(Eigen::all, moving) * length(moving).cwiseInverse().asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> parts(scaled.transpose() * scaled);
+    if (parts.info() != Eigen::Success) {
+        return spread;
+    }
+    constexpr double untold = 1e-10;  // of the largest: below it is the rounding of differences
+    const double least = untold * parts.eigenvalues().maxCoeff();
+    const Eigen::VectorXd told = (parts.eigenvalues().array() > least).select(parts.eigenvalues().cwiseInverse(), 0.0);
+    const Eigen::MatrixXd inverse = parts.eigenvectors() * told.asDiagonal() * parts.eigenvectors().transpose();
+    const double variance = std::max(
+        least_variance, residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows - columns)));
+    constexpr Eigen::Index blocks = 24;
+    Eigen::VectorXd pulled = Eigen::VectorXd::Zero(size);
+    for (Eigen::Index block = 0; block < blocks; ++block) {
+        const Eigen::Index from = rows * block / blocks;
+        const Eigen::Index count = rows * (block + 1) / blocks - from;
+        const Eigen::VectorXd pull =
+            inverse * (scaled.middleRows(from, count).transpose() * residuals.segment(from, count));
+        pulled += pull.cwiseAbs2();
+    }
+    for (Eigen::Index i = 0; i < size; ++i) {
+        double in_untold = 0.0;
+        for (Eigen::Index k = 0; k < size; ++k) {
+            in_untold += told(k) == 0.0 ? std::pow(parts.eigenvectors()(i, k), 2) : 0.0;
+        }
+        constexpr double hardly = 1e-4;
+        if (in_untold < hardly) {
+            spread(moving[static_cast<std::size_t>(i)]) =
+                std::sqrt(std::max(variance * inverse(i, i), pulled(i))) / length(moving[static_cast<std::size_t>(i)]);
+        }
+    }
+    return spread;
+}
 
 std::vector<std::size_t> all_of(const std::vector<FreeParameter*>& free) {
     std::vector<std::size_t> which(free.size());
@@ -335,12 +388,12 @@ Candidate carried_over(const Study& study, const Candidate& fitted, const Whiten
     return carried;
 }
 
-void add_deviations(const Study& study, Candidate& candidate, const Whitener& whitener) {
+void add_deviations(const Study& study, Candidate& candidate, const Whitener* whitener) {
     const std::vector<FreeParameter*> free = free_numbers(candidate, false);
     if (free.empty()) {
         return;
     }
-    Cost cost(study, candidate, false, all_of(free), &whitener);
+    Cost cost(study, candidate, false, all_of(free), whitener);
     std::vector<double> values;
     for (const FreeParameter* parameter : free) {
         values.push_back(parameter->value / parameter->scale);
@@ -353,30 +406,13 @@ void add_deviations(const Study& study, Candidate& candidate, const Whitener& wh
     double* jacobian = slopes.data();
     Eigen::VectorXd spread = Eigen::VectorXd::Constant(columns, infinity);
     if (cost.Evaluate(&parameters, residuals.data(), &jacobian)) {
-        const double variance =
-            std::max(1.0, residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, rows - columns)));
-        const Eigen::MatrixXd information = slopes.transpose() * slopes;
-        // A number that moves nothing is not known and takes nothing from the others.
-        std::vector<Eigen::Index> moving;
-        for (Eigen::Index i = 0; i < columns; ++i) {
-            if (information(i, i) > 0.0) {
-                moving.push_back(i);
-            }
-        }
-        const Eigen::VectorXd length = information(moving, moving).diagonal().cwiseSqrt();
-        const Eigen::MatrixXd scaled =
-            length.cwiseInverse().asDiagonal() * information(moving, moving) * length.cwiseInverse().asDiagonal();
-        const Eigen::LDLT<Eigen::MatrixXd> factors(scaled);
-        if (!moving.empty() && factors.info() == Eigen::Success && factors.isPositive() && factors.rcond() > 1e-13) {
-            const auto size = static_cast<Eigen::Index>(moving.size());
-            const Eigen::MatrixXd inverse = factors.solve(Eigen::MatrixXd::Identity(size, size));
-            for (Eigen::Index i = 0; i < size; ++i) {
-                spread(moving[static_cast<std::size_t>(i)]) = std::sqrt(variance * inverse(i, i)) / length(i);
-            }
-        }
+        spread =
+            deviations_of(slopes, residuals, whitener != nullptr ? 1.0 : study.least_deviation * study.least_deviation);
     }
     for (Eigen::Index i = 0; i < columns; ++i) {
-        free[static_cast<std::size_t>(i)]->deviation = spread(i) * free[static_cast<std::size_t>(i)]->scale;
+        FreeParameter& parameter = *free[static_cast<std::size_t>(i)];
+        parameter.deviation = spread(i) * parameter.scale;
+        parameter.moves_nothing = !(slopes.col(i).squaredNorm() > 0.0);
     }
 }
 

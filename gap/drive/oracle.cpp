@@ -13,7 +13,6 @@ namespace {
 
 using Effects = std::vector<const Effect*>;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 std::size_t free_count(Candidate candidate) { return free_numbers(candidate, false).size(); }
 
@@ -41,7 +40,7 @@ double whitened_bic(const Study& study, const Candidate& candidate) {
 
 std::string least(const std::vector<Candidate>& all, const Study& study,
                   double (*criterion)(const Study&, const Candidate&)) {
-    double lowest = infinity;
+    double lowest = std::numeric_limits<double>::infinity();
     std::string name = "none";
     for (const Candidate& candidate : all) {
         if (const double value = criterion(study, candidate); value < lowest) {
@@ -55,7 +54,7 @@ std::string least(const std::vector<Candidate>& all, const Study& study,
 // One effect after the other, in whichever order goes further.
 Candidate fit_together(const Ground& ground, const Effects& truth, const Candidate& none) {
     Candidate best = none;
-    best.cost = infinity;
+    best.cost = std::numeric_limits<double>::infinity();
     Effects order = truth;
     std::sort(order.begin(), order.end());
     do {
@@ -101,7 +100,7 @@ Foresight foresee(const Question& question, const std::vector<std::string>& trut
     };
     const Ranked oracle = judged(right);
     foresight.gap_after = oracle.gap_after;
-    std::vector<double> likelihoods(all.size(), -infinity);
+    std::vector<double> likelihoods(all.size(), -std::numeric_limits<double>::infinity());
     bench::parallel_for(all.size(), question.jobs, [&](std::size_t i) {
         if (all[i].name() != right.name()) {
             const Ranked other = judged(all[i]);

@@ -39,7 +39,8 @@ Study make_study(const Question& question, const std::vector<Record>& records, s
         study.courses.push_back(make_course(record, plain, 0.3 * std::max(found.noise, least)));
     }
     if (question.metric == Metric::prediction) {
-        study.horizon = std::max<std::size_t>(1, static_cast<std::size_t>(0.02 * scales.length_s / scales.interval_s));
+        const double ahead_s = question.horizon_s.value_or(0.02 * scales.length_s);
+        study.horizon = std::max<std::size_t>(1, static_cast<std::size_t>(ahead_s / scales.interval_s));
     }
     return study;
 }
@@ -103,7 +104,8 @@ Ground prepare(const Question& question) {
         correct_for(validation, split ? base : carried_over(validation, base, nullptr));
     }
     Study sketch = sketch_of(study, base);
-    return {found, std::move(study), std::move(sketch), std::move(validation), split, list_of(question, scales)};
+    return {found, std::move(study),         std::move(sketch), std::move(validation), std::move(base),
+            split, list_of(question, scales)};
 }
 
 }  // namespace gap

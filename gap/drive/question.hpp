@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "gap/drive/study.hpp"
+#include "gap/drive/candidate.hpp"
 
 namespace gap {
 
@@ -20,6 +20,10 @@ struct Question {
     Metric metric = Metric::simulation;
     std::vector<std::string> without;  ///< effects that are taken off the list
     unsigned jobs = 1;
+    std::string base_name = {};            ///< of a fitted form
+    bool find = false;                     ///< the base is looked for: `form` is none yet
+    bool metric_free = false;              ///< predictions where the base that is found rests nowhere
+    std::optional<double> horizon_s = {};  ///< of predictions; a fiftieth of the record unless it is given
 };
 
 /// The studies of a question.
@@ -28,6 +32,7 @@ struct Ground {
     Study study;                      ///< what is fitted
     Study sketch;                     ///< the same records on coarser grids, for first looks
     Study validation;                 ///< what is judged
+    Candidate base;                   ///< the base as first fitted, or as it is given
     bool same_records;                ///< judged are parts of the fitted records that were kept aside
     std::vector<const Effect*> list;  ///< effects that can occur in these records and are asked for
 };

@@ -36,9 +36,6 @@ Record to_record(drive::Log log) {
     if (record.size() < 32) {
         refuse(fmt::format("expected 32 samples or more, found {}", record.size()));
     }
-    if (!moves(record.input) && record.input.front() == 0.0) {
-        refuse("the input is 0 throughout: nothing was asked of the drive");
-    }
     if (!moves(record.output)) {
         refuse(fmt::format("the output is {} throughout: nothing can be diagnosed", record.output.front()));
     }
@@ -49,6 +46,8 @@ Record to_record(drive::Log log) {
     std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
                      intervals.end());
     record.usual_interval_s = intervals[intervals.size() / 2];
+    record.more_inputs = std::move(log.more_inputs);
+    record.simulated = std::move(log.simulated);
     return record;
 }
 

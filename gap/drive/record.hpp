@@ -32,7 +32,8 @@ struct Record {
     [[nodiscard]] Grid grid(double per_interval) const;
 };
 
-/// \throws glsum::Failure (bad input): fewer than 32 samples, an input that never moves, an output that never moves.
+/// \throws glsum::Failure (bad input): fewer than 32 samples, an output that never moves. An input of 0
+/// throughout is a free motion.
 [[nodiscard]] Record to_record(drive::Log log);
 
 /// The mean over each interval of the grid of levels that are held from their stamp to the next.

@@ -19,6 +19,11 @@ constexpr std::size_t leads = 2;         // by validation, and as many by traini
 constexpr std::size_t more_leads = 5;    // where none of them leaves noise alone
 constexpr std::size_t finalists = 8;     // pairs, and triples, that are fitted to the end
 constexpr Effort quick{3, 1, 6};
+// Real rigs have several causes at once; beside a model that is given more than three are an expansion of something
+// else.
+constexpr std::size_t most_beside_a_form = 4;
+constexpr std::size_t most_beside_a_model = 3;
+std::size_t most_effects_of(const Study& study) { return study.base.refit ? most_beside_a_form : most_beside_a_model; }
 constexpr double hopeless = 0.9995;  // of the cost without an effect: a unit of likelihood of 4000 samples
 
 bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
@@ -61,16 +66,21 @@ public:
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();
-            if (worth_more(found_.ranking.front()) && has_pairs()) {
+            if (worth_more(found_.ranking.front()) && has_sized(2)) {
                 take(exchanged());
                 renew_whitener();
             }
-            if (found_.ranking.front().candidate.effects.size() == 2 &&
-                advantage(found_.ranking.front(), best_of(1)).mean > 8.0) {
-                take(widened(2, "triples"));
+            // One more as long as the best of all has as many as were tried, each without each of its own.
+            for (std::size_t size = 2;
+                 size < most_effects_of(of_.ground.study) && found_.ranking.front().candidate.effects.size() == size &&
+                 advantage(found_.ranking.front(), best_of(size - 1)).mean > 8.0;
+                 ++size) {
+                take(widened(size, fmt::format("sets of {}", size + 1)));
                 renew_whitener();
-                take(narrowed());
-                renew_whitener();
+                if (has_sized(size + 1)) {
+                    take(narrowed(size + 1));
+                    renew_whitener();
+                }
             }
         }
         take(with_jitter());
@@ -115,9 +125,9 @@ private:
         return result;
     }
 
-    [[nodiscard]] bool has_pairs() const {
+    [[nodiscard]] bool has_sized(std::size_t size) const {
         return std::any_of(found_.ranking.begin(), found_.ranking.end(),
-                           [](const Ranked& ranked) { return ranked.trained.effects.size() == 2; });
+                           [&](const Ranked& ranked) { return ranked.trained.effects.size() == size; });
     }
 
     // Whether the best so far leaves more than noise, and further fits are cheap: a refitted base makes each several
@@ -128,7 +138,7 @@ private:
     }
 
     // The best candidates of some size with one effect more.
-    std::vector<Candidate> widened(std::size_t size, const char* what) const {
+    std::vector<Candidate> widened(std::size_t size, const std::string& what) const {
         std::vector<const Candidate*> first;
         for (const Ranked* lead : leads_of(size)) {
             first.push_back(&lead->trained);
@@ -146,20 +156,21 @@ private:
         return with_one_more({&halves[0], &halves[1]}, "exchanges");
     }
 
-    // The best triple without one of its effects: what the third brought about was perhaps only a better start.
-    std::vector<Candidate> narrowed() const {
-        std::vector<Candidate> pairs;
-        const Candidate& triple = best_of(3).trained;
-        for (const Effect* left_out : triple.effects) {
-            Effects pair = triple.effects;
-            pair.erase(std::find(pair.begin(), pair.end(), left_out));
-            pairs.push_back(fit(of_.ground.study, pair, triple, fits_by()));
-        }
-        return pairs;
+    // The best of a size without one of its effects: what the last one brought about was perhaps only a better start,
+    // and made one of the others superfluous.
+    std::vector<Candidate> narrowed(std::size_t size) const {
+        const Candidate& best = best_of(size).trained;
+        std::vector<Candidate> narrower(best.effects.size());
+        bench::parallel_for(narrower.size(), of_.jobs, [&](std::size_t i) {
+            Effects fewer = best.effects;
+            fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+            narrower[i] = fit(of_.ground.study, fewer, best, fits_by());
+        });
+        return narrower;
     }
 
     // All of them quickly, the best to the end.
-    std::vector<Candidate> with_one_more(const std::vector<const Candidate*>& first, const char* what) const {
+    std::vector<Candidate> with_one_more(const std::vector<const Candidate*>& first, const std::string& what) const {
         std::vector<Effects> all;
         std::vector<const Candidate*> starts;
         std::set<Effects> seen;

@@ -1,12 +1,15 @@
 #include "gap/drive/start.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include <Eigen/QR>
 #include <cmath>
 #include <limits>
 
-#include "gap/drive/simulate.hpp"
+#include "base/nearest_name.hpp"
+#include "gap/drive/base/find.hpp"
+#include "gap/drive/base/leftover.hpp"
+#include "gap/drive/base/structure.hpp"
 #include "qemu/failure.hpp"
 
 namespace gap {
@@ -25,54 +28,20 @@ drive::Model unit_model(const std::string& form, double time_constant_s, double 
     return model;
 }
 
-struct Found {
-    drive::Model model;
-    double left = std::numeric_limits<double>::infinity();
-};
-
-// Gain, and offset and initial output of each record, by linear least squares.
-void try_model(const drive::Model& model, const std::vector<Course>& courses, Found& best) {
-    Eigen::Index rows = 0;
-    for (const Course& course : courses) {
-        rows += static_cast<Eigen::Index>(course.record().size());
-    }
-    const auto columns = static_cast<Eigen::Index>(1 + 2 * courses.size());
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, columns);
-    Eigen::VectorXd right(rows);
-    Eigen::Index row = 0;
-    for (std::size_t r = 0; r < courses.size(); ++r) {
-        Scenario driven;
-        driven.model = model;
-        const std::vector<double> forced = simulate(driven, courses[r]);
-        Scenario released = driven;
-        released.model.gain = 0.0;
-        released.initial_output = 1.0;
-        const std::vector<double> free = simulate(released, courses[r]);
-        for (std::size_t i = 0; i < forced.size(); ++i, ++row) {
-            matrix(row, 0) = forced[i];
-            matrix(row, static_cast<Eigen::Index>(1 + 2 * r)) = 1.0;
-            matrix(row, static_cast<Eigen::Index>(2 + 2 * r)) = free[i];
-            right(row) = courses[r].record().output[i];
-        }
-    }
-    if (!matrix.allFinite()) {
-        return;
-    }
-    const Eigen::VectorXd solution = matrix.colPivHouseholderQr().solve(right);
-    const double left = (matrix * solution - right).squaredNorm();
-    if (std::isfinite(left) && left < best.left && solution(0) != 0.0) {
-        best.left = left;
-        best.model = model;
-        best.model.gain = solution(0);
-    }
-}
-
 }  // namespace
 
 drive::Form search_form(const std::string& form, const std::vector<Record>& records) {
+    if (const Structure* structure = structure_named(form)) {
+        return start_of(*structure, records);
+    }
     if (form != "fopdt" && form != "sopdt" && form != "niopdt" && form != "integrator") {
+        std::vector<std::string> known = {"fopdt", "sopdt", "niopdt", "integrator"};
+        for (const Structure& structure : structures()) {
+            known.emplace_back(structure.name);
+        }
         throw glsum::Failure(glsum::Exit::bad_input,
-                             fmt::format("fit:{}: expected fit:fopdt, fit:sopdt, fit:niopdt or fit:integrator", form));
+                             fmt::format("fit:{}: expected one of {}; the nearest is {}", form, fmt::join(known, ", "),
+                                         base::nearest_name(form, known)));
     }
     std::vector<Course> courses;
     double length_s = 0.0;
@@ -80,7 +49,8 @@ drive::Form search_form(const std::string& form, const std::vector<Record>& reco
         courses.emplace_back(record, 1);
         length_s = std::max(length_s, record.time_s.back() - record.time_s.front());
     }
-    Found best;
+    drive::Model best;
+    double least = std::numeric_limits<double>::infinity();
     const double shortest_s = records.front().usual_interval_s;
     constexpr int constants = 9;
     for (int i = 0; i < constants; ++i) {
@@ -88,17 +58,22 @@ drive::Form search_form(const std::string& form, const std::vector<Record>& reco
             0.3 * length_s * std::pow(shortest_s / (0.3 * length_s), static_cast<double>(i) / constants);
         for (const double share : {0.0, 0.3, 1.0, 2.0, 4.0}) {
             if (share * time_constant_s < 0.3 * length_s) {
-                try_model(unit_model(form, time_constant_s, share * time_constant_s), courses, best);
+                drive::Model model = unit_model(form, time_constant_s, share * time_constant_s);
+                if (const Leftover left = leftover_of(model, courses, true); left.squares < least) {
+                    least = left.squares;
+                    best = model;
+                    best.gain = left.gain;
+                }
             }
         }
     }
-    if (!std::isfinite(best.left)) {
+    if (!std::isfinite(least)) {
         throw glsum::Failure(glsum::Exit::bad_input,
                              fmt::format("{}: no {} explains anything of it: do input and output belong together?",
                                          records.front().name, form));
     }
     if (form == "integrator") {
-        drive::Model model = best.model;  // gain into the coefficients: the form has none of its own
+        drive::Model model = best;  // gain into the coefficients: the form has none of its own
         for (drive::Term& term : model.denominator) {
             term.coefficient /= model.gain;
         }
@@ -108,7 +83,7 @@ drive::Form search_form(const std::string& form, const std::vector<Record>& reco
     const drive::Kind kind = form == "fopdt"   ? drive::Kind::fopdt
                              : form == "sopdt" ? drive::Kind::sopdt
                                                : drive::Kind::niopdt;
-    return {kind, best.model};
+    return {kind, best};
 }
 
 drive::Form form_of(const drive::Model& model) {

@@ -9,7 +9,8 @@
 
 namespace gap {
 
-/// \param form  fopdt, sopdt, niopdt (which begins as a sopdt) or integrator: gain / (s (1 + T s)) with a dead time
+/// \param form  fopdt, sopdt, niopdt (which begins as a sopdt), integrator: gain / (s (1 + T s)) with a dead time, or a
+/// structure by its name (gap/drive/base/structure.hpp)
 /// The time constant and the dead time of a grid for which gain, offset and initial output, which are linear, leave the
 /// least sum of squares. \throws glsum::Failure (bad input): another form, or no gain explains anything.
 [[nodiscard]] drive::Form search_form(const std::string& form, const std::vector<Record>& records);

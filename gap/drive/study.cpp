@@ -62,6 +62,7 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     scales.held_share = found.held_share;
     scales.input_levels = found.levels;
     scales.deployed_step_s = deployed_step_of(model, scales);
+    scales.driven = is_driven(records);
     scales.steady = drive::constant_coefficient(model.denominator) != 0.0;
     return scales;
 }
@@ -103,6 +104,30 @@ double over_noise(const Study& study, double rms) { return rms / std::max(study.
 bool is_slow(const Study& study, double rms) {
     constexpr double usual_ratio = 8.0;
     return over_noise(study, rms) > usual_ratio;
+}
+
+bool is_driven(const std::vector<Record>& records) {
+    return std::any_of(records.begin(), records.end(), [](const Record& record) {
+        return std::any_of(record.input.begin(), record.input.end(), [](double u) { return u != 0.0; });
+    });
+}
+
+double deviation_of(const std::vector<Record>& records) {
+    double sum = 0.0;
+    double squares = 0.0;
+    double count = 0.0;
+    for (const Record& record : records) {
+        for (const double z : record.output) {
+            sum += z;
+            count += 1.0;
+        }
+    }
+    for (const Record& record : records) {
+        for (const double z : record.output) {
+            squares += (z - sum / count) * (z - sum / count);
+        }
+    }
+    return std::sqrt(squares / count);
 }
 
 double rms_of(const Study& study, const std::vector<std::vector<double>>& values) {

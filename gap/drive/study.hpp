@@ -47,6 +47,12 @@ struct Study {
 /// Whether an rms is far beyond that: slow, and so not noise as sensors have it.
 [[nodiscard]] bool is_slow(const Study& study, double rms);
 
+/// Whether anything is put in: records without are free motions.
+[[nodiscard]] bool is_driven(const std::vector<Record>& records);
+
+/// Standard deviation of all their readings.
+[[nodiscard]] double deviation_of(const std::vector<Record>& records);
+
 /// Of what counts.
 [[nodiscard]] double rms_of(const Study& study, const std::vector<std::vector<double>>& values);
 /// Standard deviation of the measured output, of what counts.

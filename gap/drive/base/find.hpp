@@ -1,0 +1,37 @@
+// The base that records have by themselves: the linear description that does best where it was not fitted.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gap/drive/question.hpp"
+
+namespace gap {
+
+struct Structure;
+
+/// How far one description goes.
+struct Described {
+    std::string name;
+    std::string meaning;
+    drive::Form form;   ///< with its fitted values
+    double training;    ///< rms of what it leaves over the output's deviation, where it was fitted
+    double validation;  ///< and where it was not
+    int numbers;
+};
+
+/// In the place of a form that is still to be found.
+[[nodiscard]] drive::Form form_to_find();
+
+/// A start of a structure: of some filters, dead times and even lags the one whose simulation, with gain, offset and
+/// initial state by least squares, leaves least. \throws glsum::Failure (bad input): nothing explains anything
+[[nodiscard]] drive::Form start_of(const Structure& structure, const std::vector<Record>& records);
+
+/// All structures that can be fitted, by how far they go, the base first: the one of fewest numbers that no richer one
+/// beats by more than `worth_a_number` for each number more, where neither was fitted.
+/// \param question  without a form \throws glsum::Failure (bad input): nothing explains anything
+[[nodiscard]] std::vector<Described> find_base(const Question& question,
+                                               const std::function<void(const std::string&)>& say);
+
+}  // namespace gap

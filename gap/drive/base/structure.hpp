@@ -1,0 +1,40 @@
+// Which linear descriptions a base is looked for among: whole orders, integrators, zeros, each with a dead time.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "drive/form.hpp"
+
+namespace gap {
+
+/// gain (1 + b_1 s + ...) / (s^integrators (1 + a_1 s + ... )) exp(-delay_s s), of `order` in all.
+struct Structure {
+    const char* name;
+    int order;
+    int integrators;
+    int zeros;
+    const char* meaning;  ///< for people
+    /// Numbers of its own beside the dead time: what a richer one must pay for.
+    [[nodiscard]] int numbers() const { return 1 + order - integrators + zeros; }
+};
+
+/// The simplest first.
+[[nodiscard]] const std::vector<Structure>& structures();
+/// Null: there is none of that name.
+[[nodiscard]] const Structure* structure_named(const std::string& name);
+
+/// Values of a structure's numbers.
+struct Coefficients {
+    double gain = 1.0;
+    std::vector<double> denominator;  ///< a_1 upwards, `order - integrators` of them, in powers of seconds
+    std::vector<double> numerator;    ///< b_1 upwards
+    double delay_s = 0.0;
+};
+
+/// The form whose free numbers are the structure's: orders stay whole, what stands before the lowest power is 1.
+/// \param driven  false: nothing is put in, so that a gain and a dead time are told by nothing and stay
+[[nodiscard]] drive::Form form_of(const Structure& structure, const Coefficients& at, bool driven);
+
+}  // namespace gap

@@ -1,0 +1,136 @@
+#include "gap/drive/determined.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "gap/drive/ranking.hpp"
+
+namespace gap {
+namespace {
+
+constexpr double quantile = 1.96;  // of a normal deviation: 95 %
+constexpr double likely = 2.0;     // units of likelihood: 95 %
+constexpr int steps = 16;          // of a range, on each side
+
+double half_squares(const Study& study, const Candidate& candidate, const Whitener* whitener) {
+    double sum = 0.0;
+    for (std::size_t r = 0; r < study.courses.size(); ++r) {
+        std::vector<double> residuals = residuals_of(study, candidate, r);
+        residuals = whitener != nullptr ? whitener->apply(residuals) : residuals;
+        for (std::size_t i = 0; i < residuals.size(); ++i) {
+            sum += study.counts[r][i] != 0 ? 0.5 * residuals[i] * residuals[i] : 0.0;
+        }
+    }
+    return sum;
+}
+
+// How many of the counted samples tell anything new.
+double samples_new(const Study& study, const Candidate& candidate) {
+    double samples = 0.0;
+    for (const auto& count : study.counts) {
+        samples += static_cast<double>(std::count(count.begin(), count.end(), 1));
+    }
+    constexpr double blocks = 24.0;
+    return std::max(blocks, samples / whitener_of(study, candidate).samples_apart);
+}
+
+// The farthest value towards `bound` that is as likely.
+double as_far_as_likely(const Study& study, Candidate& candidate, FreeParameter& parameter, const Whitener* whitener,
+                        double bound) {
+    const double value = parameter.value;
+    const double best = half_squares(study, candidate, whitener);
+    const double enough = samples_new(study, candidate);
+    double far = value;
+    for (int step = 1; step <= steps; ++step) {
+        const double tried = value + (bound - value) * step / steps;
+        parameter.value = tried;
+        const double rises = 0.5 * enough * std::log(half_squares(study, candidate, whitener) / best);
+        parameter.value = value;
+        if (!(rises < likely)) {
+            break;
+        }
+        far = tried;
+    }
+    return far;
+}
+
+// Whether the scenario is the same with the number at none as without the effect.
+bool takes_away(const Study& study, const Candidate& candidate, std::size_t effect, std::size_t lasting,
+                std::size_t number, double none) {
+    Candidate at_none = candidate;
+    at_none.lasting[lasting][number].value = none;
+    Candidate without = candidate;
+    without.effects.erase(without.effects.begin() + static_cast<std::ptrdiff_t>(effect));
+    without.lasting.erase(without.lasting.begin() + static_cast<std::ptrdiff_t>(lasting));
+    const std::vector<double> a = residuals_of(study, at_none, 0);
+    const std::vector<double> b = residuals_of(study, without, 0);
+    const double same = 1e-3 * std::max(study.noise, study.least_deviation);
+    return std::equal(a.begin(), a.end(), b.begin(), [&](double x, double y) { return std::fabs(x - y) < same; });
+}
+
+bool holds(const FreeParameter& parameter, double value) { return parameter.low <= value && value <= parameter.high; }
+
+}  // namespace
+
+void add_intervals(const Study& study, Candidate& candidate, const Whitener* whitener) {
+    add_deviations(study, candidate, whitener);
+    const std::vector<FreeParameter*> free = free_numbers(candidate, false);
+    for (FreeParameter* parameter : free) {
+        const double far = quantile * parameter->deviation;
+        parameter->low = std::max(parameter->lower, parameter->value - far);
+        parameter->high = std::min(parameter->upper, parameter->value + far);
+    }
+    for (FreeParameter* parameter : free) {
+        if (parameter->moves_nothing && parameter->name.find('.') != std::string::npos) {
+            parameter->low = as_far_as_likely(study, candidate, *parameter, whitener, parameter->lower);
+            parameter->high = as_far_as_likely(study, candidate, *parameter, whitener, parameter->upper);
+        }
+    }
+}
+
+std::string untold_of(const Study& study, const Candidate& candidate) {
+    std::size_t lasting = 0;
+    for (std::size_t e = 0; e < candidate.effects.size(); ++e) {
+        const Effect& effect = *candidate.effects[e];
+        if (effect.kind != Kind::lasting) {
+            continue;
+        }
+        const std::vector<EffectParameter> named = effect.parameters(study.scales);
+        const std::vector<FreeParameter>& numbers = candidate.lasting[lasting];
+        std::vector<std::size_t> free;
+        std::vector<std::size_t> strengths;
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            if (!numbers[i].fixed) {
+                free.push_back(i);
+                if (takes_away(study, candidate, e, lasting, i, named[i].none)) {
+                    strengths.push_back(i);
+                }
+            }
+        }
+        ++lasting;
+        const std::vector<std::size_t>& asked = strengths.empty() ? free : strengths;
+        const bool told = asked.empty() || std::any_of(asked.begin(), asked.end(), [&](std::size_t i) {
+                              return !holds(numbers[i], named[i].none);
+                          });
+        if (!told) {
+            const FreeParameter& first = numbers[asked.front()];
+            return fmt::format("training leaves {} anywhere between {:.4g} and {:.4g}, where {:.4g} is no effect",
+                               first.name, first.low, first.high, named[asked.front()].none);
+        }
+    }
+    return "";
+}
+
+bool needs_event(const Study& study, const std::vector<FreeParameter>& own, const Effect& effect) {
+    const std::vector<EffectParameter> named = effect.parameters(study.scales);
+    return std::any_of(named.begin(), named.end(), [&](const EffectParameter& parameter) {
+        const auto mine = std::find_if(own.begin(), own.end(), [&](const FreeParameter& free) {
+            return free.name == effect.name + "." + parameter.name;
+        });
+        return parameter.name.starts_with("size") && mine != own.end() && !holds(*mine, parameter.none);
+    });
+}
+
+}  // namespace gap
