@@ -1,10 +1,12 @@
 #include "gap/drive/diagnose.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "gap/drive/base/jointly.hpp"
 #include "gap/drive/determined.hpp"
 #include "gap/drive/experiment.hpp"
 #include "gap/drive/search.hpp"
@@ -112,76 +114,124 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     return answer;
 }
 
-// What a richer linear description makes of the same candidate.
-struct Beside {
-    double none;
-    double effects;
+// A base with what was found beside it, and what that is worth: the logarithm of the gap, and a price for each number.
+struct Tried {
+    std::string name;
+    Answer answer;
+    double price;
 };
 
-Beside beside(const Described& description, Question question, const std::vector<const Effect*>& effects) {
-    question.form = description.form;
-    const Ground ground = prepare(question);
-    const auto gap_of = [&](const Candidate& trained) {
-        const Candidate judged = ground.same_records ? trained : carried_over(ground.validation, trained, nullptr);
-        return rms_of(ground.validation, all_residuals(ground.validation, judged)) /
-               output_deviation(ground.validation);
+double price_of(const Answer& answer, int base_numbers, double floor) {
+    constexpr double each = 0.08;
+    const Candidate& named = answer.chosen().trained;
+    return std::log(std::max(answer.chosen().gap_after, floor)) +
+           each * (base_numbers + static_cast<double>(named.effect_parameters()));
+}
+
+// The base that does best by itself, and the best ones of fewer and of more numbers: beside an effect a simpler one may
+// do as well, and what seems an effect may be a lag that a richer one has.
+std::vector<const Described*> worth_asking(const std::vector<Described>& found) {
+    const Described& front = found.front();
+    std::vector<const Described*> asked = {&front};
+    constexpr double within = 2.0;
+    const auto add_first = [&](auto suits) {
+        for (const Described& one : found) {  // the best first
+            if (suits(one) && rests(one.form) == rests(front.form) && one.validation < within * front.validation) {
+                asked.push_back(&one);
+                return;
+            }
+        }
     };
-    const Candidate none = fit(ground.study, {}, ground.base, nullptr);
-    return {gap_of(none), gap_of(fit(ground.study, effects, none, nullptr))};
+    add_first([&](const Described& one) { return one.numbers < front.numbers; });
+    add_first([&](const Described& one) { return one.numbers > front.numbers; });
+    return asked;
+}
+
+std::vector<std::string> causes_of(const Answer& answer) {
+    std::vector<std::string> names;
+    for (const std::size_t i : answer.decision.effects) {
+        for (const Effect* effect : answer.ranking[i].trained.effects) {
+            names.push_back(effect->name);
+        }
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+}
+
+// What a fitted base does as well when it sees the validation, too, is none of the drive's effects.
+void ask_jointly(Answer& answer, const Question& question) {
+    if (answer.decision.outcome == Outcome::no_gap) {
+        return;
+    }
+    constexpr double as_well = 1.15;
+    const double jointly = joint_gap(question);
+    if (jointly > as_well * answer.chosen().gap_after || jointly > 0.7 * answer.none().gap_after) {
+        return;
+    }
+    answer.decision.outcome = Outcome::no_gap;
+    answer.decision.effects.clear();
+    answer.decision.suspect.reset();
+    answer.decision.confidence = std::min(answer.decision.confidence, 0.9);
+    answer.notes.push_back(fmt::format(
+        "fitted to the validation, too, the base leaves {:.4f} without any effect: training alone does not tell "
+        "its numbers",
+        jointly));
+}
+
+Answer answer_with_found_base(Question question, const std::function<void(const std::string&)>& say) {
+    std::vector<Described> found = find_base(question, say);
+    question.refit = true;
+    if (question.metric_free) {
+        question.metric = rests(found.front().form) ? Metric::simulation : Metric::prediction;
+    }
+    const double floor = 1e-4;
+    std::vector<Tried> tried;
+    for (const Described* base : worth_asking(found)) {
+        say(fmt::format("the base: {} ({})", base->name, base->meaning));
+        question.form = base->form;
+        Answer answer = answer_to(question, say);
+        const bool closed = answer.decision.outcome == Outcome::no_gap;
+        const double price = price_of(answer, base->numbers, floor);
+        tried.push_back({base->name, std::move(answer), price});
+        if (closed && tried.size() == 1) {
+            break;
+        }
+    }
+    std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.price < b.price; });
+    Answer answer = std::move(tried.front().answer);
+    answer.base_name = tried.front().name;
+    const std::vector<std::string> causes = causes_of(answer);
+    for (std::size_t i = 1; i < tried.size() && !causes.empty(); ++i) {
+        constexpr double near = 0.2;
+        const std::vector<std::string> theirs = causes_of(tried[i].answer);
+        if (tried[i].price < tried.front().price + near && !theirs.empty() && theirs != causes) {
+            answer.decision.confidence = std::min(answer.decision.confidence, 0.6);
+            answer.notes.push_back(
+                fmt::format("beside the base {} {} goes about as far", tried[i].name, fmt::join(theirs, " + ")));
+        }
+    }
+    for (const Described& one : found) {
+        if (one.name == answer.base_name) {
+            question.form = one.form;
+        }
+    }
+    ask_jointly(answer, question);
+    answer.descriptions = std::move(found);
+    return answer;
 }
 
 }  // namespace
 
 Answer diagnose(Question question, const std::function<void(const std::string&)>& say) {
-    if (!question.find) {
-        Answer answer = answer_to(question, say);
-        answer.base_name = question.base_name;
-        return answer;
+    if (question.find) {
+        return answer_with_found_base(std::move(question), say);
     }
-    std::vector<Described> found = find_base(question, say);
-    const auto begin_with = [&](const Described& description) {
-        question.form = description.form;
-        question.refit = true;
-        if (question.metric_free) {
-            question.metric = rests(description.form) ? Metric::simulation : Metric::prediction;
-        }
-        say(fmt::format("the base: {} ({})", description.name, description.meaning));
-    };
-    begin_with(found.front());
     Answer answer = answer_to(question, say);
-    std::string name = found.front().name;
-    // What an effect seems to do may be a lag that the base lacks: a richer linear description is asked with the same
-    // effects, and where it goes much further, all of it once more with that.
-    if (!answer.chosen().trained.effects.empty()) {
-        double left = answer.chosen().gap_after;
-        const Described* further = nullptr;
-        for (const Described& richer : found) {
-            if (richer.numbers <= found.front().numbers || richer.numbers > found.front().numbers + 2 ||
-                rests(richer.form) != rests(found.front().form)) {
-                continue;
-            }
-            say(fmt::format("asking {} with the same effects", richer.name));
-            const Beside both = beside(richer, question, answer.chosen().trained.effects);
-            const double least = std::min(both.none, both.effects);
-            constexpr double much_further = 0.85;
-            if (least < much_further * left) {
-                left = least;
-                further = &richer;
-            }
-        }
-        if (further != nullptr) {
-            name = further->name;
-            begin_with(*further);
-            answer = answer_to(question, say);
-        }
+    answer.base_name = question.base_name;
+    if (question.refit) {
+        ask_jointly(answer, question);
     }
-    answer.base_name = name;
-    double best = answer.none().gap_after;
-    for (const Described& one : found) {
-        best = std::min(best, one.validation);
-    }
-    answer.linear_share = linear_share_of(best);
-    answer.descriptions = std::move(found);
     return answer;
 }
 

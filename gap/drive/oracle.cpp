@@ -13,7 +13,6 @@ namespace {
 
 using Effects = std::vector<const Effect*>;
 
-
 std::size_t free_count(Candidate candidate) { return free_numbers(candidate, false).size(); }
 
 double sample_count(const Study& study) {

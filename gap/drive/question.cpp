@@ -63,12 +63,39 @@ void correct_for(Study& study, const Candidate& fitted) {
     }
 }
 
-// Good to about the noise before it is corrected: enough to see which candidates are worth a finer grid.
-Study sketch_of(const Study& study, const Candidate& base) {
-    Study sketch{study.base, study.scales, {}, study.counts, study.noise, study.least_deviation, study.horizon};
+// How many samples of a record tell no more than one: beside a given model each counts.
+std::size_t thinning_of(const Study& study, const Record& record) {
+    constexpr double enough = 1200.0;
+    constexpr double of_time_constant = 0.1;
+    if (!study.base.refit) {
+        return 1;
+    }
+    const double most = of_time_constant * study.scales.time_constant_s / record.usual_interval_s;
+    return static_cast<std::size_t>(std::max(1.0, std::min(static_cast<double>(record.size()) / enough, most)));
+}
+
+// Good to about the noise, or to a part of what the base leaves, before it is corrected: enough to see which candidates
+// are worth a finer grid. \param thin  takes the records that it is of
+Study sketch_of(const Study& study, const Candidate& base, std::vector<Record>& thin) {
+    constexpr double of_what_is_left = 0.05;
+    Study sketch{study.base, study.scales, {}, {}, study.noise, study.least_deviation, study.horizon};
+    thin.clear();
+    thin.reserve(study.courses.size());
+    double allowed = std::max(study.noise, study.least_deviation);
+    if (const double left = rms_of(study, all_residuals(study, base)); study.base.refit && std::isfinite(left)) {
+        allowed = std::max(allowed, of_what_is_left * left);
+    }
     for (std::size_t r = 0; r < study.courses.size(); ++r) {
+        const Record& record = study.courses[r].record();
+        const std::size_t every = thinning_of(study, record);
+        thin.push_back(thinned(record, every));
         sketch.courses.push_back(
-            make_sketch(study.courses[r], scenario_of(study, base, r), std::max(study.noise, study.least_deviation)));
+            make_sketch(study.courses[r], thin.back(), every, scenario_of(study, base, r), allowed));
+        sketch.counts.emplace_back();
+        for (std::size_t i = 0; i < record.size(); i += every) {
+            sketch.counts.back().push_back(study.counts[r][i]);
+        }
+        sketch.horizon = std::max<std::size_t>(study.horizon > 0 ? 1 : 0, study.horizon / every);
     }
     return sketch;
 }
@@ -99,13 +126,15 @@ Ground prepare(const Question& question) {
     check_plausible(validation);
     Candidate base = start_of(study);
     if (question.refit) {
-        base = fit(sketch_of(study, base), {}, {}, nullptr, {6, 2, 40});
+        std::vector<Record> thin;
+        base = fit(sketch_of(study, base, thin), {}, {}, nullptr, {6, 2, 40});
         correct_for(study, base);
         correct_for(validation, split ? base : carried_over(validation, base, nullptr));
     }
-    Study sketch = sketch_of(study, base);
-    return {found, std::move(study),         std::move(sketch), std::move(validation), std::move(base),
-            split, list_of(question, scales)};
+    std::vector<Record> thin;
+    Study sketch = sketch_of(study, base, thin);
+    return {found, std::move(study),          std::move(sketch), std::move(validation), std::move(base),
+            split, list_of(question, scales), std::move(thin)};
 }
 
 }  // namespace gap

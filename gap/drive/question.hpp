@@ -30,11 +30,12 @@ struct Question {
 struct Ground {
     Audit found;
     Study study;                      ///< what is fitted
-    Study sketch;                     ///< the same records on coarser grids, for first looks
+    Study sketch;                     ///< the same records, thinner and on coarser grids, for first looks
     Study validation;                 ///< what is judged
     Candidate base;                   ///< the base as first fitted, or as it is given
     bool same_records;                ///< judged are parts of the fitted records that were kept aside
     std::vector<const Effect*> list;  ///< effects that can occur in these records and are asked for
+    std::vector<Record> thin;         ///< those of the sketch
 };
 
 /// \throws glsum::Failure (bad input): records and model that cannot belong together.

@@ -110,10 +110,11 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     ranked.gap_after = std::isfinite(ranked.gap_after) ? ranked.gap_after : Ranked::ran_away;
     // What ran away has no finite rms, and scores that are no numbers have no order.
     const double left_rms = rms_of(validation, ranked.residuals);
-    const double slow = std::max(std::isfinite(left_rms) ? left_rms : Ranked::ran_away, (within_steps ? 0.05 : 0.29) * step) /
-                        output_deviation(validation);
-    ranked.penalty =
-        penalty_of(ranked.candidate, validation) + (by_size ? 0.0 : blocks * std::log(std::clamp(slow, 1e-9, Ranked::ran_away)));
+    const double slow =
+        std::max(std::isfinite(left_rms) ? left_rms : Ranked::ran_away, (within_steps ? 0.05 : 0.29) * step) /
+        output_deviation(validation);
+    ranked.penalty = penalty_of(ranked.candidate, validation) +
+                     (by_size ? 0.0 : blocks * std::log(std::clamp(slow, 1e-9, Ranked::ran_away)));
 }
 
 Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener, const Whitener* fits_by,

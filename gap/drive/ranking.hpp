@@ -11,10 +11,10 @@ struct Ranked {
     std::vector<std::vector<double>> residuals;  ///< of the validation records
     /// In place of a gap that is not finite: the simulation ran away.
     static constexpr double ran_away = 1e6;
-    double gap_after = 0.0;                      ///< rms of what counts over the deviation of the measured output
-    double log_likelihood = 0.0;                 ///< over what counts
-    std::vector<double> by_sample;               ///< its summands
-    double penalty = 0.0;                        ///< for what is fitted there, and for effects and their numbers
+    double gap_after = 0.0;         ///< rms of what counts over the deviation of the measured output
+    double log_likelihood = 0.0;    ///< over what counts
+    std::vector<double> by_sample;  ///< its summands
+    double penalty = 0.0;           ///< for what is fitted there, and for effects and their numbers
     [[nodiscard]] double score() const { return log_likelihood - penalty; }
 };
 

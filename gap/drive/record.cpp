@@ -51,6 +51,44 @@ Record to_record(drive::Log log) {
     return record;
 }
 
+Record up_to(const Record& record, double until_s) {
+    const auto count = static_cast<std::size_t>(std::lower_bound(record.time_s.begin(), record.time_s.end(), until_s) -
+                                                record.time_s.begin());
+    Record first = record;
+    first.time_s.resize(count);
+    for (auto* values : {&first.input, &first.output, &first.simulated}) {
+        values->resize(std::min(count, values->size()));
+    }
+    for (auto& values : first.more_inputs) {
+        values.resize(count);
+    }
+    return first;
+}
+
+Record thinned(const Record& record, std::size_t every) {
+    Record thin;
+    thin.name = record.name;
+    thin.usual_interval_s = record.usual_interval_s * static_cast<double>(every);
+    thin.more_inputs.resize(record.more_inputs.size());
+    const auto mean_held = [&](const std::vector<double>& values, std::size_t from, std::size_t to) {
+        double sum = 0.0;
+        for (std::size_t i = from; i < to; ++i) {
+            sum += values[i] * (record.time_s[i + 1] - record.time_s[i]);
+        }
+        return to > from ? sum / (record.time_s[to] - record.time_s[from]) : values[from];
+    };
+    for (std::size_t i = 0; i < record.size(); i += every) {
+        const std::size_t to = std::min(i + every, record.size() - 1);
+        thin.time_s.push_back(record.time_s[i]);
+        thin.output.push_back(record.output[i]);
+        thin.input.push_back(mean_held(record.input, i, to));
+        for (std::size_t m = 0; m < record.more_inputs.size(); ++m) {
+            thin.more_inputs[m].push_back(mean_held(record.more_inputs[m], i, to));
+        }
+    }
+    return thin;
+}
+
 std::vector<double> held_on(const Grid& grid, std::span<const double> time_s, std::span<const double> levels) {
     std::vector<double> held(grid.count, 0.0);
     std::size_t i = 0;

@@ -25,7 +25,7 @@ struct Record {
     std::vector<double> output;  ///< as read
     double usual_interval_s = 0.0;
     std::vector<std::vector<double>> more_inputs = {};  ///< further logged inputs, held likewise
-    std::vector<double> simulated = {};  ///< what the user's own simulator gave; empty: there is none
+    std::vector<double> simulated = {};                 ///< what the user's own simulator gave; empty: there is none
 
     [[nodiscard]] std::size_t size() const { return time_s.size(); }
     /// From the first stamp to the last, `per_interval` nodes to the usual interval; below 1 a node spans several.
@@ -35,6 +35,12 @@ struct Record {
 /// \throws glsum::Failure (bad input): fewer than 32 samples, an output that never moves. An input of 0
 /// throughout is a free motion.
 [[nodiscard]] Record to_record(drive::Log log);
+
+/// What lies before a time.
+[[nodiscard]] Record up_to(const Record& record, double until_s);
+
+/// Every so many-th sample, its input the mean of what was held until the next one.
+[[nodiscard]] Record thinned(const Record& record, std::size_t every);
 
 /// The mean over each interval of the grid of levels that are held from their stamp to the next.
 [[nodiscard]] std::vector<double> held_on(const Grid& grid, std::span<const double> time_s,

@@ -350,15 +350,16 @@ Course make_course(const Record& record, const Scenario& scenario, double allowe
     }
 }
 
-Course make_sketch(const Course& fine, const Scenario& scenario, double allowed) {
+Course make_sketch(const Course& fine, const Record& thin, std::size_t every, const Scenario& scenario,
+                   double allowed) {
     const std::vector<double> wanted = simulate(scenario, fine);
     for (double per_interval = 0.25;; per_interval *= 2) {
-        Course course(fine.record(), per_interval);
+        Course course(thin, per_interval);
         std::vector<double> off = simulate(scenario, course);
         for (std::size_t i = 0; i < off.size(); ++i) {
-            off[i] = wanted[i] - off[i];
+            off[i] = wanted[i * every] - off[i];
         }
-        if (per_interval == 1.0 || rms(off) <= allowed) {
+        if (per_interval >= static_cast<double>(every) || rms(off) <= allowed) {
             if (std::isfinite(rms(off))) {
                 course.correct(std::move(off));
             }

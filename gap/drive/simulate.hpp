@@ -58,8 +58,10 @@ private:
 /// `allowed` in rms, as one at twice as many nodes tells; what it is off by is then its correction.
 [[nodiscard]] Course make_course(const Record& record, const Scenario& scenario, double allowed);
 
-/// A cheaper course for first looks, of a quarter, a half or one node to the interval, whose simulation of the scenario
-/// differs from `fine`'s by at most `allowed` in rms; by how much it differs is its correction.
-[[nodiscard]] Course make_sketch(const Course& fine, const Scenario& scenario, double allowed);
+/// A cheaper course for first looks: of a quarter of a node to the thin record's interval up to as many as `fine` has,
+/// the coarsest whose simulation of the scenario differs from `fine`'s by at most `allowed` in rms; by how much it
+/// differs is its correction. \param thin  every `every`-th sample of `fine`'s record; outlives the course
+[[nodiscard]] Course make_sketch(const Course& fine, const Record& thin, std::size_t every, const Scenario& scenario,
+                                 double allowed);
 
 }  // namespace gap

@@ -19,6 +19,8 @@ namespace {
 constexpr double most_nodes = 1500.0;  // of a record while starts are compared
 // A further number takes so much of what is left where it was not fitted, or it follows something else than lags.
 constexpr double worth_a_number = 0.08;
+// A record that has not settled looks like an integrator's: it must be clearly better.
+constexpr double worth_an_integrator = 0.3;
 // Less than this over the noise is noise: descriptions that go so far go equally far.
 constexpr double above_noise = 1.2;
 
@@ -65,22 +67,42 @@ double gap_of(const Study& study, const Candidate& candidate) {
     return std::isfinite(gap) ? gap : std::numeric_limits<double>::infinity();
 }
 
-std::optional<Described> describe(const Structure& structure, Question question) {
+// The training records up to the split, of which some blocks are kept aside: which description is best is asked where
+// they were taken. Elsewhere nonlinearity decides, and whatever follows nothing is as good as any.
+Question of_training(const Question& question) {
+    Question alone = question;
+    alone.validate.clear();
+    alone.split_s.reset();
+    alone.refit = true;
+    alone.jobs = 1;
+    if (question.split_s && question.validate.empty()) {
+        for (Record& record : alone.train) {
+            record = up_to(record, *question.split_s);
+        }
+    }
+    return alone;
+}
+
+std::optional<Described> describe(const Structure& structure, Question alone, Question asked) {
     try {
-        question.form = start_of(structure, question.train);
+        alone.form = start_of(structure, alone.train);
     } catch (const glsum::Failure&) {
         return std::nullopt;  // nothing of this structure; others go on
     }
-    const Ground ground = prepare(question);
-    const Candidate fitted = fit(ground.study, {}, ground.base, nullptr);
-    const Candidate judged = ground.same_records ? fitted : carried_over(ground.validation, fitted, nullptr);
+    const Ground part = prepare(alone);
+    const Candidate of_part = fit(part.study, {}, part.base, nullptr);
+    asked.form = with_values(alone.form, of_part);
+    const Ground whole = prepare(asked);
+    const Candidate fitted = fit(whole.study, {}, whole.base, nullptr);
+    const Candidate judged = whole.same_records ? fitted : carried_over(whole.validation, fitted, nullptr);
     Described found{structure.name,
                     structure.meaning,
-                    with_values(question.form, fitted),
-                    gap_of(ground.study, fitted),
-                    gap_of(ground.validation, judged),
-                    structure.numbers()};
-    return std::isfinite(found.training) && std::isfinite(found.validation) ? std::optional(found) : std::nullopt;
+                    with_values(asked.form, fitted),
+                    gap_of(part.validation, of_part),
+                    gap_of(whole.validation, judged),
+                    structure.numbers(),
+                    structure.integrators};
+    return std::isfinite(found.aside) && std::isfinite(found.validation) ? std::optional(found) : std::nullopt;
 }
 
 }  // namespace
@@ -126,10 +148,11 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     }
     say(fmt::format("looking for the base: {} linear descriptions", tried.size()));
     std::vector<std::optional<Described>> found(tried.size());
-    Question alone = question;
-    alone.refit = true;
-    alone.jobs = 1;
-    bench::parallel_for(tried.size(), question.jobs, [&](std::size_t i) { found[i] = describe(*tried[i], alone); });
+    const Question alone = of_training(question);
+    Question asked = question;
+    asked.refit = true;
+    asked.jobs = 1;
+    bench::parallel_for(tried.size(), question.jobs, [&](std::size_t i) { found[i] = describe(*tried[i], alone, asked); });
     std::vector<Described> all;
     for (std::optional<Described>& one : found) {
         if (one) {
@@ -143,11 +166,11 @@ std::vector<Described> find_base(const Question& question, const std::function<v
                         "together?",
                         question.train.front().name));
     }
-    const Audit audited = audit(question.train);
-    const double floor =
-        above_noise * audited.noise / deviation_of(question.validate.empty() ? question.train : question.validate);
+    const double floor = above_noise * audit(alone.train).noise / deviation_of(alone.train);
+    const auto size_of = [&](double gap) { return std::log(std::clamp(gap, std::max(floor, 1e-6), 1.0)); };
     const auto price = [&](const Described& one) {
-        return std::log(std::max({one.validation, floor, 1e-6})) + worth_a_number * one.numbers;
+        return 0.5 * (size_of(one.aside) + size_of(one.validation)) + worth_a_number * one.numbers +
+               (one.integrators > 0 ? worth_an_integrator : 0.0);
     };
     std::stable_sort(all.begin(), all.end(),
                      [&](const Described& a, const Described& b) { return price(a) < price(b); });

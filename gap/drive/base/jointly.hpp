@@ -1,0 +1,13 @@
+// A base fitted to training and validation at once: what it then leaves of the validation needs no effect.
+#pragma once
+
+#include "gap/drive/question.hpp"
+
+namespace gap {
+
+/// The gap on what validates, of the question's form without any effect, when nothing is kept aside. Numbers that
+/// training hardly tells (a record that ends before the plant has settled) are told here, and a gap that goes was
+/// theirs.
+[[nodiscard]] double joint_gap(const Question& question);
+
+}  // namespace gap
