@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gap/drive/base/jointly.hpp"
+#include "gap/drive/coverage.hpp"
 #include "gap/drive/determined.hpp"
 #include "gap/drive/experiment.hpp"
 #include "gap/drive/search.hpp"
@@ -25,30 +26,24 @@ Where where_of(const Study& validation, const Ranked& none, const std::vector<Re
     return locate(records, residuals);
 }
 
-std::string next_experiment(const Answer& answer, const Study& study, const Audit& found) {
-    const Decision& decision = answer.decision;
+std::vector<std::string> extrapolated_by(const Question& question, const Study& study, const Study& validation) {
+    if (!question.validate.empty()) {
+        return extrapolated(question.train, question.validate);
+    }
+    // What is kept aside block by block lies between what was fitted.
+    return question.split_s ? extrapolated(counted_stretches(question.train, study.counts),
+                                           counted_stretches(question.train, validation.counts))
+                            : std::vector<std::string>{};
+}
+
+std::string proposed(const Answer& answer, const Study& study, const Audit& found) {
+    std::vector<const Candidate*> named;
+    for (const std::size_t i : answer.decision.effects) {
+        named.push_back(&answer.ranking[i].trained);
+    }
     const double noise = std::max(answer.whitener.stationary_deviation, study.least_deviation);
-    switch (decision.outcome) {
-        case Outcome::no_gap:
-            return "none for this gap; another operating profile would tell whether the model holds there";
-        case Outcome::attributed:
-            return "a record at other levels and speeds, as a test of the size found here";
-        case Outcome::unknown:
-            return found.levels <= 3
-                       ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of "
-                         "them: "
-                         "the first shows what depends on level and direction, the second what depends on frequency"
-                       : "the same record twice more: what repeats is of the drive, what does not came from outside; "
-                         "and one "
-                         "more signal (speed, current, supply) at the same time";
-        case Outcome::ambiguous:
-            break;
-    }
-    std::vector<const Candidate*> alternatives;
-    for (const std::size_t i : decision.effects) {
-        alternatives.push_back(&answer.ranking[i].trained);
-    }
-    return part(study, alternatives, noise).text;
+    return next_experiment(
+        {answer.decision.outcome, study, std::move(named), answer.whitener, noise, found.levels, answer.extrapolated});
 }
 
 double linear_share_of(double gap) { return std::clamp(1.0 - gap * gap, 0.0, 1.0); }
@@ -107,7 +102,8 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     answer.base = answer.model_of(answer.none().trained);
     answer.where = where_of(validation, answer.none(), answer.records);
     say("looking for the next experiment");
-    answer.next_experiment = next_experiment(answer, study, ground.found);
+    answer.extrapolated = extrapolated_by(question, study, validation);
+    answer.next_experiment = proposed(answer, study, ground.found);
     answer.notes = ground.found.notes;
     answer.notes.insert(answer.notes.end(), answer.decision.notes.begin(), answer.decision.notes.end());
     answer.linear_share = linear_share_of(answer.none().gap_after);

@@ -20,8 +20,9 @@ struct Answer {
     Where where;                  ///< of the base's gap
     std::vector<Record> records;  ///< what it was judged on
     std::string metric;
-    bool split = false;  ///< no validation record was given
-    drive::Model base;   ///< as judged, or as fitted without any effect
+    bool split = false;                     ///< no validation record was given
+    drive::Model base;                      ///< as judged, or as fitted without any effect
+    std::vector<std::string> extrapolated;  ///< what validation has and training lacks, in words
     std::string next_experiment;
     std::vector<std::string> notes;
     [[nodiscard]] const Ranked& none() const;

@@ -1,12 +1,15 @@
 #include "gap/drive/experiment.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace gap {
 namespace {
@@ -94,6 +97,82 @@ double lowest_input(const Study& study) {
     return low;
 }
 
+// What records tell of the numbers that all share (base, then lasting effects), each in units of its scale and over the
+// readings' noise; the records' own numbers are fitted beside them.
+struct Told {
+    Eigen::MatrixXd information;
+    double variance = 1.0;  ///< of the whitened residuals, at least 1: misfit makes intervals wide, too
+};
+
+std::optional<Told> told_by(const Study& study, Candidate candidate, const Whitener& whitener) {
+    const auto all = [&](const Candidate& of) {
+        std::vector<double> values;
+        for (std::size_t r = 0; r < study.courses.size(); ++r) {
+            std::vector<double> residuals = whitener.apply(residuals_of(study, of, r));
+            for (std::size_t i = 0; i < residuals.size(); ++i) {
+                values.push_back(study.counts[r][i] != 0 ? residuals[i] : 0.0);
+            }
+        }
+        return values;
+    };
+    const std::vector<double> now = all(candidate);
+    const auto rows = static_cast<Eigen::Index>(now.size());
+    const std::vector<FreeParameter*> free = free_numbers(candidate, false);
+    const auto own = static_cast<Eigen::Index>(free_numbers(candidate, true).size());
+    const auto shared = static_cast<Eigen::Index>(free.size()) - own;
+    Eigen::MatrixXd slopes(rows, shared + own);
+    for (Eigen::Index p = 0; p < shared + own; ++p) {
+        FreeParameter& parameter = *free[static_cast<std::size_t>(p)];
+        const double value = parameter.value;
+        constexpr double step = 3e-4;
+        const double by = value + step * parameter.scale > parameter.upper ? -step : step;
+        parameter.value = value + by * parameter.scale;
+        const std::vector<double> moved = all(candidate);
+        parameter.value = value;
+        for (Eigen::Index i = 0; i < rows; ++i) {
+            const auto at = static_cast<std::size_t>(i);
+            slopes(i, p) = (moved[at] - now[at]) / by;
+        }
+    }
+    if (!slopes.allFinite()) {
+        return std::nullopt;
+    }
+    const Eigen::MatrixXd whole = slopes.transpose() * slopes;
+    Told told{whole.topLeftCorner(shared, shared), 1.0};
+    if (own > 0) {
+        // What moves nothing here takes nothing from the others.
+        Eigen::MatrixXd theirs = whole.bottomRightCorner(own, own);
+        theirs.diagonal().array() += 1e-9 * theirs.trace() + 1e-300;
+        told.information -=
+            whole.topRightCorner(shared, own) * theirs.ldlt().solve(whole.bottomLeftCorner(own, shared));
+    }
+    double squares = 0.0;
+    for (const double value : now) {
+        squares += value * value;
+    }
+    told.variance = std::max(1.0, squares / static_cast<double>(std::max<Eigen::Index>(1, rows - shared - own)));
+    return told;
+}
+
+// Standard deviations of the shared numbers in units of their scales. A number cannot be further off than its bounds.
+std::vector<double> deviations_from(const Told& told, const Eigen::MatrixXd& information, Candidate candidate) {
+    const std::vector<FreeParameter*> free = free_numbers(candidate, false);
+    Eigen::MatrixXd known = information / told.variance;
+    for (Eigen::Index p = 0; p < known.rows(); ++p) {
+        const FreeParameter& parameter = *free[static_cast<std::size_t>(p)];
+        const double half = 0.5 * (parameter.upper - parameter.lower) / parameter.scale;
+        known(p, p) += 3.0 / (half * half);  // as of values that are spread evenly over them
+    }
+    const Eigen::MatrixXd inverse = known.ldlt().solve(Eigen::MatrixXd::Identity(known.rows(), known.rows()));
+    std::vector<double> deviations;
+    for (Eigen::Index p = 0; p < known.rows(); ++p) {
+        deviations.push_back(std::sqrt(std::max(0.0, inverse(p, p))));
+    }
+    return deviations;
+}
+
+const char* const other_record = "a record at other levels and speeds, as a test of the size found here";
+
 }  // namespace
 
 Proposal part(const Study& study, const std::vector<const Candidate*>& alternatives, double noise) {
@@ -149,6 +228,94 @@ Proposal part(const Study& study, const std::vector<const Candidate*>& alternati
                     "noise, and the others by more",
                     best.text, low, study.scales.input_max, hardest, alternatives.front()->name(), best.apart),
         best.apart};
+}
+
+std::string sharpen(const Study& study, const Candidate& named, const Whitener& whitener) {
+    Candidate fitted = named;
+    std::vector<std::size_t> mine;  // of the free numbers: those of the lasting effects
+    const std::vector<FreeParameter*> free = free_numbers(fitted, false);
+    for (std::size_t p = 0; p < free.size() - free_numbers(fitted, true).size(); ++p) {
+        if (free[p]->name.find('.') != std::string::npos) {
+            mine.push_back(p);
+        }
+    }
+    if (named.event_parameters() > 0) {
+        return "the same record once more: what comes again at the same place is no event from outside";
+    }
+    const std::optional<Told> now = mine.empty() ? std::nullopt : told_by(study, named, whitener);
+    if (!now) {
+        return other_record;
+    }
+    const std::vector<double> before = deviations_from(*now, now->information, named);
+    double best = 1.0;
+    std::string text;
+    const double low = lowest_input(study);
+    for (const Excitation& excitation : excitations(study.scales.time_constant_s, study.scales.length_s)) {
+        const Record record = record_of(excitation, study.scales, low);
+        if (record.size() < 32) {
+            continue;
+        }
+        Study trial{study.base, study.scales, {}, all_count({record}), study.noise, study.least_deviation, 0};
+        if (study.horizon > 0) {
+            const double horizon_s = static_cast<double>(study.horizon) * study.scales.interval_s;
+            trial.horizon =
+                std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(horizon_s / record.usual_interval_s)));
+        }
+        trial.courses.emplace_back(record, 1);
+        const std::optional<Told> then = told_by(trial, resting(trial, named, record), whitener);
+        if (!then) {
+            continue;
+        }
+        const std::vector<double> after = deviations_from(*now, now->information + then->information, named);
+        double factor = 1.0;
+        std::vector<std::string> each;
+        for (const std::size_t p : mine) {
+            const double ratio = after[p] > 0.0 ? before[p] / after[p] : 1.0;
+            factor *= std::pow(ratio, 1.0 / static_cast<double>(mine.size()));
+            constexpr double of_95_percent = 1.96;
+            each.push_back(fmt::format("{:.1f} times narrower for {} (within {:.2g} instead of {:.2g})", ratio,
+                                       free[p]->name, of_95_percent * after[p] * free[p]->scale,
+                                       of_95_percent * before[p] * free[p]->scale));
+        }
+        if (factor > best) {
+            best = factor;
+            text = fmt::format(
+                "{} from {:.4g} to {:.4g}, with the records that there are: {}; by the slopes of what is "
+                "simulated there",
+                excitation.text, low, study.scales.input_max, fmt::join(each, ", "));
+        }
+    }
+    constexpr double worth_it = 1.2;
+    return best < worth_it ? other_record : text;
+}
+
+std::string next_experiment(const Finding& finding) {
+    const std::string lacking = fmt::format("{}", fmt::join(finding.extrapolated, ", "));
+    switch (finding.outcome) {
+        case Outcome::no_gap:
+            return "none for this gap; another operating profile would tell whether the model holds there";
+        case Outcome::attributed: {
+            const std::string sharper = sharpen(finding.study, *finding.named.front(), finding.whitener);
+            return lacking.empty() ? sharper
+                                   : fmt::format("{}; and train on {}, too, where validation went and training did not",
+                                                 sharper, lacking);
+        }
+        case Outcome::ambiguous:
+            return part(finding.study, finding.named, finding.noise).text;
+        case Outcome::unknown:
+            break;
+    }
+    if (!lacking.empty()) {
+        return fmt::format(
+            "train on {}, too: validation goes there and training never did, so that whatever is fitted "
+            "is a guess there",
+            lacking);
+    }
+    return finding.input_levels <= 3
+               ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of them: the "
+                 "first shows what depends on level and direction, the second what depends on frequency"
+               : "the same record twice more: what repeats is of the drive, what does not came from outside; and one "
+                 "more signal (speed, current, supply) at the same time";
 }
 
 }  // namespace gap

@@ -16,9 +16,10 @@ struct Described {
     std::string name;
     std::string meaning;
     drive::Form form;   ///< with its fitted values
-    double training;    ///< rms of what it leaves over the output's deviation, where it was fitted
-    double validation;  ///< and where it was not
+    double aside;       ///< rms of what it leaves over the output's deviation, in blocks of the training kept aside
+    double validation;  ///< and on the validation
     int numbers;
+    int integrators;
 };
 
 /// In the place of a form that is still to be found.
