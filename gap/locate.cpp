@@ -5,13 +5,16 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <limits>
+#include <optional>
 #include <unsupported/Eigen/FFT>
 
 namespace gap {
 namespace {
 
 constexpr std::size_t most_segments = 16;
-constexpr std::size_t levels = 5;
+constexpr std::size_t levels = 5;        // where there are many
+constexpr std::size_t most_levels = 12;  // that stand for themselves
 
 // Squares of the residuals; ones where all are zero, so that shares exist.
 std::vector<std::vector<double>> squares_of(const std::vector<std::vector<double>>& residuals) {
@@ -41,49 +44,99 @@ void normalise(std::vector<Share>& shares) {
     }
 }
 
-// Parts of a record between the large changes of its input; even parts where there are too many or none.
-std::vector<Share> segments_of(const Record& record, const std::vector<double>& squares) {
-    const auto [low, high] = std::minmax_element(record.input.begin(), record.input.end());
-    const double large = 0.1 * (*high - *low);
-    std::vector<std::pair<double, std::string>> starts = {{record.time_s.front(), "start"}};
-    for (std::size_t i = 1; i < record.size(); ++i) {
-        const double by = record.input[i] - record.input[i - 1];
-        if (std::fabs(by) > large && by != 0.0) {
-            starts.emplace_back(record.time_s[i],
-                                fmt::format("input {:.4g} -> {:.4g}", record.input[i - 1], record.input[i]));
-        }
+// Where the input leaves a stretch that it had rested in: within a fiftieth of its span, so that steps of 5 % are
+// moves, and a ramp is one.
+std::vector<std::pair<std::size_t, std::string>> moves_of(const Record& record) {
+    const std::vector<double>& input = record.input;
+    const auto [low, high] = std::minmax_element(input.begin(), input.end());
+    const double small = 0.02 * (*high - *low) * (1.0 - 1e-9);
+    const std::size_t quiet = std::max<std::size_t>(3, record.size() / 200);
+    std::vector<std::pair<std::size_t, std::string>> moves;
+    if (!(*high > *low)) {
+        return moves;
     }
-    if (starts.size() > most_segments || starts.size() < 3) {
-        starts.clear();
-        const double length_s = record.time_s.back() - record.time_s.front();
-        for (int part = 0; part < 10; ++part) {
-            starts.emplace_back(record.time_s.front() + 0.1 * part * length_s, "");
+    std::optional<double> rest;
+    for (std::size_t i = 0; i < record.size();) {
+        std::size_t end = i;
+        while (end < record.size() && std::fabs(input[end] - input[i]) < small) {
+            ++end;
         }
+        if (end - i < quiet) {
+            ++i;
+            continue;
+        }
+        if (rest && std::fabs(input[i] - *rest) >= small) {
+            moves.back().second = fmt::format("input {:.4g} -> {:.4g}", *rest, input[i]);
+        }
+        rest = input[i];
+        if (end < record.size()) {
+            moves.emplace_back(end, fmt::format("input leaves {:.4g}", *rest));
+        }
+        i = end;
+    }
+    return moves;
+}
+
+// Parts of a record: what follows each move of its input, in pieces that are no longer than a fifth of the record;
+// even parts where nothing moves, or all the time.
+std::vector<Share> segments_of(const Record& record, const std::vector<double>& squares) {
+    const double length_s = record.time_s.back() - record.time_s.front();
+    std::vector<std::pair<double, std::string>> starts = {{record.time_s.front(), "start"}};
+    for (const auto& [at, what] : moves_of(record)) {
+        starts.emplace_back(record.time_s[at], what);
+    }
+    if (starts.size() > most_segments || starts.size() < 2) {
+        starts = {{record.time_s.front(), ""}};
     }
     std::vector<Share> shares;
     std::size_t i = 0;
     for (std::size_t s = 0; s < starts.size(); ++s) {
-        const bool last = s + 1 == starts.size();
-        Share share{starts[s].first, last ? record.time_s.back() : starts[s + 1].first, 0.0, starts[s].second};
-        for (; i < record.size() && (last || record.time_s[i] < share.to); ++i) {
-            share.share += squares[i];
+        const double from_s = starts[s].first;
+        const double to_s = s + 1 == starts.size() ? record.time_s.back() : starts[s + 1].first;
+        const double most_s = starts.size() == 1 ? 0.1 * length_s : 0.2 * length_s;
+        const int pieces = std::max(1, static_cast<int>(std::ceil((to_s - from_s) / most_s - 1e-9)));
+        for (int piece = 0; piece < pieces; ++piece) {
+            const bool last = s + 1 == starts.size() && piece + 1 == pieces;
+            const auto edge_s = [&](int at) { return at == pieces ? to_s : from_s + (to_s - from_s) * at / pieces; };
+            Share share{edge_s(piece), edge_s(piece + 1), 0.0, starts[s].second};
+            for (; i < record.size() && (last || record.time_s[i] < share.to); ++i) {
+                share.share += squares[i];
+            }
+            shares.push_back(share);
         }
-        shares.push_back(share);
     }
     return shares;
 }
 
-// Octaves below half the sampling rate, the lowest down to 0; by Parseval's equation their energies are the squares'
-// sum.
-void add_bands(std::vector<Share>& bands, const Record& record, std::vector<double> residuals) {
-    const double rate_hz = 1.0 / record.usual_interval_s;
-    if (bands.empty()) {
-        constexpr int octaves = 8;
-        for (int octave = octaves; octave >= 1; --octave) {
-            bands.push_back({octave == octaves ? 0.0 : 0.5 * rate_hz * std::ldexp(1.0, -octave),
-                             0.5 * rate_hz * std::ldexp(1.0, 1 - octave), 0.0, ""});
-        }
+// Samples a second, in the mean: the length of a record, not its usual interval, tells its lowest frequency.
+double rate_of(const Record& record) {
+    return static_cast<double>(record.size() - 1) / (record.time_s.back() - record.time_s.front());
+}
+
+// What is constant, and then half-decades, about, from one period in the longest record to half the highest rate.
+std::vector<Share> bands_of(const std::vector<Record>& records) {
+    double lowest_hz = std::numeric_limits<double>::infinity();
+    double highest_hz = 0.0;
+    for (const Record& record : records) {
+        const double rate_hz = rate_of(record);
+        lowest_hz = std::min(lowest_hz, rate_hz / static_cast<double>(record.size()));
+        highest_hz = std::max(highest_hz, 0.5 * rate_hz);
     }
+    // A period in each record lies above the constant's band, whatever is rounded.
+    lowest_hz *= 1.0 - 1e-9;
+    const int count = std::max(1, static_cast<int>(std::lround(2.0 * std::log10(highest_hz / lowest_hz))));
+    std::vector<Share> bands = {{0.0, lowest_hz, 0.0, ""}};
+    for (int band = 1; band <= count; ++band) {
+        const double to_hz = band == count
+                                 ? highest_hz
+                                 : lowest_hz * std::pow(highest_hz / lowest_hz, static_cast<double>(band) / count);
+        bands.push_back({bands.back().to, to_hz, 0.0, ""});
+    }
+    return bands;
+}
+
+// By Parseval's equation the bands' energies are the squares' sum.
+void add_bands(std::vector<Share>& bands, const Record& record, std::vector<double> residuals) {
     if (std::all_of(residuals.begin(), residuals.end(), [](double value) { return value == 0.0; })) {
         residuals.front() = 1.0;  // as much of each frequency
     }
@@ -92,35 +145,57 @@ void add_bands(std::vector<Share>& bands, const Record& record, std::vector<doub
     fft.fwd(spectrum, residuals);
     const std::size_t size = residuals.size();
     for (std::size_t k = 0; k < size; ++k) {
-        const double hz = rate_hz * static_cast<double>(std::min(k, size - k)) / static_cast<double>(size);
+        const double hz = rate_of(record) * static_cast<double>(std::min(k, size - k)) / static_cast<double>(size);
         auto band = std::find_if(bands.begin(), bands.end(), [&](const Share& share) { return hz < share.to; });
         (band == bands.end() ? bands.back() : *band).share += std::norm(spectrum[k]) / static_cast<double>(size);
     }
 }
 
-template <class Values>
-std::vector<Share> by_level(const std::vector<Record>& records, const std::vector<std::vector<double>>& squares,
-                            const Values& values) {
-    double low = values(records.front()).front();
-    double high = low;
-    for (const Record& record : records) {
-        for (const double value : values(record)) {
-            low = std::min(low, value);
-            high = std::max(high, value);
+// Values in groups that lie within a two-hundredth of the span; none where there are more of them than a few.
+std::vector<Share> few_levels(std::vector<double> values, double span) {
+    std::sort(values.begin(), values.end());
+    std::vector<Share> found;
+    for (const double value : values) {
+        if (found.empty() || value - found.back().from > 0.005 * span) {
+            found.push_back({value, value, 0.0, ""});
+            if (found.size() > most_levels) {
+                return {};
+            }
         }
+        found.back().to = value;
     }
-    if (!(high > low)) {
-        return {{low, high, 1.0, ""}};
-    }
+    return found;
+}
+
+std::vector<Share> even_levels(double low, double high) {
     std::vector<Share> shares;
     for (std::size_t level = 0; level < levels; ++level) {
         const auto edge = [&](std::size_t at) { return low + (high - low) * static_cast<double>(at) / levels; };
         shares.push_back({edge(level), edge(level + 1), 0.0, ""});
     }
+    return shares;
+}
+
+template <class Values>
+std::vector<Share> by_level(const std::vector<Record>& records, const std::vector<std::vector<double>>& squares,
+                            const Values& values) {
+    std::vector<double> all;
+    for (const Record& record : records) {
+        all.insert(all.end(), values(record).begin(), values(record).end());
+    }
+    const auto [low, high] = std::minmax_element(all.begin(), all.end());
+    if (!(*high > *low)) {
+        return {{*low, *high, 1.0, ""}};
+    }
+    std::vector<Share> shares = few_levels(all, *high - *low);
+    if (shares.empty()) {
+        shares = even_levels(*low, *high);
+    }
     for (std::size_t r = 0; r < records.size(); ++r) {
         for (std::size_t i = 0; i < records[r].size(); ++i) {
-            const double place = (values(records[r])[i] - low) / (high - low) * levels;
-            shares[std::min<std::size_t>(levels - 1, static_cast<std::size_t>(place))].share += squares[r][i];
+            const auto above = std::upper_bound(shares.begin(), shares.end(), values(records[r])[i],
+                                                [](double value, const Share& share) { return value < share.from; });
+            (above == shares.begin() ? shares.front() : *std::prev(above)).share += squares[r][i];
         }
     }
     normalise(shares);
@@ -132,6 +207,7 @@ std::vector<Share> by_level(const std::vector<Record>& records, const std::vecto
 Where locate(const std::vector<Record>& records, const std::vector<std::vector<double>>& residuals) {
     const std::vector<std::vector<double>> squares = squares_of(residuals);
     Where where;
+    where.frequency = bands_of(records);
     for (std::size_t r = 0; r < records.size(); ++r) {
         for (Share& share : segments_of(records[r], squares[r])) {
             share.what = records.size() > 1 ? records[r].name + ": " + share.what : share.what;

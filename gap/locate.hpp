@@ -18,10 +18,13 @@ struct Share {
 };
 
 struct Where {
-    std::vector<Share> time;       ///< s
-    std::vector<Share> frequency;  ///< Hz
-    std::vector<Share> input_level;
-    std::vector<Share> output_level;
+    /// s: what follows each move of the input by a fiftieth of its span or more between two rests, in pieces of at most
+    /// a fifth of the record; tenths of a record whose input rests or moves all the time. Of every record in turn.
+    std::vector<Share> time;
+    /// Hz: what is constant, then about half-decades from one period in the longest record to half the highest rate.
+    std::vector<Share> frequency;
+    std::vector<Share> input_level;   ///< each level where there are at most 12, else fifths of the span
+    std::vector<Share> output_level;  ///< likewise
     double rising = 0.0;
     double falling = 0.0;
     double still = 0.0;

@@ -1,6 +1,7 @@
 #include "gap/verdict.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,13 +105,15 @@ void fill(const Ranked& ranked, const Effect& effect, Json& parameters, Json& in
     }
 }
 
-// One entry for each effect of a candidate.
-void add_effects(Json& array, const Answer& answer, const Ranked& ranked) {
+// One entry for each effect of a candidate. \param alternative  which of an ambiguity it is; entries of one belong
+// together
+void add_effects(Json& array, const Answer& answer, const Ranked& ranked, std::size_t alternative) {
     for (const Effect* effect : ranked.trained.effects) {
         Json parameters;
         Json interval;
         fill(ranked, *effect, parameters, interval);
         array.push_back({{"effect", effect->name},
+                         {"alternative", alternative},
                          {"parameters", parameters},
                          {"interval", interval},
                          {"gap_before", answer.decision.base_gap},
@@ -119,6 +122,44 @@ void add_effects(Json& array, const Answer& answer, const Ranked& ranked) {
                          {"confidence", answer.decision.confidence}});
     }
 }
+
+// Levels that hold a tenth of the residual's squares or more.
+std::string levels_text(const char* signal, const std::vector<Share>& parts) {
+    std::string text;
+    for (const Share& share : parts) {
+        if (share.share >= 0.1 && parts.size() > 1) {
+            const std::string level = share.from == share.to ? fmt::format("at {:.4g}", share.from)
+                                                             : fmt::format("{:.4g} to {:.4g}", share.from, share.to);
+            text += fmt::format("  {} {:<22} {:5.1f} %\n", signal, level, 100.0 * share.share);
+        }
+    }
+    return text;
+}
+
+std::string where_text(const Where& where) {
+    std::string text =
+        "\nwhere the residual (measured - simulated) of the base lies, in shares of its sum of squares\n";
+    for (const Share& share : where.time) {
+        if (share.share >= 0.05) {
+            text += fmt::format("  {:8.3f} to {:8.3f} s  {:5.1f} %  {}\n", share.from, share.to, 100.0 * share.share,
+                                share.what);
+        }
+    }
+    for (const Share& share : where.frequency) {
+        if (share.share >= 0.1) {
+            text += share.from == 0.0
+                        ? fmt::format("  constant                {:5.1f} %\n", 100.0 * share.share)
+                        : fmt::format("  {:8.4g} to {:8.4g} Hz {:5.1f} %\n", share.from, share.to, 100.0 * share.share);
+        }
+    }
+    text += levels_text("input", where.input_level);
+    text += levels_text("output", where.output_level);
+    return text + fmt::format("  output rising {:.1f} %, falling {:.1f} %, still {:.1f} %\n", 100.0 * where.rising,
+                              100.0 * where.falling, 100.0 * where.still);
+}
+
+// How much of the measured output's variance is explained where a gap is left.
+double explained_percent(double gap) { return 100.0 * std::max(0.0, 1.0 - gap * gap); }
 
 }  // namespace
 
@@ -142,8 +183,8 @@ std::string to_json(const Answer& answer) {
     verdict["schema"] = "glsum-gap-1";
     verdict["verdict"] = name_of(decision.outcome);
     verdict["effects"] = Json::array();
-    for (const std::size_t i : decision.effects) {
-        add_effects(verdict["effects"], answer, answer.ranking[i]);
+    for (std::size_t i = 0; i < decision.effects.size(); ++i) {
+        add_effects(verdict["effects"], answer, answer.ranking[decision.effects[i]], i);
     }
     verdict["ranking"] = Json::array();
     for (const Ranked& ranked : answer.ranking) {
@@ -161,6 +202,7 @@ std::string to_json(const Answer& answer) {
         {"output_level", shares(answer.where.output_level, "from", "to")},
         {"direction",
          {{"rising", answer.where.rising}, {"falling", answer.where.falling}, {"still", answer.where.still}}}};
+    verdict["extrapolated"] = answer.extrapolated;
     verdict["next_experiment"] = answer.next_experiment;
     verdict["confidence"] = decision.confidence;
     verdict["split"] = answer.split;
@@ -217,6 +259,8 @@ std::string to_text(const Answer& answer) {
     text += fmt::format(" (confidence {:.2f})\n\n", decision.confidence);
     text += fmt::format("gap, rms over the output's deviation, {}: {:.4f} before, {:.4f} after, {:.4f} at best\n",
                         answer.metric, decision.base_gap, answer.chosen().gap_after, decision.noise_floor);
+    text += fmt::format("variance explained: {:.1f} % by the simulation, {:.1f} % by the best candidate\n",
+                        explained_percent(decision.base_gap), explained_percent(answer.chosen().gap_after));
     if (answer.split) {
         text += "no validation record: parts of the training record were kept aside for it\n";
     }
@@ -239,20 +283,10 @@ std::string to_text(const Answer& answer) {
                                 ranked.score() - answer.none().score());
         }
     }
-    text += "\nwhere the base's squared gap lies\n";
-    for (const Share& share : answer.where.time) {
-        if (share.share >= 0.05) {
-            text += fmt::format("  {:8.3f} to {:8.3f} s  {:5.1f} %  {}\n", share.from, share.to, 100.0 * share.share,
-                                share.what);
-        }
+    text += where_text(answer.where);
+    if (!answer.extrapolated.empty()) {
+        text += fmt::format("\nextrapolated, as training has none of it: {}\n", fmt::join(answer.extrapolated, ", "));
     }
-    for (const Share& share : answer.where.frequency) {
-        if (share.share >= 0.1) {
-            text += fmt::format("  {:8.3f} to {:8.3f} Hz {:5.1f} %\n", share.from, share.to, 100.0 * share.share);
-        }
-    }
-    text += fmt::format("  rising {:.1f} %, falling {:.1f} %, still {:.1f} %\n", 100.0 * answer.where.rising,
-                        100.0 * answer.where.falling, 100.0 * answer.where.still);
     for (const std::string& note : answer.notes) {
         text += fmt::format("\nnote: {}", note);
     }
