@@ -67,7 +67,7 @@ expect 2 "the input is 0 throughout" diagnose drive --model "$folder/linear.json
 awk -F, 'NR < 3 {print; next} {printf "%s,%s,%.6f\n", $1, $2, 0.3 * sin(1.7 * $1) + 0.2 * sin(5.1 * $1 + 1)}' "$folder/clean.csv" >"$folder/foreign.csv"
 expect 0 "do model and log belong together?" diagnose drive --model "$folder/linear.json" --log "$folder/foreign.csv"
 # As the launcher calls it, and a whole set, hashed as `score` wants it.
-expect 2 "expected drive, cycles or --batch DIR" diagnose --jobs 2
+expect 2 "expected drive, cycles, --batch DIR or --exam MANIFEST" diagnose --jobs 2
 expect 0 "verdict: no_gap" diagnose --jobs 1 drive --model "$folder/linear.json" --log "$folder/clean.csv" --validate "$folder/cleaner.csv"
 for case in 001 002; do
     mkdir -p "$folder/set/$case"

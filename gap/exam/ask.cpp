@@ -1,0 +1,72 @@
+#include "gap/exam/ask.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "gap/drive/start.hpp"
+#include "gap/verdict.hpp"
+#include "qemu/failure.hpp"
+
+namespace gap::exam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void check_split(const Asked& asked, const std::vector<Record>& train) {
+    constexpr std::ptrdiff_t least = 32;
+    for (const Record& record : train) {
+        const auto before =
+            std::count_if(record.time_s.begin(), record.time_s.end(), [&](double t) { return t < *asked.split_s; });
+        if (before < least || static_cast<std::ptrdiff_t>(record.size()) - before < least) {
+            throw glsum::Failure(
+                glsum::Exit::bad_input,
+                fmt::format("{}: split_s {}: expected {} samples or more on both sides, found {} of {} before it in {}",
+                            asked.name, *asked.split_s, least, before, record.size(), record.name));
+        }
+    }
+}
+
+drive::Form base_of(const Asked& asked, const Given& given) {
+    if (!asked.is_fitted()) {
+        return form_of(given.model.value());
+    }
+    const std::size_t colon = asked.base.find(':');
+    return search_form(colon == std::string::npos ? "" : asked.base.substr(colon + 1), given.train);
+}
+
+}  // namespace
+
+Question to_question(const Asked& asked, Given given, unsigned jobs) {
+    if (asked.split_s) {
+        check_split(asked, given.train);
+    }
+    drive::Form base = base_of(asked, given);
+    return {.form = std::move(base),
+            .refit = asked.refit || asked.is_fitted(),
+            .train = std::move(given.train),
+            .validate = std::move(given.validate),
+            .split_s = asked.split_s,
+            .metric = asked.metric,
+            .without = {},
+            .jobs = jobs};
+}
+
+std::string to_answer(const Asked& asked, const Answer& answer) {
+    Json verdict = Json::parse(to_json(answer));
+    Json question{{"name", asked.name}, {"base", asked.base}, {"train", asked.train}, {"validate", asked.validate}};
+    if (asked.split_s) {
+        question["split_s"] = *asked.split_s;
+    }
+    if (!asked.domain.empty()) {
+        question["domain"] = asked.domain;
+    }
+    if (!asked.units.empty()) {
+        question["units"] = asked.units;
+    }
+    verdict["question"] = question;
+    return verdict.dump(2) + "\n";
+}
+
+}  // namespace gap::exam
