@@ -13,6 +13,7 @@
 #include "cli/command.hpp"
 #include "cli/diagnose_cycles.hpp"
 #include "cli/drive_files.hpp"
+#include "cli/exam.hpp"
 #include "gap/drive/diagnose.hpp"
 #include "gap/drive/start.hpp"
 #include "gap/page.hpp"
@@ -172,15 +173,31 @@ void add_options(Command& command, const Words&) {
     command.add_option("--batch", *set,
                        "Judge each case of a blind set: DIR/NNN/ with model.json, train*.csv and validate*.csv; writes "
                        "DIR/NNN/verdict.json and DIR/verdicts.sha256");
+    struct Exam {
+        std::filesystem::path manifest;
+        std::filesystem::path data;
+        std::filesystem::path out;
+    };
+    auto exam = std::make_shared<Exam>();
+    const Option asked = command.add_option(
+        "--exam", exam->manifest,
+        "Answer each question of a manifest; writes OUT/NAME/verdict.json, or refused.txt, and OUT/answers.sha256");
+    command.add_option("--data", exam->data, "Of --exam: the folder of its logs; otherwise the manifest's")
+        .needs(asked);
+    command.add_option("--out", exam->out, "Of --exam: a folder for the answers, new or empty").needs(asked);
     command.footer(
         "Examples: glsum diagnose drive --model model.json --log train.csv --validate other.csv\n"
         "          glsum diagnose cycles --measured results/silicon/h747_per_sample_fir.csv\n"
-        "          glsum diagnose --batch build/blind");
-    command.callback([&command, options, set] {
+        "          glsum diagnose --batch build/blind\n"
+        "          glsum diagnose --exam gap/exam/real.json --data logs --out build/exam");
+    command.callback([&command, options, set, exam] {
         if (!set->empty()) {
             run_batch(*set, options->jobs);
+        } else if (!exam->manifest.empty()) {
+            run_exam(exam->manifest, exam->data, exam->out, options->jobs);
         } else if (!command.given_subcommand()) {
-            throw glsum::Failure(glsum::Exit::bad_input, "diagnose: expected drive, cycles or --batch DIR");
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 "diagnose: expected drive, cycles, --batch DIR or --exam MANIFEST");
         }
     });
     add_diagnose_cycles(command);

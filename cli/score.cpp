@@ -13,6 +13,7 @@
 #include "bench/progress.hpp"
 #include "bench/sha256.hpp"
 #include "cli/blind.hpp"
+#include "cli/exam.hpp"
 #include "drive/stand/blind/score.hpp"
 #include "gap/drive/oracle.hpp"
 #include "qemu/failure.hpp"
@@ -28,6 +29,8 @@ constexpr std::size_t most_bytes = 64u << 20;
 
 struct Options {
     std::filesystem::path folder;
+    std::filesystem::path exam;
+    std::filesystem::path truth;
     std::string truth_hash;
     bool goals = false;
     bool no_oracle = false;
@@ -173,8 +176,11 @@ void add_options(Command& command, const Words&) {
     command.footer(
         "Exits 2 where a verdict or the truth is not what its hash says.\n"
         "Example: glsum stand --blind 100 --seed 7 --out build/blind && glsum diagnose --batch build/blind && glsum "
-        "score build/blind");
-    command.add_option("folder", options->folder, "Of stand --blind, answered by diagnose --batch").required();
+        "score build/blind\n"
+        "         glsum score --exam build/exam --truth gap/exam/real_truth.json");
+    command.add_option("folder", options->folder, "Of stand --blind, answered by diagnose --batch");
+    const Option exam = command.add_option("--exam", options->exam, "Instead: the answers of diagnose --exam");
+    command.add_option("--truth", options->truth, "Of --exam: what is known, a JSON file").needs(exam);
     command.add_option("--truth-sha256", options->truth_hash, "What stand --blind printed first");
     command.add_flag("--no-oracle", options->no_oracle,
                      "Without the true effects refitted: says nothing of what is identifiable, and takes no time");
@@ -182,7 +188,12 @@ void add_options(Command& command, const Words&) {
     command.add_option("--jobs", options->jobs, "Threads").at_least(1);
     command.add_flag("--goals", options->goals, "Exit 1 unless what is to be reached is");
     command.add_option("--json", options->json, "Write all numbers as JSON");
-    command.callback([options] { run(*options); });
+    command.callback([options] {
+        if (options->exam.empty() == options->folder.empty()) {
+            throw Failure(Exit::bad_input, "score: expected the folder of a blind set or --exam DIR, one of them");
+        }
+        options->exam.empty() ? run(*options) : score_exam(options->exam, options->truth, options->json);
+    });
 }
 
 }  // namespace cli
