@@ -83,10 +83,7 @@ drive::Log make_record(const Options& options, double step_s) {
                       fmt::format("--input: expected step, pulse, staircase or a CSV file, found {}", options.input));
     }
     drive::Columns columns = options.columns;
-    // The output is what is asked for: any column will do for the reader.
-    if (columns.output.empty()) {
-        columns.output = columns.time.empty() ? "time_s" : columns.time;
-    }
+    columns.needs_output = false;  // it is what is asked for
     drive::Log record = read_ordered_log(options.input, columns);
     if (!options.exact) {
         record = drive::resample(std::move(record), step_s, drive::Hold::zero_order).log;

@@ -48,7 +48,7 @@ TEST(Log, RefusesWithFileAndLine) {
     EXPECT_THAT(refusal("# only\n"), HasSubstr("l.csv: expected a header"));
     EXPECT_THAT(refusal("time_s,output\n0,1\n1,2\n"),
                 HasSubstr("l.csv:1: expected a column input, duty for the input, found"));
-    EXPECT_THAT(refusal("t,input,y\n0,1,1\n"), HasSubstr("expected a column time_s"));
+    EXPECT_THAT(refusal("when,input,y\n0,1,1\n"), HasSubstr("expected a column time_s"));
     EXPECT_THAT(refusal("time_s,input,y,output\n0,1,1,1\n"),
                 HasSubstr("expected one column for the output, found y and output"));
     EXPECT_THAT(refusal("time_s,input,y\n0,1,1\n1,1\n"),

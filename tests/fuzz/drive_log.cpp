@@ -25,5 +25,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             }
         }
     });
+    // The same with what options decide, and with columns by number.
+    fuzz::refused_or([&] {
+        const drive::Columns columns = {.time = "1",
+                                        .output = "2",
+                                        .needs_input = false,
+                                        .separator = size % 2 == 0 ? "comma" : "blank",
+                                        .decimal = "comma",
+                                        .time_unit = "ms"};
+        const drive::Log log = drive::parse_log(fuzz::to_text(data, size), "file", columns);
+        fuzz::expect(log.output.size() == log.time_s.size() && std::isfinite(log.time_s.back()));
+    });
     return 0;
 }

@@ -1,0 +1,175 @@
+// Logs as loggers write them: what is found in the file, that it is said, and what is refused because it may be read in
+// two ways.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drive/log.hpp"
+#include "qemu/failure.hpp"
+
+namespace {
+
+using drive::Columns;
+using drive::Log;
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+// What the plain log below says, in another form, with the one line that is said of it.
+void expect_same(const std::string& text, const std::string& said, const Columns& columns = {}) {
+    SCOPED_TRACE(text);
+    const Log log = drive::parse_log(text, "l.csv", columns);
+    EXPECT_THAT(log.time_s, ElementsAre(0, 0.01, 0.02));
+    EXPECT_THAT(log.input, ElementsAre(0.5, 1, -1.25));
+    EXPECT_THAT(log.output, ElementsAre(1.5, 2, 1e-3));
+    if (said.empty()) {
+        EXPECT_THAT(log.warnings, IsEmpty());
+    } else {
+        EXPECT_THAT(log.warnings, ElementsAre("l.csv: read with " + said));
+    }
+}
+
+std::string refusal(const std::string& text, const Columns& columns = {}) {
+    try {
+        (void)drive::parse_log(text, "l.csv", columns);
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        return failure.what();
+    }
+    ADD_FAILURE() << "not refused: " << text;
+    return "";
+}
+
+TEST(LogHabits, AreFoundAndSaidInOneLine) {
+    expect_same("time_s,input,output\n0,0.5,1.5\n0.01,1,2\n0.02,-1.25,1e-3\n", "");
+    expect_same("time_s,input,output\r\n0,0.5,1.5\r\n0.01,1,2\r\n0.02,-1.25,1e-3\r\n", "");
+    expect_same("time_s, input,\toutput\n0, 0.5, 1.5\n0.01, 1, 2\n0.02, -1.25, 1e-3\n", "");
+    expect_same("\xEF\xBB\xBFtime_s,input,output\n0,0.5,1.5\n0.01,1,2\n0.02,-1.25,1e-3\n", "a byte order mark");
+    expect_same("time_s;input;output\n0;0.5;1.5\n0.01;1;2\n0.02;-1.25;1e-3\n", "semicolons");
+    expect_same("time_s;input;output\n0;0,5;1,5\n0,01;1;2\n0,02;-1,25;1e-3\n", "semicolons, decimal commas");
+    expect_same("time_s\tinput\toutput\tnote\n0\t0,5\t1,5\t\n0,01\t1\t2\tx y\n0,02\t-1,25\t1e-3\t\n",
+                "tabs, decimal commas");
+    expect_same("  time_s input   output\n0 0.5 1.5\n0.01 \t1 2\n0.02 -1.25 1e-3  \n", "blanks between fields");
+    expect_same("0,5 0 1,5\n1 0,01 2\n-1,25 0,02 1e-3\n",
+                "blanks between fields, decimal commas, no header, column 3 as output", {.time = "2", .input = "1"});
+    expect_same(
+        "\"time_s\",\"input\",\"a \"\"b\"\", c\",\"output\"\n\"0\",\"0,5\",\"1,2,3\",\"1,5\"\n\"0,01\",1,,2\n"
+        "\"0,02\",\"-1,25\",\"\",\"1e-3\"\n",
+        "quoted fields, decimal commas");
+    expect_same("time_s;input;output\ns;V;mm\n0;0.5;1.5\n0.01;1;2\n0.02;-1.25;1e-3\n", "semicolons, a row of units");
+    expect_same("0,0.5,1.5\n0.01,1,2\n0.02,-1.25,1e-3\n",
+                "no header, column 1 as time, column 2 as input, column 3 as output");
+    expect_same("time,U,output [mm]\n0,0.5,1.5\n0.01,1,2\n0.02,-1.25,1e-3\n", "'time' as time, 'output [mm]' as output",
+                {.input = "U"});
+    expect_same("# a rig\n\n # t_us,u,y\nt_ms,u,y\n0,0.5,1.5\n10,1,2\n20,-1.25,1e-3\n",
+                "stamps in milliseconds, 't_ms' as time, 'u' as input");
+}
+
+TEST(LogHabits, OptionsDecideAndAreNotSaid) {
+    expect_same("time_s;input;output\n0;0,5;1,5\n0,01;1;2\n0,02;-1,25;1e-3\n", "",
+                {.separator = "semicolon", .decimal = "comma"});
+}
+
+TEST(LogHabits, DecimalCommasAmongCommasAreRefusedWithTheirReadings) {
+    EXPECT_THAT(refusal("time_s,output\n1,5,2\n2,5,3\n", {.needs_input = false}),
+                AllOf(HasSubstr("l.csv:2: expected 2 fields, as the header has, found 3"), HasSubstr("'1,5 2'"),
+                      HasSubstr("'1 5,2'"), HasSubstr("quote")));
+    const std::string twice = "time_s,input,output\n0,0,0,5,1,5\n0,01,1,0,2,0\n0,02,-1,25,0,001\n";
+    EXPECT_THAT(refusal(twice), AllOf(HasSubstr("found 6"), HasSubstr("'0,0 0,5 1,5'; --decimal comma reads it so")));
+    expect_same(twice, "", {.decimal = "comma"});
+    expect_same("0,0,0,5,1,5\n0,01,1,0,2,0\n0,02,-1,25,0,001\n",
+                "no header, column 1 as time, column 2 as input, column 3 as output", {.decimal = "comma"});
+    EXPECT_THAT(refusal("time_s,input,output\n0,1,2\n0,5,1,2\n", {.decimal = "comma"}),
+                HasSubstr("l.csv:3: expected 3"));
+}
+
+TEST(LogHabits, WhatMayBeReadInTwoWaysIsRefused) {
+    EXPECT_THAT(refusal("time_s;input;output\n0;0,5;1\n1;0.5;1\n"),
+                HasSubstr("l.csv:3: input: expected decimal commas throughout, as '0,5' in line 2 has, found '0.5'"));
+    EXPECT_THAT(refusal("time_s;input;output\n0;0.5;1\n", {.decimal = "comma"}),
+                HasSubstr("expected decimal commas throughout, as --decimal says, found '0.5'"));
+    EXPECT_THAT(refusal("time_s;input;output\n0;1.234,5;1\n"), HasSubstr("expected a finite number, found '1.234,5'"));
+    EXPECT_THAT(refusal("0,5;on\n1,5;off\n"),
+                AllOf(HasSubstr("2 fields by comma: '1', '5;off', or 2 fields by semicolon: '1,5', 'off'"),
+                      HasSubstr("--separator comma or semicolon decides")));
+    EXPECT_THAT(refusal("values\n1\n2\n"), HasSubstr("expected columns apart by commas, semicolons, tabs or blanks"));
+    EXPECT_THAT(refusal("time_s,input,y\n0,1,\"2\n"), HasSubstr("l.csv:2: expected quotes that end with their field"));
+    EXPECT_THAT(refusal("time_s,input,y\n0,1,\"2\"3\n"), HasSubstr("l.csv:2: expected quotes that end"));
+    EXPECT_THAT(refusal("\xFF\xFEt\n"), HasSubstr("found UTF-16"));
+    EXPECT_THAT(refusal("time_s,input,y\n0,1,1\n1,1,1\n", {.separator = "pipe"}), HasSubstr("found 'pipe'"));
+    EXPECT_THAT(refusal("time_s,input,y\n0,1,1\n1,1,1\n", {.decimal = "dot"}), HasSubstr("found 'dot'"));
+}
+
+// A first row of words is no row of units: what is wrong with it is said as of any row.
+TEST(LogHabits, ARowOfWordsIsNotOfUnits) {
+    EXPECT_THAT(refusal("time_s,input,output\nstart,off,none\n0,1,2\n1,1,2\n"),
+                HasSubstr("l.csv:2: time_s: expected a finite number, found 'start'"));
+    EXPECT_THAT(refusal("time_s,input,output\n-,-,-\n0,1,2\n1,1,2\n"), HasSubstr("l.csv:2: time_s"));
+    EXPECT_THAT(refusal("time_s,input,output\n0,1,nan\n0,1,2\n1,1,2\n"), HasSubstr("l.csv:2: output"));
+    EXPECT_THAT(refusal("time_s,input,output\ns,V,mm\ns,V,mm\n0,1,2\n"), HasSubstr("l.csv:3: time_s"));
+}
+
+TEST(LogColumns, AreFoundByUsualNamesContractNamesWin) {
+    const Log usual = drive::parse_log("Timestamp,cmd,Measured [rad],other\n0,1,2,3\n1,1,4,3\n", "l.csv");
+    EXPECT_THAT(usual.output, ElementsAre(2, 4));
+    EXPECT_THAT(usual.warnings, ElementsAre(HasSubstr("'Timestamp' as time, 'cmd' as input, 'Measured [rad]' as")));
+    const Log own = drive::parse_log("time,time_s,u,duty,measured,y\n5,0,7,1,8,2\n6,1,7,0,8,4\n", "l.csv");
+    EXPECT_THAT(own.time_s, ElementsAre(0, 1));
+    EXPECT_THAT(own.input, ElementsAre(1, 0));
+    EXPECT_THAT(own.output, ElementsAre(2, 4));
+    EXPECT_THAT(own.warnings, IsEmpty());
+    EXPECT_THAT(refusal("time_s,u,cmd,y\n0,1,1,1\n"),
+                HasSubstr("expected one column for the input, found u and cmd: name one by --input-column"));
+    EXPECT_THAT(refusal("T,u,y\n0,1,1\n"), HasSubstr("expected a column time_s for the time, found 'T,u,y'"));
+}
+
+TEST(LogColumns, NearNamesAreSuggested) {
+    EXPECT_THAT(refusal("time_s,Speed,speed_2,volts\n0,1,1,1\n", {.input = "volts", .output = "sped"}),
+                AllOf(HasSubstr("expected a column sped for the output"), HasSubstr("nearest: 'Speed'")));
+    EXPECT_THAT(refusal("tme_s,input,y\n0,1,1\n"), HasSubstr("nearest: 'tme_s'; --time-column names another"));
+    EXPECT_THAT(refusal("time_s,input,y\n0,1,1\n", {.output = "pressure"}), Not(HasSubstr("nearest")));
+}
+
+TEST(LogColumns, AreNamedByNumber) {
+    const std::string text = "0,7,1,2\n1,8,1,4\n";
+    const Log log = drive::parse_log(text, "l.csv", {.input = "3", .output = "4", .more_inputs = {"2"}});
+    EXPECT_THAT(log.input, ElementsAre(1, 1));
+    EXPECT_THAT(log.output, ElementsAre(2, 4));
+    EXPECT_THAT(log.more_inputs, ElementsAre(ElementsAre(7, 8)));
+    EXPECT_THAT(drive::parse_log("0,2\n1,4\n", "l.csv", {.needs_input = false}).output, ElementsAre(2, 4));
+    EXPECT_THAT(drive::parse_log("time_s,n [1/min],y\n0,2,3\n1,4,5\n", "l.csv", {.input = "2"}).input,
+                ElementsAre(2, 4));
+    EXPECT_THAT(drive::parse_log("time_s,1,2\n0,2,3\n1,4,5\n", "l.csv", {.input = "1", .output = "2"}).input,
+                ElementsAre(2, 4));
+    EXPECT_THAT(refusal("0,2\n1,4\n"), HasSubstr("found 2 columns without a header; --output-column N"));
+    EXPECT_THAT(refusal(text, {.input = "5"}), HasSubstr("expected a column 5 for the input; the log has no header"));
+    EXPECT_THAT(refusal(text, {.input = "u"}), HasSubstr("its columns are 1 to 4"));
+    EXPECT_THAT(refusal(text, {.input = "3"}), HasSubstr("different columns for the input and the output, found 3"));
+}
+
+TEST(LogColumns, SeveralInputsAndASimulation) {
+    const std::string text = "time_s,a,b,y,model\n0,1,10,5,5.5\n1,2,20,6,6.5\n1,3,30,8,9.5\n3,4,40,9,9.5\n4,4,50,9,9\n";
+    const Columns columns = {.input = "a", .more_inputs = {"b"}, .simulated = "model"};
+    Log log = drive::parse_log(text, "l.csv", columns);
+    (void)drive::order_stamps(log);
+    EXPECT_THAT(log.input, ElementsAre(1, 3, 4, 4));
+    EXPECT_THAT(log.more_inputs, ElementsAre(ElementsAre(10, 30, 40, 50)));
+    EXPECT_THAT(log.simulated, ElementsAre(5.5, 8, 9.5, 9));
+    const Log even = drive::resample(drive::parse_log(text, "l.csv", columns), 0.5, drive::Hold::linear).log;
+    EXPECT_THAT(even.more_inputs, ElementsAre(ElementsAre(10, 10, 30, 30, 30, 30, 40, 40, 50)));
+    EXPECT_THAT(even.simulated, ElementsAre(5.5, 6.75, 8, 8.375, 8.75, 9.125, 9.5, 9.25, 9));
+    EXPECT_THAT(drive::to_csv(log), HasSubstr("time_s,input,input_2,output,simulated\n0,1,10,5,5.5\n"));
+    EXPECT_THAT(refusal(text, {.input = "a", .more_inputs = {"a"}}),
+                HasSubstr("different columns for the input and another input, found a for both"));
+    EXPECT_THAT(refusal(text, {.input = "a", .more_inputs = {"c"}}), HasSubstr("expected a column c for the input"));
+    EXPECT_THAT(refusal(text, {.input = "a", .simulated = "y"}), HasSubstr("for the output and the simulation"));
+    EXPECT_THAT(refusal(text, {.input = "a", .simulated = "modl"}), HasSubstr("nearest: 'model'"));
+}
+
+TEST(LogColumns, AnOutputThatIsNotNeededIsNought) {
+    EXPECT_THAT(drive::parse_log("time_s,input\n0,1\n1,2\n", "l.csv", {.needs_output = false}).output,
+                ElementsAre(0, 0));
+}
+
+}  // namespace
