@@ -31,6 +31,7 @@ Option& Option::required() { return option_->required(), *this; }
 Option& Option::delimiter(char between) { return option_->delimiter(between), *this; }
 Option& Option::expected(int least, int most) { return option_->expected(least, most), *this; }
 Option& Option::needs(const Option& other) { return option_->needs(other.option_), *this; }
+Option& Option::each(std::function<void(const std::string&)> take) { return option_->each(take), *this; }
 Option& Option::above(double bound) {
     check(*option_, fmt::format("above {}", bound), [bound](double value) { return value > bound; });
     return *this;

@@ -25,6 +25,7 @@ public:
     Option& delimiter(char between);        ///< of the words of a list
     Option& expected(int least, int most);  ///< words
     Option& needs(const Option& other);
+    Option& each(std::function<void(const std::string&)> take);  ///< of its words, as they are parsed
     // What its numbers may be, which the help says, and the error to any other word.
     Option& above(double bound);
     Option& at_least(double lowest);

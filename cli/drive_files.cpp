@@ -3,12 +3,37 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <memory>
 
 #include "bench/files.hpp"
 #include "drive/model_file.hpp"
 #include "drive/stability.hpp"
 
 namespace cli {
+namespace {
+
+constexpr const char* time_column = "Column of the stamps, by name or number; usually time_s";
+constexpr const char* input_column = "Column of the input; usually input or duty";
+
+void add_other_column_options(Command& command, drive::Columns& columns) {
+    command.add_option("--output-column", columns.output,
+                       "Column of the output; usually output, y, angle_rad or counts");
+    command.add_option("--counts-per-unit", columns.counts_per_unit,
+                       "Divide the output by this: encoder counts to units");
+    command
+        .add_option("--counter-bits", columns.counter_bits, "Counts come from a counter of so many bits, which wraps")
+        .between(2, 52);
+    command.add_option("--separator", columns.separator, "Of a log's fields; without it, as the file shows")
+        .one_of({"comma", "semicolon", "tab", "blank"});
+    command.add_option("--decimal", columns.decimal, "Decimal mark of a log; without it, as the file shows")
+        .one_of({"point", "comma"});
+    command
+        .add_option("--time-unit", columns.time_unit,
+                    "Of the stamps; without it, as their name or a row of units says, else s")
+        .one_of({"ns", "us", "ms", "s", "min", "h"});
+}
+
+}  // namespace
 
 drive::Model read_model(const std::filesystem::path& path) {
     return drive::parse_model(bench::read_file(path, drive::most_model_bytes), path.string());
@@ -54,15 +79,27 @@ gap::Improved simulate_effects(const drive::Model& model, const drive::Log& log,
 }
 
 void add_column_options(Command& command, drive::Columns& columns) {
-    command.add_option("--time-column", columns.time, "Column of the stamps; usually time_s");
-    command.add_option("--input-column", columns.input, "Column of the input; usually input or duty");
-    command.add_option("--output-column", columns.output,
-                       "Column of the output; usually output, y, angle_rad or counts");
-    command.add_option("--counts-per-unit", columns.counts_per_unit,
-                       "Divide the output by this: encoder counts to units");
+    command.add_option("--time-column", columns.time, time_column);
+    command.add_option("--input-column", columns.input, input_column);
+    add_other_column_options(command, columns);
+}
+
+void add_diagnosis_column_options(Command& command, drive::Columns& columns) {
+    command.add_option("--time-column", columns.time, time_column);
+    auto inputs = std::make_shared<std::vector<std::string>>();
     command
-        .add_option("--counter-bits", columns.counter_bits, "Counts come from a counter of so many bits, which wraps")
-        .between(2, 52);
+        .add_option("--input-column", *inputs,
+                    fmt::format("{}; repeatable: the first is the base's, others come beside it", input_column))
+        .each([&columns, inputs](const std::string& name) {
+            if (columns.input.empty()) {
+                columns.input = name;
+            } else {
+                columns.more_inputs.push_back(name);
+            }
+        });
+    command.add_option("--simulated", columns.simulated,
+                       "Column of what your own simulator gave for the same input, in the output's units");
+    add_other_column_options(command, columns);
 }
 
 void put(const std::string& text, const std::filesystem::path& path) {

@@ -31,8 +31,12 @@ namespace cli {
 /// Says on standard error that the model grows without bound, if it does. \param name  begins the message
 void warn_if_unstable(const drive::Model& model, const std::string& name);
 
-/// --time-column, --input-column, --output-column, --counts-per-unit, --counter-bits.
+/// --time-column, --input-column, --output-column, --counts-per-unit, --counter-bits, --separator, --decimal,
+/// --time-unit.
 void add_column_options(Command& command, drive::Columns& columns);
+
+/// The same for a diagnosis: --input-column is repeatable, and there is --simulated. \param columns  outlives the run
+void add_diagnosis_column_options(Command& command, drive::Columns& columns);
 
 /// Writes the file whole, or prints where no path was given.
 void put(const std::string& text, const std::filesystem::path& path);

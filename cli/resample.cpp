@@ -34,10 +34,9 @@ void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     options->columns.needs_input = false;
     command.footer(
-        "Repeated, backward and missing stamps are reported with their lines: repeated ones give their mean, backward "
-        "ones "
-        "are left out, gaps are bridged.\nExample: glsum resample log.csv --step-s 0.001 --method linear --out "
-        "even.csv");
+        "Repeated, backward and missing stamps are reported with their lines: repeated ones give their mean, or are "
+        "spread where\nthey came in bursts; backward ones are left out, gaps are bridged.\n"
+        "Example: glsum resample log.csv --step-s 0.001 --method linear --out even.csv");
     command.add_option("log,--log", options->log, "Log, CSV with time_s and the output").required();
     command.add_option("--step-s", options->step_s, "New sampling time").above(0).capture_default_str();
     command.add_option("--method", options->method, "linear or zoh (zero-order hold); the input is always held")
