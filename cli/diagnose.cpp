@@ -223,7 +223,7 @@ void add_options(Command& command, const Words&) {
     of_drive.add_option("--horizon", options->horizon_s, "SECONDS that a prediction looks ahead; a fiftieth of the record unless given")
         .above(0);
     of_drive.add_option("--without", options->without, "Effects to leave off the list").delimiter(',');
-    add_column_options(of_drive, options->columns);
+    add_diagnosis_column_options(of_drive, options->columns);
     of_drive.add_option("--json", options->json, "The verdict, schema glsum-gap-1");
     of_drive.add_option("--html", options->html, "A page with curves, ranking and where the gap lies");
     of_drive.add_option("--improved", options->improved, "The model with the effect, which simulate runs");
