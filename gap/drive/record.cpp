@@ -33,6 +33,8 @@ Record to_record(drive::Log log) {
         throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: {}", log.name, what));
     };
     Record record{log.name, std::move(log.time_s), std::move(log.input), std::move(log.output), 0.0};
+    record.more_inputs = std::move(log.more_inputs);
+    record.simulated = std::move(log.simulated);
     if (record.size() < 32) {
         refuse(fmt::format("expected 32 samples or more, found {}", record.size()));
     }
