@@ -11,7 +11,7 @@ namespace drive {
 
 std::string_view trimmed(std::string_view text) {
     const auto from = text.find_first_not_of(" \t\r");
-    return from == std::string_view::npos ? std::string_view()
+    return from == std::string_view::npos ? text.substr(0, 0)
                                           : text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
 }
 

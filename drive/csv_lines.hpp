@@ -7,7 +7,7 @@
 
 namespace drive {
 
-/// Without blanks, tabs and carriage returns at its ends.
+/// Without blanks, tabs and carriage returns at its ends; what is left is a part of the text, also where it is empty.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
 /// The text behind a byte order mark of UTF-8. \throws glsum::Failure (bad input) for one of UTF-16. \param name  of

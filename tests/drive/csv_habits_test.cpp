@@ -80,6 +80,8 @@ TEST(LogHabits, DecimalCommasAmongCommasAreRefusedWithTheirReadings) {
     expect_same(twice, "", {.decimal = "comma"});
     expect_same("0,0,0,5,1,5\n0,01,1,0,2,0\n0,02,-1,25,0,001\n",
                 "no header, column 1 as time, column 2 as input, column 3 as output", {.decimal = "comma"});
+    EXPECT_THAT(refusal("time_s,output\n,,0,5\n", {.needs_input = false, .decimal = "comma"}),
+                HasSubstr("l.csv:2: time_s: expected a finite number, found ','"));
     EXPECT_THAT(refusal("time_s,input,output\n0,1,2\n0,5,1,2\n", {.decimal = "comma"}),
                 HasSubstr("l.csv:3: expected 3"));
 }
