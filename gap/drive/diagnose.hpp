@@ -34,7 +34,6 @@ struct Answer {
     std::string base_name;                ///< of a base that was found or fitted; empty: a model was given
     double linear_share = 0.0;            ///< of the validation output's variance, by the best linear description
     std::vector<Described> descriptions;  ///< of a base that was looked for, the best first
-    std::vector<std::string> extrapolated;
 };
 
 /// \throws glsum::Failure (bad input): records and model that cannot belong together: a dead time as long as the
