@@ -31,7 +31,7 @@ struct Reading {
     std::size_t in_first_line = 0;
     bool even = true;  ///< equally many fields in each line
     std::size_t fields = 0;
-    std::size_t numbers = 0;  ///< of them; the first line, which may be a header, does not count
+    std::size_t numbers = 0;  ///< of them, dates among them
     std::string shows;        ///< the last line's fields, for a message
     [[nodiscard]] bool splits() const { return in_first_line >= 2; }
     [[nodiscard]] bool has_more_numbers_than(const Reading& other) const {
@@ -51,11 +51,9 @@ Reading read_with(std::pair<Separator, const char*> separator, const std::vector
         }
         reading.in_first_line = i == 0 ? fields.size() : reading.in_first_line;
         reading.even = reading.even && fields.size() == reading.in_first_line;
-        if (i > 0 || lines.size() == 1) {
-            reading.fields += fields.size();
-            for (const Field& field : fields) {
-                reading.numbers += looks_like_number(field.text) || looks_like_date(field.text) ? 1 : 0;
-            }
+        reading.fields += fields.size();
+        for (const Field& field : fields) {
+            reading.numbers += looks_like_number(field.text) || looks_like_date(field.text) ? 1 : 0;
         }
     }
     reading.shows = fmt::format("{} fields by {}", fields.size(), reading.name);

@@ -35,13 +35,12 @@ Log log_of(const std::vector<Sample>& samples) {
     return log;
 }
 
-// The largest distance of neighbouring intervals from their mean.
-double unevenness(const Log& log) {
+// The largest distance of an interval from their mean, relative to it.
+double unevenness(const std::vector<double>& time_s) {
     double worst = 0.0;
-    const auto count = static_cast<double>(log.time_s.size() - 1);
-    const double mean_s = (log.time_s.back() - log.time_s.front()) / count;
-    for (std::size_t i = 1; i < log.time_s.size(); ++i) {
-        worst = std::max(worst, std::fabs(log.time_s[i] - log.time_s[i - 1] - mean_s));
+    const double mean_s = (time_s.back() - time_s.front()) / static_cast<double>(time_s.size() - 1);
+    for (std::size_t i = 1; i < time_s.size(); ++i) {
+        worst = std::max(worst, std::fabs(time_s[i] - time_s[i - 1] - mean_s));
     }
     return worst / mean_s;
 }
@@ -65,21 +64,42 @@ TEST(Bursts, AreSpreadEvenlyToTheNextStamp) {
                           "are spread evenly to the next stamp"));
 }
 
-// A sample every 8 ms, packed by fours or eights into messages every 48 ms or so.
+// A sample every 8 ms, packed by fours or eights into messages every 48 ms or so, with a pause of 5 s in between.
 TEST(Bursts, PackedUnevenlyAreStillEvenInTime) {
     std::vector<Sample> samples;
     double sent = 0.0;
     for (int message = 1; message <= 100; ++message) {
         while (sent + 4 <= message * 6.0 + 1e-9) {
             for (int i = 0; i < 4; ++i, ++sent) {
-                samples.push_back({0.048 * message, std::sin(0.1 * sent)});
+                samples.push_back({0.048 * message + (message > 50 ? 5.0 : 0.0), std::sin(0.1 * sent)});
             }
         }
     }
     Log log = log_of(samples);
     EXPECT_TRUE(drive::order_stamps(log).spread);
-    EXPECT_EQ(log.time_s.size(), samples.size());
-    EXPECT_LT(unevenness(log), 0.25);  // to each next stamp alone it would be 0.5
+    ASSERT_EQ(log.time_s.size(), samples.size());
+    const auto pause = static_cast<std::ptrdiff_t>(
+        std::count_if(samples.begin(), samples.end(), [](const Sample& sample) { return sample.time_s < 3.0; }));
+    // To each next stamp alone it would be 0.5.
+    EXPECT_LT(unevenness({log.time_s.begin(), log.time_s.begin() + pause}), 0.25);
+    EXPECT_LT(unevenness({log.time_s.begin() + pause, log.time_s.end()}), 0.25);
+    EXPECT_NEAR(log.time_s[static_cast<std::size_t>(pause)] - log.time_s[static_cast<std::size_t>(pause) - 1], 5.0,
+                0.1);
+}
+
+// A logger that goes from 40 samples a second to two: no line through both is true.
+TEST(Bursts, OfAnotherRateStayWhereTheyWereStamped) {
+    std::vector<Sample> samples;
+    for (int second = 0; second < 40; ++second) {
+        for (int i = 0; i < (second < 20 ? 40 : 2); ++i) {
+            samples.push_back({static_cast<double>(second), static_cast<double>(samples.size())});
+        }
+    }
+    Log log = log_of(samples);
+    EXPECT_TRUE(drive::order_stamps(log).spread);
+    EXPECT_EQ(log.time_s[800], 20.0);
+    EXPECT_EQ(log.time_s[801], 20.5);
+    EXPECT_EQ(log.time_s[760], 19.0);
 }
 
 TEST(Bursts, AreNotSpreadOverAGap) {
@@ -106,6 +126,12 @@ TEST(Bursts, OneSampleWrittenSeveralTimesIsOneSample) {
     EXPECT_FALSE(report.spread);
     EXPECT_EQ(log.time_s.size(), 20U);
     EXPECT_THAT(report.text(), HasSubstr("their mean output stays"));
+}
+
+TEST(Bursts, OfTwoStampsAloneAreMerged) {
+    Log log = log_of({{0, 1}, {0, 2}, {1, 3}, {1, 5}});
+    EXPECT_FALSE(drive::order_stamps(log).spread);
+    EXPECT_THAT(log.output, ElementsAre(1.5, 4));
 }
 
 TEST(Bursts, FewRepeatedStampsGiveTheirMean) {

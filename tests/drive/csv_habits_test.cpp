@@ -50,6 +50,7 @@ TEST(LogHabits, AreFoundAndSaidInOneLine) {
     expect_same("time_s;input;output\n0;0,5;1,5\n0,01;1;2\n0,02;-1,25;1e-3\n", "semicolons, decimal commas");
     expect_same("time_s\tinput\toutput\tnote\n0\t0,5\t1,5\t\n0,01\t1\t2\tx y\n0,02\t-1,25\t1e-3\t\n",
                 "tabs, decimal commas");
+    expect_same("time_s\tinput\toutput\n0\t0.5\t1.5\n0.01\t1\t2\n0.02\t-1.25\t1e-3\n", "tabs");
     expect_same("  time_s input   output\n0 0.5 1.5\n0.01 \t1 2\n0.02 -1.25 1e-3  \n", "blanks between fields");
     expect_same("0,5 0 1,5\n1 0,01 2\n-1,25 0,02 1e-3\n",
                 "blanks between fields, decimal commas, no header, column 3 as output", {.time = "2", .input = "1"});
@@ -57,6 +58,9 @@ TEST(LogHabits, AreFoundAndSaidInOneLine) {
         "\"time_s\",\"input\",\"a \"\"b\"\", c\",\"output\"\n\"0\",\"0,5\",\"1,2,3\",\"1,5\"\n\"0,01\",1,,2\n"
         "\"0,02\",\"-1,25\",\"\",\"1e-3\"\n",
         "quoted fields, decimal commas");
+    expect_same("time_s,\"the \"\"u\"\", in V\",output\n0,0.5,1.5\n0.01,1,2\n0.02,-1.25,1e-3\n", "quoted fields",
+                {.input = "the \"u\", in V"});
+    expect_same("time_s;input;output\nsec;1;1\n0;0.5;1.5\n0.01;1;2\n0.02;-1.25;1e-3\n", "semicolons, a row of units");
     expect_same("time_s;input;output\ns;V;mm\n0;0.5;1.5\n0.01;1;2\n0.02;-1.25;1e-3\n", "semicolons, a row of units");
     expect_same("0,0.5,1.5\n0.01,1,2\n0.02,-1.25,1e-3\n",
                 "no header, column 1 as time, column 2 as input, column 3 as output");
@@ -82,6 +86,11 @@ TEST(LogHabits, DecimalCommasAmongCommasAreRefusedWithTheirReadings) {
                 "no header, column 1 as time, column 2 as input, column 3 as output", {.decimal = "comma"});
     EXPECT_THAT(refusal("time_s,output\n,,0,5\n", {.needs_input = false, .decimal = "comma"}),
                 HasSubstr("l.csv:2: time_s: expected a finite number, found ','"));
+    EXPECT_THAT(
+        refusal("time_s,input,output,4,5,6,7,8,9,10,11,12,13,14,15,16\n0,1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16\n"),
+        AllOf(HasSubstr("expected 16 fields, as the header has, found 17"), Not(HasSubstr("decimal"))));
+    EXPECT_THAT(refusal("time_s;output\n0;1;2;3\n", {.needs_input = false, .decimal = "comma"}),
+                HasSubstr("expected 2 fields, as the header has, found 4"));
     EXPECT_THAT(refusal("time_s,input,output\n0,1,2\n0,5,1,2\n", {.decimal = "comma"}),
                 HasSubstr("l.csv:3: expected 3"));
 }
@@ -95,6 +104,7 @@ TEST(LogHabits, WhatMayBeReadInTwoWaysIsRefused) {
     EXPECT_THAT(refusal("0,5;on\n1,5;off\n"),
                 AllOf(HasSubstr("2 fields by comma: '1', '5;off', or 2 fields by semicolon: '1,5', 'off'"),
                       HasSubstr("--separator comma or semicolon decides")));
+    EXPECT_THAT(refusal("time_s,input,y\n0,1,1e999\n"), HasSubstr("expected a finite number, found '1e999'"));
     EXPECT_THAT(refusal("values\n1\n2\n"), HasSubstr("expected columns apart by commas, semicolons, tabs or blanks"));
     EXPECT_THAT(refusal("time_s,input,y\n0,1,\"2\n"), HasSubstr("l.csv:2: expected quotes that end with their field"));
     EXPECT_THAT(refusal("time_s,input,y\n0,1,\"2\"3\n"), HasSubstr("l.csv:2: expected quotes that end"));
@@ -167,6 +177,12 @@ TEST(LogColumns, SeveralInputsAndASimulation) {
     EXPECT_THAT(refusal(text, {.input = "a", .more_inputs = {"c"}}), HasSubstr("expected a column c for the input"));
     EXPECT_THAT(refusal(text, {.input = "a", .simulated = "y"}), HasSubstr("for the output and the simulation"));
     EXPECT_THAT(refusal(text, {.input = "a", .simulated = "modl"}), HasSubstr("nearest: 'model'"));
+}
+
+TEST(LogColumns, AReferenceIsHeldToo) {
+    Log log = drive::parse_log("time_s,reference,y\n0,1,5\n1,2,6\n1,3,8\n", "l.csv", {.takes_reference = true});
+    (void)drive::order_stamps(log);
+    EXPECT_THAT(log.reference, ElementsAre(1, 3));
 }
 
 TEST(LogColumns, AnOutputThatIsNotNeededIsNought) {

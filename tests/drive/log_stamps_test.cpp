@@ -84,12 +84,14 @@ TEST(LogStamps, DatesCountFromTheFirst) {
     EXPECT_THAT(read("2024-05-01 12:00,1\n2024-05-01 12:01,2\n").time_s, ElementsAre(0, 60));
     // The same moment, told at two places.
     EXPECT_THAT(read("time,y\n2024-05-01T12:00:00Z,1\n2024-05-01T14:00:00.25+02:00,2\n").time_s, ElementsAre(0, 0.25));
+    EXPECT_THAT(read("time,y\n2024-05-01T12:00:00Z,1\n2024-05-01T08:30:01-03:30,2\n").time_s, ElementsAre(0, 1));
     EXPECT_THAT(refusal("time,y\n2024-05-01T12:00:00Z,1\n2024-05-01T14:00:01,2\n"),
                 HasSubstr("l.csv:3: time: expected dates with an offset from UTC"));
     EXPECT_THAT(refusal("time,y\n2024-05-01T12:00:00,1\n5,2\n"), HasSubstr("l.csv:3: time: expected a date"));
     EXPECT_THAT(refusal("time,y\n0,1\n2024-05-01T12:00:00,1\n"), HasSubstr("expected a finite number, found '2024-"));
     for (const char* date : {"2023-02-29T12:00:00", "2024-13-01T12:00:00", "2024-05-01T24:00:00", "2024-05-01T12:60",
-                             "2024-05-01T12:00:00.", "2024-05-01T12:00:00+1", "2024-05-01T12:00:00Zx", "2024-05-01"}) {
+                             "2024-05-01T12:00:00.", "2024-05-01T12:00:00+1", "2024-05-01T12:00:00Zx", "2024-05-01",
+                             "2024-05-01T12:00:61", "2024-05-01T12:00:00+24:00", "2024-05-01T12:00:00+02:60"}) {
         EXPECT_THAT(refusal(std::string("time,y\n") + date + ",1\n"), HasSubstr("expected a finite number")) << date;
     }
     EXPECT_THAT(refusal("time,y\n2024-05-01T12:00,1\n", {.time_unit = "ms"}), HasSubstr("found a date"));
