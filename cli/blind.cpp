@@ -10,12 +10,20 @@
 #include "bench/sha256.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/stand/blind/cases.hpp"
+#include "drive/stand/blind/facts.hpp"
+#include "drive/stand/blind/without_model.hpp"
 #include "gap/drive/start.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {
 
-void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, const std::filesystem::path& folder) {
+namespace {
+
+struct Folder {
+    std::vector<std::pair<std::string, std::string>> files;  // name, text
+};
+
+void check_new(const std::filesystem::path& folder) {
     if (folder.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input, "stand --blind: expected --out FOLDER");
     }
@@ -25,17 +33,14 @@ void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, con
             glsum::Exit::bad_input,
             fmt::format("{}: expected a folder that is new or empty, found files in it", folder.string()));
     }
-    std::vector<stand::blind::Case> cases;
-    {
-        bench::Progress progress("blind cases", count);
-        cases = stand::blind::make_cases(count, seed, jobs, [&] { progress.advance(); });
-    }
-    std::vector<stand::blind::Truth> truths;
-    for (const stand::blind::Case& made : cases) {
-        truths.push_back(made.truth);
-    }
+}
+
+// The truth, its hash, which is said, and only then the cases.
+void write_set(const std::string& sealed, const std::vector<Folder>& cases, std::uint64_t seed,
+               const std::filesystem::path& folder) {
+    std::error_code error;
     std::filesystem::create_directories(folder, error);
-    bench::write_file(folder / "truth.sealed.json", stand::blind::seal(seed, truths));
+    bench::write_file(folder / "truth.sealed.json", sealed);
     const std::string hash = bench::sha256_of(folder / "truth.sealed.json");
     bench::write_file(folder / "truth.sha256", bench::sha256_line(hash, "truth.sealed.json"));
     fmt::print("sha256 of the sealed truth: {}\n", hash);
@@ -43,11 +48,53 @@ void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, con
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const auto place = folder / stand::blind::name_of_case(i + 1);
         std::filesystem::create_directories(place, error);
-        bench::write_file(place / "model.json", cases[i].model);
-        bench::write_file(place / "train.csv", cases[i].train);
-        bench::write_file(place / "validate.csv", cases[i].validate);
+        for (const auto& [name, text] : cases[i].files) {
+            bench::write_file(place / name, text);
+        }
     }
     fmt::print("{} cases, seed {}, in {}\n", cases.size(), seed, folder.string());
+}
+
+// The one place where the base of a case without a model is found.
+drive::Form find_base_of_case(const stand::blind::Facts&, const std::vector<gap::Record>& train) {
+    return gap::search_form("sopdt", train);
+}
+
+}  // namespace
+
+void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, const std::filesystem::path& folder) {
+    check_new(folder);
+    std::vector<stand::blind::Truth> truths;
+    std::vector<Folder> folders;
+    {
+        bench::Progress progress("blind cases", count);
+        for (auto& made : stand::blind::make_cases(count, seed, jobs, [&] { progress.advance(); })) {
+            truths.push_back(std::move(made.truth));
+            folders.push_back({{{"model.json", std::move(made.model)},
+                                {"train.csv", std::move(made.train)},
+                                {"validate.csv", std::move(made.validate)}}});
+        }
+    }
+    write_set(stand::blind::seal(seed, truths), folders, seed, folder);
+}
+
+void write_open_cases(std::size_t count, std::uint64_t seed, unsigned jobs, const std::filesystem::path& folder) {
+    check_new(folder);
+    std::vector<stand::blind::OpenTruth> truths;
+    std::vector<Folder> folders;
+    {
+        bench::Progress progress("blind cases", count);
+        for (auto& made : stand::blind::make_open_cases(count, seed, jobs, [&] { progress.advance(); })) {
+            truths.push_back(std::move(made.truth));
+            Folder& own = folders.emplace_back(Folder{std::move(made.records)});
+            own.files.emplace_back("case.json", std::move(made.facts));
+        }
+    }
+    write_set(stand::blind::seal_open(seed, truths), folders, seed, folder);
+}
+
+bool is_blind_case(const std::filesystem::path& folder) {
+    return std::filesystem::exists(folder / "model.json") || std::filesystem::exists(folder / "case.json");
 }
 
 gap::Question blind_question(const std::filesystem::path& folder) {
@@ -61,14 +108,19 @@ gap::Question blind_question(const std::filesystem::path& folder) {
         std::sort(found.begin(), found.end());
         return read_records(found, {});
     };
-    return {gap::form_of(read_model((folder / "model.json").string())),
-            false,
-            logs("train"),
-            logs("validate"),
-            std::nullopt,
-            gap::Metric::simulation,
-            {},
-            1};
+    gap::Question question;
+    question.train = logs("train");
+    question.validate = logs("validate");
+    if (std::filesystem::exists(folder / "model.json")) {
+        question.form = gap::form_of(read_model((folder / "model.json").string()));
+    } else {
+        const auto told = folder / "case.json";
+        constexpr std::size_t most_bytes = 1U << 16U;
+        question.form = find_base_of_case(stand::blind::parse_facts(bench::read_file(told, most_bytes), told.string()),
+                                          question.train);
+        question.refit = true;
+    }
+    return question;
 }
 
 }  // namespace cli

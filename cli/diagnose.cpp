@@ -75,15 +75,16 @@ void run_batch(const std::filesystem::path& set, unsigned jobs) {
     std::vector<std::filesystem::path> cases;
     std::error_code unreadable;
     for (const auto& entry : std::filesystem::directory_iterator(set, unreadable)) {
-        if (std::filesystem::exists(entry.path() / "model.json")) {
+        if (is_blind_case(entry.path())) {
             cases.push_back(entry.path());
         }
     }
     if (cases.empty()) {
         throw glsum::Failure(
             glsum::Exit::bad_input,
-            fmt::format("--batch {}: expected folders with model.json, train*.csv and validate*.csv, found none",
-                        set.string()));
+            fmt::format(
+                "--batch {}: expected folders with model.json or case.json, train*.csv and validate*.csv, found none",
+                set.string()));
     }
     std::sort(cases.begin(), cases.end());
     std::vector<std::string> verdicts(cases.size());
@@ -170,9 +171,10 @@ void add_options(Command& command, const Words&) {
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
     command.add_option("--jobs", options->jobs, "Threads").at_least(1);
     auto set = std::make_shared<std::filesystem::path>();
-    command.add_option("--batch", *set,
-                       "Judge each case of a blind set: DIR/NNN/ with model.json, train*.csv and validate*.csv; writes "
-                       "DIR/NNN/verdict.json and DIR/verdicts.sha256");
+    command.add_option(
+        "--batch", *set,
+        "Judge each case of a blind set: DIR/NNN/ with model.json, or case.json where the base is to be found, "
+        "train*.csv and validate*.csv; writes DIR/NNN/verdict.json and DIR/verdicts.sha256");
     struct Exam {
         std::filesystem::path manifest;
         std::filesystem::path data;

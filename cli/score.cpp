@@ -9,11 +9,13 @@
 #include <thread>
 
 #include "bench/files.hpp"
+#include "bench/gnuplot.hpp"
 #include "bench/parallel.hpp"
 #include "bench/progress.hpp"
 #include "bench/sha256.hpp"
 #include "cli/blind.hpp"
 #include "cli/exam.hpp"
+#include "drive/stand/blind/judge.hpp"
 #include "drive/stand/blind/score.hpp"
 #include "gap/drive/oracle.hpp"
 #include "qemu/failure.hpp"
@@ -36,6 +38,7 @@ struct Options {
     bool no_oracle = false;
     unsigned jobs = 1;
     std::filesystem::path json;
+    std::filesystem::path plot;
 };
 
 // The text of a file that has the hash which was written down for it.
@@ -134,10 +137,28 @@ std::vector<blind::Answer> answers_by(const std::vector<std::optional<gap::Fores
     return answers;
 }
 
-void run(const Options& options) {
-    // The verdicts are fixed before the truth is opened: both by their hashes.
-    const std::vector<blind::SealedCase> truths = open_truth(options);
-    const std::vector<blind::Answer> answers = open_verdicts(options, truths);
+// What is not reached is said, and with --goals is a failure.
+void tell_goals(const Options& options, const std::vector<std::string>& missed) {
+    for (const std::string& goal : missed) {
+        fmt::print("not reached: {}\n", goal);
+    }
+    if (options.goals && !missed.empty()) {
+        throw Failure(Exit::check_failed, fmt::format("score: {} goals are not reached", missed.size()));
+    }
+}
+
+void write_results(const Options& options, const std::string& json, const std::vector<blind::Claim>& claims) {
+    if (!options.json.empty()) {
+        bench::write_file(options.json, json);
+    }
+    if (!options.plot.empty()) {
+        bench::draw(blind::picture_of_calibration(claims), options.plot);
+    }
+}
+
+// Cases with a model: verdicts beside an oracle and beside plain criteria.
+void score_with_models(const Options& options, const std::vector<blind::SealedCase>& truths,
+                       const std::vector<blind::Answer>& answers) {
     std::vector<std::optional<gap::Foresight>> foresights;
     std::vector<std::optional<blind::Oracle>> oracle;
     if (!options.no_oracle) {
@@ -157,16 +178,23 @@ void run(const Options& options) {
         add("prewhitened BIC", answers_by(foresights, &gap::Foresight::by_whitened_bic));
     }
     fmt::print("{} cases of {}\n\n{}", truths.size(), options.folder.string(), blind::to_text(scored));
-    if (!options.json.empty()) {
-        bench::write_file(options.json, blind::to_json(scored));
-    }
-    const std::vector<std::string> missed = blind::missed_goals(scored.front().score);
-    for (const std::string& goal : missed) {
-        fmt::print("not reached: {}\n", goal);
-    }
-    if (options.goals && !missed.empty()) {
-        throw Failure(Exit::check_failed, fmt::format("score: {} goals are not reached", missed.size()));
-    }
+    write_results(options, blind::to_json(scored), scored.front().score.claims);
+    tell_goals(options, blind::missed_goals(scored.front().score));
+}
+
+void score_without_models(const Options& options, const std::vector<blind::SealedCase>& truths,
+                          const std::vector<blind::Answer>& answers) {
+    const blind::OpenScore scored = blind::score_open(truths, answers);
+    fmt::print("{} cases of {}, without models\n\n{}", truths.size(), options.folder.string(), blind::to_text(scored));
+    write_results(options, blind::to_json(scored), scored.claims);
+    tell_goals(options, blind::missed_goals(scored));
+}
+
+void run(const Options& options) {
+    // The verdicts are fixed before the truth is opened: both by their hashes.
+    const std::vector<blind::SealedCase> truths = open_truth(options);
+    const std::vector<blind::Answer> answers = open_verdicts(options, truths);
+    (truths.front().fitted_base ? score_without_models : score_with_models)(options, truths, answers);
 }
 
 }  // namespace
@@ -174,6 +202,7 @@ void run(const Options& options) {
 void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
+        "A set of --no-model is scored by points; its rules and goals are in drive/stand/blind/README.md.\n"
         "Exits 2 where a verdict or the truth is not what its hash says.\n"
         "Example: glsum stand --blind 100 --seed 7 --out build/blind && glsum diagnose --batch build/blind && glsum "
         "score build/blind\n"
@@ -182,12 +211,16 @@ void add_options(Command& command, const Words&) {
     const Option exam = command.add_option("--exam", options->exam, "Instead: the answers of diagnose --exam");
     command.add_option("--truth", options->truth, "Of --exam: what is known, a JSON file").needs(exam);
     command.add_option("--truth-sha256", options->truth_hash, "What stand --blind printed first");
-    command.add_flag("--no-oracle", options->no_oracle,
-                     "Without the true effects refitted: says nothing of what is identifiable, and takes no time");
+    command.add_flag(
+        "--no-oracle", options->no_oracle,
+        "Without the true effects refitted: says nothing of what is identifiable, and takes no time; a set "
+        "without models has none");
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
     command.add_option("--jobs", options->jobs, "Threads").at_least(1);
     command.add_flag("--goals", options->goals, "Exit 1 unless what is to be reached is");
     command.add_option("--json", options->json, "Write all numbers as JSON");
+    command.add_option("--plot", options->plot,
+                       "Draw how often answers are right by their confidence: STEM.svg and STEM.png");
     command.callback([options] {
         if (options->exam.empty() == options->folder.empty()) {
             throw Failure(Exit::bad_input, "score: expected the folder of a blind set or --exam DIR, one of them");

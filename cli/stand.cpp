@@ -35,6 +35,7 @@ struct Options {
     bool truth = false;
     bool show = false;
     std::size_t blind = 0;
+    bool no_model = false;
     unsigned jobs = 1;
     std::filesystem::path model;
     std::filesystem::path out;
@@ -81,8 +82,12 @@ stand::Stand build_stand(const Options& options) {
 
 void run(const Options& options) {
     if (options.blind > 0) {
-        write_blind_cases(options.blind, options.seed, options.jobs, options.out);
+        (options.no_model ? write_open_cases : write_blind_cases)(options.blind, options.seed, options.jobs,
+                                                                  options.out);
         return;
+    }
+    if (options.no_model) {
+        throw Failure(Exit::bad_input, "stand --no-model: expected --blind N beside it");
     }
     const stand::Stand built = build_stand(options);
     if (!options.model.empty()) {
@@ -149,7 +154,8 @@ void add_options(Command& command, const Words&) {
         "Example: glsum stand --experiment chirp --duty 0.4 --until-s 60 --seed 7 --out chirp.csv\n"
         "Example: glsum stand --only coulomb_friction,encoder_quantisation --experiment staircase --out log.csv\n"
         "Example: glsum stand --ideal --model linear.json --experiment prbs --out linear.csv\n"
-        "Example: glsum stand --blind 100 --seed 7 --out build/blind    (then diagnose --batch and score)");
+        "Example: glsum stand --blind 100 --seed 7 --out build/blind    (then diagnose --batch and score)\n"
+        "Example: glsum stand --blind 100 --no-model --seed 7 --out build/open");
     command.add_option("--stand", options->stand, "TOML with parts and effects; what it leaves out has its usual size");
     command.add_option("--set", options->set, "EFFECT.SIZE=NUMBER, or a part's NAME=NUMBER; repeatable");
     command.add_option("--without", options->without, "Effects that are absent").delimiter(',');
@@ -188,6 +194,8 @@ void add_options(Command& command, const Words&) {
                     "Instead: so many cases for a diagnosis, each with a model, two logs and an effect that only "
                     "the sealed truth names, into the folder --out")
         .between(1, 999);
+    command.add_flag("--no-model", options->no_model,
+                     "Of --blind: cases without a model, of mechanical, thermal and hydraulic plants");
     command.add_option("--jobs", options->jobs, "Threads, of --blind").at_least(1);
     command.callback([options] { run(*options); });
 }

@@ -6,65 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/parallel.hpp"
+#include "drive/stand/blind/deck.hpp"
 #include "qemu/failure.hpp"
 
 namespace stand::blind {
-namespace {
-
-// Every card once, then all again in another order.
-class Deck {
-public:
-    Deck(std::vector<std::string> effects, std::vector<Size3> sizes, Chance& chance) : chance_(chance) {
-        for (const std::string& effect : effects) {
-            for (const Size3 size : sizes) {
-                all_.emplace_back(effect, size);
-            }
-        }
-    }
-    std::pair<std::string, Size3> deal() {
-        if (left_.empty()) {
-            left_ = all_;
-            chance_.shuffle(left_);
-        }
-        const auto card = left_.back();
-        left_.pop_back();
-        return card;
-    }
-
-private:
-    Chance& chance_;
-    std::vector<std::pair<std::string, Size3>> all_;
-    std::vector<std::pair<std::string, Size3>> left_;
-};
-
-// Two that could stand for one another, or of which one hides the other, make no pair.
-bool pairs_with(const std::string& a, const std::string& b) {
-    const auto place = [](const std::string& effect) -> std::string {
-        if (bends_the_input(effect) || effect == "gain_error" || effect == "gain_drift") {
-            return "input";
-        }
-        if (is_lag(effect) || effect == "dead_time_error" || effect == "time_scale_error" || effect == "order_error" ||
-            effect == "rate_limit" || effect == "direction_asymmetry") {
-            return "dynamics";
-        }
-        if (effect == "end_stop" || effect == "sensor_saturation" || effect == "output_curve" ||
-            effect == "gravity_nonlinearity") {
-            return "range";
-        }
-        if (effect == "coulomb_friction" || effect == "direction_dependent_friction" || effect == "backlash" ||
-            effect == "quadratic_drag") {
-            return "motion";
-        }
-        if (effect == "sensor_offset" || effect == "sensor_drift" || effect == "load_disturbance" ||
-            effect == "missed_counts") {
-            return "bias";
-        }
-        return effect;
-    };
-    return place(a) != place(b);
-}
-
-}  // namespace
 
 const char* name_of(Class kind) {
     switch (kind) {
@@ -78,6 +23,8 @@ const char* name_of(Class kind) {
             return "unlisted";
         case Class::same:
             return "same";
+        case Class::taken_up:
+            return "taken_up";
     }
     return "";
 }

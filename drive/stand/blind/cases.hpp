@@ -18,6 +18,7 @@ enum class Class {
     pair,      ///< both effects together
     unlisted,  ///< `unknown`
     same,      ///< cannot be told from others by construction: `ambiguous`, with the right alternatives
+    taken_up,  ///< without a model: what a fitted base takes up by itself, `no_gap`
 };
 [[nodiscard]] const char* name_of(Class kind);
 

@@ -84,24 +84,6 @@ std::vector<Stretch> stretches_in(const Json& file, const std::string& name) {
     return stretches;
 }
 
-double wilson(const Share& share, double side) {
-    if (share.all == 0) {
-        return side < 0.0 ? 0.0 : 1.0;
-    }
-    const double n = static_cast<double>(share.all);
-    const double p = static_cast<double>(share.hits) / n;
-    constexpr double z = 1.959963984540054;  // 97.5 % of the normal distribution
-    const double middle = p + z * z / (2.0 * n);
-    const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n));
-    return std::clamp((middle + side * half) / (1.0 + z * z / n), 0.0, 1.0);
-}
-
-std::string row_of(const SealedCase& truth) { return truth.kind == "single" ? truth.effects.front() : truth.kind; }
-
-std::string column_of(const Answer& answer) {
-    return answer.verdict == "attributed" ? fmt::format("{}", fmt::join(sorted(answer.effects), "+")) : answer.verdict;
-}
-
 // The share of what a verdict locates that lies in the true stretches; a located stretch counts as even in itself.
 std::optional<double> share_inside(const std::vector<Stretch>& truth, const std::vector<Stretch>& located) {
     double inside = 0.0;
@@ -142,9 +124,11 @@ std::string table(const char* title, const std::map<std::string, Share>& shares)
 
 }  // namespace
 
-double Share::value() const { return all == 0 ? 0.0 : static_cast<double>(hits) / static_cast<double>(all); }
-double Share::low() const { return wilson(*this, -1.0); }
-double Share::high() const { return wilson(*this, 1.0); }
+std::string row_of(const SealedCase& truth) { return truth.kind == "single" ? truth.effects.front() : truth.kind; }
+
+std::string column_of(const Answer& answer) {
+    return answer.verdict == "attributed" ? fmt::format("{}", fmt::join(sorted(answer.effects), "+")) : answer.verdict;
+}
 
 std::vector<SealedCase> parse_sealed(const std::string& text, const std::string& name) {
     const Json file = parse(text, name);
@@ -152,15 +136,23 @@ std::vector<SealedCase> parse_sealed(const std::string& text, const std::string&
     if (schema != "glsum-blind-truth-1") {
         refuse(fmt::format("{}: schema: expected glsum-blind-truth-1, found {}", name, schema));
     }
+    const bool fitted = file.contains("base");
+    if (fitted && file["base"] != "fitted") {
+        refuse(fmt::format("{}: base: expected fitted, found {}", name, file["base"].dump().substr(0, 60)));
+    }
+    const std::vector<std::string> kinds{"none", "single", "pair", "unlisted", fitted ? "taken_up" : "same"};
     std::vector<SealedCase> cases;
     for (const Json& row : take_list(file, "cases", name)) {
         SealedCase truth;
+        truth.fitted_base = fitted;
         truth.name = take<std::string>(row, "case", name);
         const std::string where = fmt::format("{}: case {}", name, truth.name);
         truth.kind = take<std::string>(row, "class", where);
-        if (!contains({"none", "single", "pair", "unlisted", "same"}, truth.kind)) {
-            refuse(
-                fmt::format("{}: class: expected none, single, pair, unlisted or same, found {}", where, truth.kind));
+        if (!contains(kinds, truth.kind)) {
+            refuse(fmt::format("{}: class: expected one of {}, found {}", where, fmt::join(kinds, ", "), truth.kind));
+        }
+        if (fitted) {
+            truth.domain = take<std::string>(row, "domain", where);
         }
         const Json effects = take_list(row, "effects", where);
         truth.effects = names_in(effects, where);
@@ -256,12 +248,6 @@ Score score(std::span<const SealedCase> truths, std::span<const Answer> answers,
             fmt::format("score: expected one verdict for each of {} cases, found {}", truths.size(), answers.size()));
     }
     Score total;
-    for (const double from : {0.0, 0.5, 0.7, 0.8, 0.9, 0.95}) {
-        total.calibration.push_back({from, 1.0 + 1e-12, {}});
-        if (total.calibration.size() > 1) {
-            total.calibration[total.calibration.size() - 2].to = from;
-        }
-    }
     for (std::size_t i = 0; i < truths.size(); ++i) {
         const SealedCase& truth = truths[i];
         const Answer& answer = answers[i];
@@ -293,12 +279,7 @@ Score score(std::span<const SealedCase> truths, std::span<const Answer> answers,
         }
         if (answer.verdict == "attributed") {
             total.wrong_claims.count(!right);
-            for (Confidence& bin : total.calibration) {
-                if (answer.confidence >= bin.from && answer.confidence < bin.to) {
-                    bin.claimed += answer.confidence;
-                    bin.right.count(right);
-                }
-            }
+            total.claims.push_back({answer.confidence, right});
         }
         const double room = truth.gap_base - truth.noise_floor;
         const bool listed = truth.kind == "single" || truth.kind == "pair";
@@ -317,9 +298,7 @@ Score score(std::span<const SealedCase> truths, std::span<const Answer> answers,
             total.in_the_stretch.push_back(*inside);
         }
     }
-    for (Confidence& bin : total.calibration) {
-        bin.claimed /= static_cast<double>(std::max<std::size_t>(bin.right.all, 1));
-    }
+    total.calibration = calibrate(total.claims);
     for (auto* values : {&total.shrinks, &total.of_the_oracle, &total.in_the_stretch}) {
         std::sort(values->begin(), values->end());
     }

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "drive/stand/blind/calibration.hpp"
+
 namespace stand::blind {
 
 struct Stretch {
@@ -19,7 +21,9 @@ struct Stretch {
 /// A case of the sealed file.
 struct SealedCase {
     std::string name;
-    std::string kind;  ///< `none`, `single`, `pair`, `unlisted`, `same`
+    std::string kind;          ///< `none`, `single`, `pair`, `unlisted`; `same` or, of a fitted base, `taken_up`
+    bool fitted_base = false;  ///< nobody handed over a model: `judge` scores it
+    std::string domain;        ///< of a fitted base
     std::vector<std::string> effects;
     std::string size;  ///< of the first effect; empty without one
     std::vector<std::string> required;
@@ -53,27 +57,6 @@ struct Oracle {
 [[nodiscard]] std::vector<SealedCase> parse_sealed(const std::string& text, const std::string& name);
 [[nodiscard]] Answer parse_answer(const std::string& text, const std::string& name);
 
-/// `hits` of `all`, with Wilson's 95 % interval.
-struct Share {
-    std::size_t hits = 0;
-    std::size_t all = 0;
-    void count(bool hit) {
-        hits += hit ? 1 : 0;
-        ++all;
-    }
-    [[nodiscard]] double value() const;
-    [[nodiscard]] double low() const;
-    [[nodiscard]] double high() const;
-};
-
-/// Answers that were given with a confidence in [from, to).
-struct Confidence {
-    double from;
-    double to;
-    Share right;
-    double claimed = 0.0;  ///< mean
-};
-
 struct Score {
     Share top_one;       ///< all cases: the right answer of their class
     Share identifiable;  ///< single effects that the oracle finds identifiable; none counted without an oracle
@@ -86,7 +69,8 @@ struct Score {
     std::map<std::string, Share> by_effect;  ///< single ones
     std::map<std::string, Share> by_size;
     std::map<std::string, Share> by_training;                             ///< single ones, by the training's excitation
-    std::vector<Confidence> calibration;                                  ///< of the attributed
+    std::vector<Claim> claims;                                            ///< the attributed
+    std::vector<Confidence> calibration;                                  ///< of them
     std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth, answer
     std::vector<double> shrinks;  ///< of rightly named effects, by the true noise floor; sorted
     /// Of all cases with one or two listed effects: how far the gap shrinks over how far the oracle shrinks it; 0 where
@@ -94,6 +78,11 @@ struct Score {
     std::vector<double> of_the_oracle;
     std::vector<double> in_the_stretch;  ///< share of the located gap inside the true stretch, for events; sorted
 };
+
+/// What a table of confusions calls them: the effect of a single one, else the class; the effects of an attribution,
+/// else the verdict.
+[[nodiscard]] std::string row_of(const SealedCase& truth);
+[[nodiscard]] std::string column_of(const Answer& answer);
 
 /// Whether an answer is the right one.
 [[nodiscard]] bool is_right(const SealedCase& truth, const Answer& answer);

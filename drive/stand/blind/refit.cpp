@@ -1,0 +1,292 @@
+#include "drive/stand/blind/refit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace stand::blind {
+namespace {
+
+using Matrix3 = std::array<std::array<double, 3>, 3>;
+
+Matrix3 product(const Matrix3& a, const Matrix3& b) {
+    Matrix3 c{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        for (std::size_t j = 0; j < 3; ++j) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                c[i][j] += a[i][k] * b[k][j];
+            }
+        }
+    }
+    return c;
+}
+
+// Place, speed (times T) and held input one step on: the exponential, by Taylor's terms of a small part, squared.
+Matrix3 one_step(double time_s, double damping, double step_s) {
+    constexpr int squarings = 12;
+    const double small = step_s / time_s / std::pow(2.0, squarings);
+    const Matrix3 rate{{{0.0, small, 0.0}, {-small, -2.0 * damping * small, small}, {0.0, 0.0, 0.0}}};
+    Matrix3 term{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+    Matrix3 sum = term;
+    for (int n = 1; n <= 6; ++n) {
+        term = product(term, rate);
+        for (std::size_t i = 0; i < 3; ++i) {
+            for (std::size_t j = 0; j < 3; ++j) {
+                term[i][j] /= n;
+                sum[i][j] += term[i][j];
+            }
+        }
+    }
+    for (int n = 0; n < squarings; ++n) {
+        sum = product(sum, sum);
+    }
+    return sum;
+}
+
+// A record's input through the two poles, without delay.
+struct Through {
+    std::vector<double> place;
+    std::vector<double> speed;
+};
+
+std::vector<Through> filter(std::span<const EvenRecord> records, double time_s, double damping, double step_s) {
+    const Matrix3 step = one_step(time_s, damping, step_s);
+    std::vector<Through> all;
+    for (const EvenRecord& record : records) {
+        Through through;
+        double place = 0.0;
+        double speed = 0.0;
+        for (const double u : record.input) {
+            through.place.push_back(place);
+            through.speed.push_back(speed);
+            const double next = step[0][0] * place + step[0][1] * speed + step[0][2] * u;
+            speed = step[1][0] * place + step[1][1] * speed + step[1][2] * u;
+            place = next;
+        }
+        all.push_back(std::move(through));
+    }
+    return all;
+}
+
+double delayed(const std::vector<double>& values, std::size_t k, double delay_steps) {
+    const double at = static_cast<double>(k) - delay_steps;
+    if (at <= 0.0) {
+        return 0.0;
+    }
+    const auto before = static_cast<std::size_t>(at);
+    const double part = at - static_cast<double>(before);
+    return part > 0.0 ? values[before] + part * (values[before + 1] - values[before]) : values[before];
+}
+
+// Sums of squares and products of 1, place, speed and output.
+struct Sums {
+    std::array<std::array<double, 4>, 4> of{};
+    void add(double place, double speed, double output) {
+        const std::array<double, 4> row{1.0, place, speed, output};
+        for (std::size_t i = 0; i < 4; ++i) {
+            for (std::size_t j = i; j < 4; ++j) {
+                of[i][j] += row[i] * row[j];
+            }
+        }
+    }
+};
+
+// Gauss' elimination of the normal equations: what is left of the output's square is the sum of squares that remains.
+double solve(Sums sums, LinearBase& base) {
+    auto& m = sums.of;
+    std::array<double, 3> root{};
+    for (std::size_t p = 0; p < 3; ++p) {
+        const double pivot = m[p][p];
+        if (!(pivot > 1e-12)) {
+            continue;  // a regressor that adds nothing to those before
+        }
+        root[p] = pivot;
+        for (std::size_t i = p + 1; i < 4; ++i) {
+            const double factor = m[p][i] / pivot;
+            for (std::size_t j = i; j < 4; ++j) {
+                m[i][j] -= factor * m[p][j];
+            }
+        }
+    }
+    std::array<double, 3> value{};
+    for (std::size_t p = 3; p-- > 0;) {
+        double rest = m[p][3];
+        for (std::size_t j = p + 1; j < 3; ++j) {
+            rest -= m[p][j] * value[j];
+        }
+        value[p] = root[p] > 0.0 ? rest / root[p] : 0.0;
+    }
+    base.offset = value[0];
+    base.gain = value[1];
+    base.lead_gain = value[2];
+    return std::max(0.0, m[3][3]);
+}
+
+using Point = std::array<double, 3>;
+
+// A point's mirror image and others on the line through a middle.
+Point along(const Point& middle, const Point& worst, double by) {
+    Point point{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        point[i] = middle[i] + by * (worst[i] - middle[i]);
+    }
+    return point;
+}
+
+template <class Cost>
+void descend_from(const Point& first, double reach, const Cost& cost) {
+    struct Corner {
+        Point point;
+        double cost;
+    };
+    std::vector<Corner> simplex{{first, cost(first)}};
+    for (std::size_t i = 0; i < 3; ++i) {
+        Point point = first;
+        point[i] += reach;
+        simplex.push_back({point, cost(point)});
+    }
+    constexpr int most_steps = 120;
+    for (int step = 0; step < most_steps; ++step) {
+        std::sort(simplex.begin(), simplex.end(), [](const Corner& a, const Corner& b) { return a.cost < b.cost; });
+        if (simplex.back().cost - simplex.front().cost <= 1e-4 * simplex.front().cost) {
+            return;
+        }
+        Point middle{};
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                middle[i] += simplex[corner].point[i] / 3.0;
+            }
+        }
+        Corner& worst = simplex.back();
+        const auto tried = [&](double by) {
+            const Point point = along(middle, worst.point, by);
+            return Corner{point, cost(point)};
+        };
+        const Corner mirrored = tried(-1.0);
+        if (mirrored.cost < simplex.front().cost) {
+            const Corner further = tried(-2.0);
+            worst = further.cost < mirrored.cost ? further : mirrored;
+        } else if (mirrored.cost < simplex[2].cost) {
+            worst = mirrored;
+        } else {
+            const Corner nearer = tried(mirrored.cost < worst.cost ? -0.5 : 0.5);
+            if (nearer.cost < std::min(mirrored.cost, worst.cost)) {
+                worst = nearer;
+                continue;
+            }
+            for (std::size_t corner = 1; corner < simplex.size(); ++corner) {
+                simplex[corner].point = along(simplex[0].point, simplex[corner].point, 0.5);
+                simplex[corner].cost = cost(simplex[corner].point);
+            }
+        }
+    }
+}
+
+class Search {
+public:
+    Search(std::span<const EvenRecord> records, double step_s) : records_(records), step_s_(step_s) {
+        double low = std::numeric_limits<double>::infinity();
+        double high = -low;
+        for (const EvenRecord& record : records) {
+            for (const double u : record.input) {
+                input_ = std::max(input_, std::fabs(u));
+            }
+            for (std::size_t k = record.from; k < record.output.size(); ++k) {
+                low = std::min(low, record.output[k]);
+                high = std::max(high, record.output[k]);
+            }
+        }
+        middle_ = 0.5 * (low + high);
+        half_ = std::max(0.5 * (high - low), 1e-300);
+        input_ = std::max(input_, 1e-300);
+    }
+
+    void through(double time_s, double damping) { through_ = filter(records_, time_s, damping, step_s_); }
+
+    // Of output and input in units of their ranges, so that pivots and sums are about 1 a sample.
+    double cost(LinearBase& base) const {
+        Sums sums;
+        const double delay_steps = base.delay_s / step_s_;
+        for (std::size_t r = 0; r < records_.size(); ++r) {
+            for (std::size_t k = records_[r].from; k < records_[r].output.size(); ++k) {
+                sums.add(delayed(through_[r].place, k, delay_steps) / input_,
+                         delayed(through_[r].speed, k, delay_steps) / input_,
+                         (records_[r].output[k] - middle_) / half_);
+            }
+        }
+        const double left = solve(sums, base);
+        base.offset = middle_ + half_ * base.offset;
+        base.gain *= half_ / input_;
+        base.lead_gain *= half_ / input_;
+        return left;
+    }
+
+    double cost_anew(LinearBase& base) {
+        through(base.time_s, base.damping);
+        return cost(base);
+    }
+
+private:
+    std::span<const EvenRecord> records_;
+    double step_s_;
+    double middle_ = 0.0;
+    double half_ = 1.0;
+    double input_ = 0.0;
+    std::vector<Through> through_;
+};
+
+}  // namespace
+
+LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double tau_s) {
+    Search search(records, step_s);
+    LinearBase best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const double time : {0.15, 0.3, 0.6, 1.0, 1.8}) {
+        for (const double damping : {0.3, 0.7, 1.2, 2.5}) {
+            search.through(time * tau_s, damping);
+            for (const double delay : {0.0, 0.1, 0.25, 0.5, 1.0}) {
+                LinearBase tried{time * tau_s, damping, delay * tau_s};
+                const double cost = search.cost(tried);
+                if (cost < least) {
+                    least = cost;
+                    best = tried;
+                }
+            }
+        }
+    }
+    // Nelder and Mead's simplex in the logarithms of time and damping and in the delay.
+    const auto at = [&](const Point& point) {
+        LinearBase tried{tau_s * std::exp(point[0]), std::clamp(std::exp(point[1]), 0.05, 20.0),
+                         tau_s * std::max(0.0, point[2])};
+        const double cost = search.cost_anew(tried);
+        if (cost < least) {
+            least = cost;
+            best = tried;
+        }
+        return cost;
+    };
+    for (const double reach : {0.3, 0.1}) {
+        const Point first{std::log(best.time_s / tau_s), std::log(best.damping), best.delay_s / tau_s};
+        descend_from(first, reach, at);
+    }
+    return best;
+}
+
+double misfit(const LinearBase& base, std::span<const EvenRecord> records, double step_s) {
+    const auto through = filter(records, base.time_s, base.damping, step_s);
+    double square = 0.0;
+    double count = 0.0;
+    for (std::size_t r = 0; r < records.size(); ++r) {
+        for (std::size_t k = records[r].from; k < records[r].output.size(); ++k) {
+            const double left = records[r].output[k] - base.offset -
+                                base.gain * delayed(through[r].place, k, base.delay_s / step_s) -
+                                base.lead_gain * delayed(through[r].speed, k, base.delay_s / step_s);
+            square += left * left;
+            count += 1.0;
+        }
+    }
+    return std::sqrt(square / std::max(count, 1.0));
+}
+
+}  // namespace stand::blind
