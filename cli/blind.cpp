@@ -55,9 +55,17 @@ void write_set(const std::string& sealed, const std::vector<Folder>& cases, std:
     fmt::print("{} cases, seed {}, in {}\n", cases.size(), seed, folder.string());
 }
 
+gap::Question question_of(drive::Form form, bool refit, std::vector<gap::Record> train,
+                          std::vector<gap::Record> validate) {
+    return {
+        std::move(form), refit, std::move(train), std::move(validate), std::nullopt, gap::Metric::simulation, {}, 1};
+}
+
 // The one place where the base of a case without a model is found.
-drive::Form find_base_of_case(const stand::blind::Facts&, const std::vector<gap::Record>& train) {
-    return gap::search_form("sopdt", train);
+gap::Question question_without_model(const stand::blind::Facts&, std::vector<gap::Record> train,
+                                     std::vector<gap::Record> validate) {
+    drive::Form form = gap::search_form("sopdt", train);
+    return question_of(std::move(form), true, std::move(train), std::move(validate));
 }
 
 }  // namespace
@@ -108,19 +116,14 @@ gap::Question blind_question(const std::filesystem::path& folder) {
         std::sort(found.begin(), found.end());
         return read_records(found, {});
     };
-    gap::Question question;
-    question.train = logs("train");
-    question.validate = logs("validate");
     if (std::filesystem::exists(folder / "model.json")) {
-        question.form = gap::form_of(read_model((folder / "model.json").string()));
-    } else {
-        const auto told = folder / "case.json";
-        constexpr std::size_t most_bytes = 1U << 16U;
-        question.form = find_base_of_case(stand::blind::parse_facts(bench::read_file(told, most_bytes), told.string()),
-                                          question.train);
-        question.refit = true;
+        return question_of(gap::form_of(read_model((folder / "model.json").string())), false, logs("train"),
+                           logs("validate"));
     }
-    return question;
+    constexpr std::size_t most_bytes = 1U << 16U;
+    const auto told = folder / "case.json";
+    const auto facts = stand::blind::parse_facts(bench::read_file(told, most_bytes), told.string());
+    return question_without_model(facts, logs("train"), logs("validate"));
 }
 
 }  // namespace cli

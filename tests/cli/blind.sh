@@ -52,4 +52,32 @@ sed -i 's/"class": "none"/"class": "unlisted"/' "$set_of/truth.sealed.json"
 expect 2 "truth.sealed.json: expected the sha256" score "$set_of"
 (cd "$set_of" && sha256sum truth.sealed.json >truth.sha256)
 expect 2 "as --truth-sha256 says" score "$set_of" --truth-sha256 "$hash"
+
+# Without a model: facts instead, three domains, points instead of an oracle.
+open="$folder/open"
+expect 2 "expected --blind N beside it" stand --no-model --out "$open"
+expect 0 "12 cases, seed 3" stand --blind 12 --no-model --seed 3 --out "$open" --jobs 2
+expect 0 "sha256 of the sealed truth: " stand --blind 12 --no-model --seed 3 --out "$folder/open-again"
+diff -r "$open" "$folder/open-again" || { echo "expected the same cases of the same seed"; failures=$((failures + 1)); }
+(cd "$open" && sha256sum --quiet -c truth.sha256) || failures=$((failures + 1))
+for case in "$open"/0*; do
+    for file in case.json train validate; do
+        ls "$case" | grep -q "^$file" || { echo "$case: expected $file"; failures=$((failures + 1)); }
+    done
+done
+[ "$(cat "$open"/0*/case.json | grep -o '"domain": "[a-z]*"' | sort | uniq -c | tr -s ' \n' ' ')" = ' 4 "domain": "hydraulic" 4 "domain": "mechanical" 4 "domain": "thermal" ' ] ||
+    { cat "$open"/0*/case.json; failures=$((failures + 1)); }
+if find "$open" -name 'model*' | grep .; then echo "expected no model"; failures=$((failures + 1)); fi
+if grep -rlE 'effect|class|_error|friction|sensor_|input_|order|curve|taken|unlisted' "$open"/0*; then echo "expected nothing of the truth in a case"; failures=$((failures + 1)); fi
+for case in 001 002 003 004 005 006 007 008 009 010 011 012; do answer no_gap >"$open/$case/verdict.json"; done
+(cd "$open" && sha256sum 0*/verdict.json >verdicts.sha256)
+expect 0 "nothing to find, or taken up: no_gap           100.0 %    4 of 4" score "$open" --json "$folder/open.json" --plot "$folder/calibration"
+expect 1 "score: 2 goals are not reached" score "$open" --goals
+grep -q '"glsum-open-score-1"' "$folder/open.json" || failures=$((failures + 1))
+grep -q "None of 0 answers has a confidence of 0.9 or more" "$folder/calibration.svg" && [ -s "$folder/calibration.png" ] || failures=$((failures + 1))
+# A batch knows such a case by its facts, and says what is wrong with them.
+mkdir -p "$folder/one/001"
+cp "$open"/001/train*.csv "$open"/001/validate*.csv "$folder/one/001"
+echo '{"schema": "glsum-case-1", "domain": "acoustic"}' >"$folder/one/001/case.json"
+expect 2 "case.json: expected one of the domains mechanical, thermal, hydraulic, electric, found acoustic" diagnose --batch "$folder/one"
 [ "$failures" -eq 0 ]

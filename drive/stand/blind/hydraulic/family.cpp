@@ -117,7 +117,8 @@ Parameters TankRig::draw(const std::string& effect, Size3 size, bool one_level, 
         return {{"limit", full_cm * (1.0 - of(0.25, 0.4, 0.55))}, {"restitution", 0.0}};
     }
     if (effect == "load_disturbance") {
-        return {{"size", either * full_flow * of(0.08, 0.16, 0.3)}};
+        // Water that somebody adds: a leak would end where the tank is empty.
+        return {{"size", -full_flow * of(0.08, 0.16, 0.3)}};
     }
     if (effect == "sensor_drift") {
         return {{"per_s", either * full_cm * of(0.05, 0.1, 0.2) / clock.until_s}};
