@@ -117,7 +117,7 @@ TEST(OpenScore, Counts) {
     EXPECT_EQ(stand::blind::right_of_the_sure(found.claims).all, 2U);
     EXPECT_EQ(stand::blind::sure_of_the_right(found.claims).hits, 1U);
     EXPECT_EQ(found.confusion.at("taken_up").at("end_stop"), 1U);
-    EXPECT_THAT(stand::blind::to_text(found), HasSubstr("single causes, points                           50.0 %"));
+    EXPECT_THAT(stand::blind::to_text(found), HasSubstr("single causes, points (>= 80 %)                 50.0 %"));
     EXPECT_THAT(stand::blind::to_json(found), HasSubstr("\"glsum-open-score-1\""));
     EXPECT_THAT(stand::blind::missed_goals(found),
                 testing::ElementsAre(HasSubstr("points for single causes"), HasSubstr("wrong: expected at most 3 %"),

@@ -103,7 +103,7 @@ bench::Picture picture_of_calibration(std::span<const Claim> claims) {
                         "set key top left\n"
                         "set label \"Brier score {:.3f}, {} answers that name causes\" at graph 0.97, graph 0.05 "
                         "right\n"
-                        "plot [0:1] x with lines lw 2 dt 2 lc rgb \"#666666\" title \"as often right as it says\", \\\n"
+                        "plot x with lines lw 2 dt 2 lc rgb \"#666666\" title \"as often right as it says\", \\\n"
                         "  $bins using 1:2:3:4 with yerrorbars pt 7 ps 1.2 lw 2 lc rgb \"{}\" title \"answers, with "
                         "95 % intervals\", \\\n"
                         "  $bins using 1:2:5 with labels offset -1,0.9 right notitle\n",

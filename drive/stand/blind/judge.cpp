@@ -117,13 +117,13 @@ std::string to_text(const OpenScore& score) {
         }
     };
     line("", "reached  counted, with Wilson's 95 % interval");
-    line("single causes, points", percent_of(score.singles));
+    line("single causes, points (>= 80 %)", percent_of(score.singles));
     line("pairs, points", percent_of(score.pairs));
-    line("wrong, of all cases", percent_of(score.wrong));
-    line("unlisted effects called unknown", percent_of(score.unlisted));
-    line("nothing to find, or taken up: no_gap", percent_of(score.nothing));
-    line("answers at 0.9 and above that are right", percent_of(right_of_the_sure(score.claims)));
-    line("right answers that reach 0.9", percent_of(sure_of_the_right(score.claims)));
+    line("wrong, of all cases (<= 3 %)", percent_of(score.wrong));
+    line("unlisted effects called unknown (>= 85 %)", percent_of(score.unlisted));
+    line("nothing to find or taken up: no_gap (>= 95 %)", percent_of(score.nothing));
+    line("answers at 0.9 and above, right (>= 90 %)", percent_of(right_of_the_sure(score.claims)));
+    line("right answers, at 0.9 and above (>= 60 %)", percent_of(sure_of_the_right(score.claims)));
     line("Brier score of the attributed",
          score.claims.empty() ? "none to count"
                               : fmt::format("{:.3f}    {} answers", brier_score(score.claims), score.claims.size()));
