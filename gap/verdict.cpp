@@ -19,9 +19,6 @@ double shrink_of(const Decision& decision, double after) {
     return most > 0.0 ? std::clamp((decision.base_gap - after) / most, -1.0, 1.0) : 0.0;
 }
 
-// "input_dead_zone.width" -> "width"
-std::string own_name(const std::string& name) { return name.substr(name.find('.') + 1); }
-
 Json shares(const std::vector<Share>& list, const char* from, const char* to) {
     Json array = Json::array();
     for (const Share& share : list) {
@@ -46,46 +43,28 @@ std::string shown(const Json& value) {
     return value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : value.get<std::string>();
 }
 
-Json interval_of(const FreeParameter& parameter) {
+Fitted fitted_of(const FreeParameter& parameter) {
     if (parameter.fixed && parameter.deviation == 0.0) {
-        return {parameter.value, parameter.value};
+        return {parameter.value, parameter.value, parameter.value};
     }
     if (!std::isfinite(parameter.deviation)) {
-        return {parameter.lower, parameter.upper};  // nothing tells
+        return {parameter.value, parameter.lower, parameter.upper};  // nothing tells
     }
-    return {std::max(parameter.lower, parameter.value - 1.96 * parameter.deviation),
+    return {parameter.value, std::max(parameter.lower, parameter.value - 1.96 * parameter.deviation),
             std::min(parameter.upper, parameter.value + 1.96 * parameter.deviation)};
 }
 
-// Jumps that happened, as lists; what the module fits one by one.
-void gather_jumps(Json& parameters, Json& interval) {
-    Json times = Json::array();
-    Json sizes = Json::array();
-    Json time_intervals = Json::array();
-    Json size_intervals = Json::array();
-    for (const char* number : {"", "2", "3"}) {
-        const std::string at = std::string("at") + number + "_s";
-        const std::string size = std::string("size") + number;
-        if (parameters[at].get<double>() > 0.0) {
-            times.push_back(parameters[at]);
-            sizes.push_back(parameters[size]);
-            time_intervals.push_back(interval[at]);
-            size_intervals.push_back(interval[size]);
-        }
-    }
-    parameters = {{"at_s", times}, {"sizes", sizes}};
-    interval = {{"at_s", time_intervals}, {"sizes", size_intervals}};
+Json to_json(const ContractValue& value) {
+    return std::visit([](const auto& held) { return Json(held); }, value);
 }
 
-// The parameters of one of a candidate's effects, and their intervals.
+// The parameters of one of a candidate's effects as the contract has them, and their intervals.
 void fill(const Ranked& ranked, const Effect& effect, Json& parameters, Json& interval) {
-    parameters = Json::object();
-    interval = Json::object();
+    std::vector<Fitted> fitted;
     const auto add = [&](const std::vector<FreeParameter>& list) {
         for (const FreeParameter& parameter : list) {
             if (parameter.name.starts_with(effect.name + ".")) {
-                parameters[own_name(parameter.name)] = parameter.value;
-                interval[own_name(parameter.name)] = interval_of(parameter);
+                fitted.push_back(fitted_of(parameter));
             }
         }
     };
@@ -96,12 +75,18 @@ void fill(const Ranked& ranked, const Effect& effect, Json& parameters, Json& in
             add(list);
         }
     }
-    if (effect.name == "missed_counts") {
-        gather_jumps(parameters, interval);
-    }
-    if (effect.name == "fixed_point") {
-        parameters["format"] = parameters["format"] > 20.0 ? "q31" : "q15";
-        interval.erase("format");
+    parameters = Json::object();
+    interval = Json::object();
+    for (const Written& written : effect.to_contract(effect, fitted)) {
+        parameters[written.name] = to_json(written.value);
+        if (std::holds_alternative<double>(written.value)) {
+            interval[written.name] = {written.intervals.front().first, written.intervals.front().second};
+        } else if (std::holds_alternative<std::vector<double>>(written.value)) {
+            interval[written.name] = Json::array();
+            for (const auto& [low, high] : written.intervals) {
+                interval[written.name].push_back({low, high});
+            }
+        }
     }
 }
 
@@ -215,18 +200,10 @@ std::string improved_model(const Answer& answer) {
     Json model = Json::parse(drive::to_json(answer.model_of(chosen.trained)));
     Json list = Json::array();
     for (const Effect* effect : chosen.trained.effects) {
-        Json parameters = Json::object();
-        const auto add = [&](const std::vector<FreeParameter>& numbers) {
-            for (const FreeParameter& parameter : numbers) {
-                if (parameter.name.starts_with(effect->name + ".")) {
-                    parameters[own_name(parameter.name)] = parameter.value;
-                }
-            }
-        };
-        for (const auto& numbers : chosen.trained.lasting) {
-            add(numbers);
-        }
         if (effect->kind != Kind::event) {
+            Json parameters;
+            Json interval;
+            fill(chosen, *effect, parameters, interval);
             list.push_back({{"effect", effect->name}, {"parameters", parameters}});
         }
     }

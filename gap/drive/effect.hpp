@@ -2,10 +2,12 @@
 #pragma once
 
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "gap/drive/contract.hpp"
 #include "gap/drive/scenario.hpp"
 
 namespace gap {
@@ -49,6 +51,25 @@ enum class Kind {
     event,    ///< happens at its own times in each record: located afresh
 };
 
+/// Where an effect acts, in the order in which a signal comes by.
+enum class Place {
+    command,   ///< on its way to the actuator
+    actuator,  ///< from u to w
+    plant,     ///< in the equation of motion
+    output,    ///< between y and the sensor
+    sensor,
+    logger,
+    deployed,  ///< in the simulation that ran
+};
+
+/// What a plant is.
+enum class Domain { mechanical, thermal, hydraulic, electric };
+
+[[nodiscard]] const std::set<Domain>& all_domains();
+[[nodiscard]] const char* name_of(Domain domain);
+/// \throws glsum::Failure (bad input) naming those there are
+[[nodiscard]] Domain domain_named(const std::string& name);
+
 /// What a first guess may look at.
 struct Clue {
     const Course& course;
@@ -68,6 +89,16 @@ struct Effect {
     std::vector<std::string> generalises = {};
     /// Where the residuals say that it happened: values in the order of `parameters`. For events.
     std::vector<double> (*guess)(const Clue& clue) = nullptr;
+    Place place;
+    /// What files call its parameters, in the order of `parameters`, which has the same names.
+    std::vector<Number> numbers;
+    std::set<Domain> domains = all_domains();  ///< in which it can occur
+    bool uneven_noise = false;                 ///< it makes noise uneven by nature
+    bool of_fitted_base = false;               ///< a base that is fitted has this already
+    bool only_spreads = false;                 ///< moves no reading: found by likelihood, not by the sum of squares
+    bool rounds = false;  ///< a reading stands for a range of values, within which nothing is missed
+    std::vector<Written> (*to_contract)(const Effect& effect, std::span<const Fitted> fitted) = numbers_to_contract;
+    std::vector<double> (*from_contract)(const Effect& effect, const Contracted& contracted) = numbers_from_contract;
 };
 
 /// All that there are, in the order of the list (effects.def).

@@ -11,6 +11,37 @@ namespace gap {
 #include "gap/drive/effects.def"
 #undef EFFECT
 
+const std::set<Domain>& all_domains() {
+    static const std::set<Domain> all = {Domain::mechanical, Domain::thermal, Domain::hydraulic, Domain::electric};
+    return all;
+}
+
+const char* name_of(Domain domain) {
+    switch (domain) {
+        case Domain::mechanical:
+            return "mechanical";
+        case Domain::thermal:
+            return "thermal";
+        case Domain::hydraulic:
+            return "hydraulic";
+        case Domain::electric:
+            return "electric";
+    }
+    return "mechanical";
+}
+
+Domain domain_named(const std::string& name) {
+    std::vector<std::string> known;
+    for (const Domain domain : all_domains()) {
+        if (name == name_of(domain)) {
+            return domain;
+        }
+        known.emplace_back(name_of(domain));
+    }
+    throw glsum::Failure(glsum::Exit::bad_input,
+                         fmt::format("expected one of the domains {}, found {}", fmt::join(known, ", "), name));
+}
+
 const std::vector<const Effect*>& effects() {
     static const std::vector<const Effect*> all = {
 #define EFFECT(name) &name(),

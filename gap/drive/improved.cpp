@@ -16,24 +16,31 @@ using Json = nlohmann::json;
 
 [[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
 
-// Every parameter of every effect has a name in it: bounds and starts do not matter here.
-Scales any_scales() { return {1.0, 0.0, 1.0, 1.0, 1.0, 1.0, 1e3, 1.0, 1.0, 1.0, 2, 100, 1.0, 1.0, true}; }
+Contracted contracted_of(const Json& parameters, const std::string& name) {
+    Contracted contracted;
+    for (const auto& [key, value] : parameters.items()) {
+        if (value.is_number()) {
+            contracted[key] = value.get<double>();
+        } else if (value.is_string()) {
+            contracted[key] = value.get<std::string>();
+        } else if (value.is_array() &&
+                   std::all_of(value.begin(), value.end(), [](const Json& one) { return one.is_number(); })) {
+            contracted[key] = value.get<std::vector<double>>();
+        } else {
+            refuse(fmt::format("{}: effects: {}: expected a number, a word or a list of numbers, found {}", name, key,
+                               value.dump().substr(0, 60)));
+        }
+    }
+    return contracted;
+}
 
 std::vector<double> values_of(const Effect& effect, const Json& parameters, const std::string& name) {
-    std::vector<double> values;
-    const std::vector<EffectParameter> expected = effect.parameters(any_scales());
-    for (const EffectParameter& parameter : expected) {
-        if (!parameters.contains(parameter.name) || !parameters[parameter.name].is_number()) {
-            refuse(fmt::format("{}: effects: {}: expected a number {}", name, effect.name, parameter.name));
-        }
-        values.push_back(parameters[parameter.name].get<double>());
+    const Contracted contracted = contracted_of(parameters, name);
+    try {
+        return effect.from_contract(effect, contracted);
+    } catch (const glsum::Failure& failure) {
+        refuse(fmt::format("{}: effects: {}", name, failure.what()));
     }
-    for (const auto& [key, value] : parameters.items()) {
-        if (std::none_of(expected.begin(), expected.end(), [&](const auto& one) { return one.name == key; })) {
-            refuse(fmt::format("{}: effects: {}: has no parameter {}", name, effect.name, key));
-        }
-    }
-    return values;
 }
 
 }  // namespace

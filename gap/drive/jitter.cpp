@@ -23,7 +23,7 @@ std::vector<double> speed_of(const Record& record, std::span<const double> resid
 std::vector<FreeParameter>* jitter_of(Candidate& candidate) {
     std::size_t at = 0;
     for (const Effect* effect : candidate.effects) {
-        if (effect->name == "sampling_jitter") {
+        if (effect->only_spreads) {
             return &candidate.lasting[at];
         }
         at += effect->kind == Kind::lasting ? 1 : 0;

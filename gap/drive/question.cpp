@@ -9,20 +9,12 @@
 namespace gap {
 namespace {
 
-// A refitted base has these already.
-bool is_of_the_base(const Effect& effect) {
-    static const std::vector<std::string> theirs = {"gain_error",       "time_scale_error", "dead_time_error",
-                                                    "order_error",      "sensor_offset",    "finite_memory",
-                                                    "single_precision", "fixed_point"};
-    return std::find(theirs.begin(), theirs.end(), effect.name) != theirs.end();
-}
-
 std::vector<const Effect*> list_of(const Question& question, const Scales& scales) {
     std::vector<const Effect*> list;
     for (const Effect* effect : effects()) {
         const bool off =
             std::find(question.without.begin(), question.without.end(), effect->name) != question.without.end();
-        if (!off && !(question.refit && is_of_the_base(*effect)) && applies(*effect, scales)) {
+        if (!off && !(question.refit && effect->of_fitted_base) && applies(*effect, scales)) {
             list.push_back(effect);
         }
     }

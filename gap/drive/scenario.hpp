@@ -46,7 +46,7 @@ struct Forces {
 
 /// What was run instead of the model: the Grünwald-Letnikov scheme in some numbers, over some memory.
 struct Deployed {
-    double step_s;
+    double step_s;       ///< 0: the model's own sample time, or the record's
     double taps;         ///< 0: all; between whole numbers, a mixture of both
     std::string kernel;  ///< empty: double
     bool increments = false;

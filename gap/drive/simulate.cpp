@@ -171,8 +171,9 @@ void add_deployed_error(std::span<double> reading, const Scenario& scenario, con
 std::vector<double> run_deployed(const Record& record, const drive::Model& model, const Deployed& deployed,
                                  std::size_t taps) {
     const double length_s = record.time_s.back() - record.time_s.front();
-    Grid steps{record.time_s.front(), deployed.step_s,
-               static_cast<std::size_t>(std::floor(length_s / deployed.step_s + 1e-6)) + 2};
+    const double step_s =
+        deployed.step_s > 0.0 ? deployed.step_s : model.sample_time_s.value_or(record.usual_interval_s);
+    Grid steps{record.time_s.front(), step_s, static_cast<std::size_t>(std::floor(length_s / step_s + 1e-6)) + 2};
     std::vector<double> input(steps.count);
     std::size_t sample = 0;
     for (std::size_t k = 0; k < steps.count; ++k) {
@@ -182,7 +183,7 @@ std::vector<double> run_deployed(const Record& record, const drive::Model& model
         input[k] = record.input[sample];
     }
     drive::Scheme scheme;
-    scheme.step_s = deployed.step_s;
+    scheme.step_s = step_s;
     scheme.kernel = deployed.kernel;
     scheme.increments = deployed.increments;
     if (taps > 0) {
@@ -235,7 +236,11 @@ void Course::correct(std::vector<double> correction) { correction_ = std::move(c
 
 std::vector<double> Course::deployed(const drive::Model& model, const Deployed& deployed, std::size_t taps) const {
     constexpr std::size_t most_kept = 64;
-    std::vector<double> key{deployed.step_s, deployed.increments ? 1.0 : 0.0, static_cast<double>(taps), model.gain,
+    std::vector<double> key{deployed.step_s,
+                            model.sample_time_s.value_or(0.0),
+                            deployed.increments ? 1.0 : 0.0,
+                            static_cast<double>(taps),
+                            model.gain,
                             model.delay_s};
     for (const char letter : deployed.kernel) {
         key.push_back(static_cast<double>(letter));

@@ -39,7 +39,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& actuator_lag() {
-    static const Effect effect{"actuator_lag", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "actuator_lag",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"tau_s"}},
+    };
     return effect;
 }
 

@@ -27,7 +27,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& backlash() {
-    static const Effect effect{"backlash", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "backlash",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::output,
+        .numbers = {{"gap"}},
+        .domains = {Domain::mechanical},
+    };
     return effect;
 }
 

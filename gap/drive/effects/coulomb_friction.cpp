@@ -22,7 +22,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& coulomb_friction() {
-    static const Effect effect{"coulomb_friction", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "coulomb_friction",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::plant,
+        .numbers = {{"force"}},
+        .domains = {Domain::mechanical},
+    };
     return effect;
 }
 

@@ -26,7 +26,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& dead_time_error() {
-    static const Effect effect{"dead_time_error", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "dead_time_error",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::command,
+        .numbers = {{"extra_s"}},
+        .of_fitted_base = true,
+    };
     return effect;
 }
 

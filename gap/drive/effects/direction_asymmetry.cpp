@@ -50,7 +50,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& direction_asymmetry() {
-    static const Effect effect{"direction_asymmetry", Kind::lasting, parameters, add, {"sensor_lag", "actuator_lag"}};
+    static const Effect effect{
+        .name = "direction_asymmetry",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .generalises = {"sensor_lag", "actuator_lag"},
+        .place = Place::output,
+        .numbers = {{"tau_up_s"}, {"tau_down_s"}},
+    };
     return effect;
 }
 

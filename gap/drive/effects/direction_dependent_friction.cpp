@@ -33,7 +33,16 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& direction_dependent_friction() {
-    static const Effect effect{"direction_dependent_friction", Kind::lasting, parameters, add, {"coulomb_friction"}};
+    static const Effect effect{
+        .name = "direction_dependent_friction",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .generalises = {"coulomb_friction"},
+        .place = Place::plant,
+        .numbers = {{"force_up"}, {"force_down"}},
+        .domains = {Domain::mechanical},
+    };
     return effect;
 }
 

@@ -31,7 +31,15 @@ void add(Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
 }  // namespace
 
 const Effect& dropped_samples() {
-    static const Effect effect{"dropped_samples", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "dropped_samples",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::logger,
+        .numbers = {{"rate"}},
+        .uneven_noise = true,
+    };
     return effect;
 }
 

@@ -34,7 +34,16 @@ void add(Scenario& scenario, std::span<const double> values) {
 }  // namespace
 
 const Effect& encoder_quantisation() {
-    static const Effect effect{"encoder_quantisation", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "encoder_quantisation",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::sensor,
+        .numbers = {{"step"}},
+        .uneven_noise = true,
+        .rounds = true,
+    };
     return effect;
 }
 

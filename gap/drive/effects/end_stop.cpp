@@ -27,7 +27,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& end_stop() {
-    static const Effect effect{"end_stop", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "end_stop",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::plant,
+        .numbers = {{"limit"}, {"restitution", Number::Given::otherwise, 0.0}},
+        .domains = {Domain::mechanical, Domain::hydraulic},
+    };
     return effect;
 }
 

@@ -24,7 +24,15 @@ void add(Scenario& scenario, std::span<const double> values) { scenario.deployed
 }  // namespace
 
 const Effect& finite_memory() {
-    static const Effect effect{"finite_memory", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "finite_memory",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::deployed,
+        .numbers = {{"taps"}, {"step_s", Number::Given::otherwise, 0.0}},
+        .of_fitted_base = true,
+    };
     return effect;
 }
 

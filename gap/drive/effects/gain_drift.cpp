@@ -30,7 +30,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& gain_drift() {
-    static const Effect effect{"gain_drift", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "gain_drift",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"per_s"}},
+    };
     return effect;
 }
 

@@ -25,7 +25,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& gain_error() {
-    static const Effect effect{"gain_error", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "gain_error",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"gain"}},
+        .of_fitted_base = true,
+    };
     return effect;
 }
 

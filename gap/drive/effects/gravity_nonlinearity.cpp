@@ -27,7 +27,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& gravity_nonlinearity() {
-    static const Effect effect{"gravity_nonlinearity", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "gravity_nonlinearity",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::plant,
+        .numbers = {{"angle_per_unit"}},
+        .domains = {Domain::mechanical},
+    };
     return effect;
 }
 

@@ -32,7 +32,15 @@ void add(Scenario& scenario, std::span<const double> values) {
 }  // namespace
 
 const Effect& input_curve() {
-    static const Effect effect{"input_curve", Kind::lasting, parameters, add, {"gain_error"}};
+    static const Effect effect{
+        .name = "input_curve",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .generalises = {"gain_error"},
+        .place = Place::actuator,
+        .numbers = {{"curvature"}, {"reference"}},
+    };
     return effect;
 }
 

@@ -25,7 +25,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& input_dead_zone() {
-    static const Effect effect{"input_dead_zone", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "input_dead_zone",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"width"}},
+    };
     return effect;
 }
 

@@ -30,7 +30,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& input_saturation() {
-    static const Effect effect{"input_saturation", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "input_saturation",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"limit"}},
+    };
     return effect;
 }
 

@@ -72,7 +72,15 @@ std::vector<double> guess(const Clue& clue) {
 }  // namespace
 
 const Effect& load_disturbance() {
-    static const Effect effect{"load_disturbance", Kind::event, parameters, add, {}, guess};
+    static const Effect effect{
+        .name = "load_disturbance",
+        .kind = Kind::event,
+        .parameters = parameters,
+        .add_to = add,
+        .guess = guess,
+        .place = Place::plant,
+        .numbers = {{"from_s"}, {"to_s"}, {"size"}},
+    };
     return effect;
 }
 

@@ -4,6 +4,7 @@
 
 #include "gap/drive/effect.hpp"
 #include "gap/drive/simulate.hpp"
+#include "qemu/failure.hpp"
 
 namespace gap {
 
@@ -72,10 +73,52 @@ std::vector<double> guess(const Clue& clue) {
     return found;
 }
 
+// The jumps that there were, as two lists.
+std::vector<Written> to_contract(const Effect&, std::span<const Fitted> fitted) {
+    std::vector<double> times;
+    std::vector<double> sizes;
+    std::vector<std::pair<double, double>> time_intervals;
+    std::vector<std::pair<double, double>> size_intervals;
+    for (std::size_t jump = 0; jump < fitted.size(); jump += 2) {
+        if (fitted[jump].value > 0.0) {
+            times.push_back(fitted[jump].value);
+            time_intervals.emplace_back(fitted[jump].low, fitted[jump].high);
+            sizes.push_back(fitted[jump + 1].value);
+            size_intervals.emplace_back(fitted[jump + 1].low, fitted[jump + 1].high);
+        }
+    }
+    return {{"at_s", times, time_intervals}, {"sizes", sizes, size_intervals}};
+}
+
+std::vector<double> from_contract(const Effect&, const Contracted& contracted) {
+    const std::vector<double>& times = list_in(contracted, "at_s");
+    const std::vector<double>& sizes = list_in(contracted, "sizes");
+    if (times.size() != sizes.size() || contracted.size() != 2) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             "missed_counts: expected at_s and sizes, as many of the one as of the other");
+    }
+    std::vector<double> values;
+    for (std::size_t jump = 0; jump < times.size(); ++jump) {
+        values.push_back(times[jump]);
+        values.push_back(sizes[jump]);
+    }
+    return values;
+}
+
 }  // namespace
 
 const Effect& missed_counts() {
-    static const Effect effect{"missed_counts", Kind::event, parameters, add, {}, guess};
+    static const Effect effect{
+        .name = "missed_counts",
+        .kind = Kind::event,
+        .parameters = parameters,
+        .add_to = add,
+        .guess = guess,
+        .place = Place::sensor,
+        .numbers = {{"at_s"}, {"size"}, {"at2_s"}, {"size2"}, {"at3_s"}, {"size3"}},
+        .to_contract = to_contract,
+        .from_contract = from_contract,
+    };
     return effect;
 }
 

@@ -30,7 +30,15 @@ void add(Scenario& scenario, std::span<const double> values) {
 }  // namespace
 
 const Effect& order_error() {
-    static const Effect effect{"order_error", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "order_error",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::plant,
+        .numbers = {{"shift"}, {"power", Number::Given::otherwise, 0.0}},
+        .of_fitted_base = true,
+    };
     return effect;
 }
 

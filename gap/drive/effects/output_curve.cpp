@@ -39,7 +39,17 @@ void add(Scenario& scenario, std::span<const double> values) {
 }  // namespace
 
 const Effect& output_curve() {
-    static const Effect effect{"output_curve", Kind::lasting, parameters, add, {"gain_error"}};
+    static const Effect effect{
+        .name = "output_curve",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .generalises = {"gain_error"},
+        .place = Place::output,
+        .numbers = {{"curvature"},
+                    {"reference", Number::Given::otherwise, 1.0},
+                    {"in_outflow", Number::Given::otherwise, 0.0}},
+    };
     return effect;
 }
 

@@ -27,7 +27,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& quadratic_drag() {
-    static const Effect effect{"quadratic_drag", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "quadratic_drag",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::plant,
+        .numbers = {{"coefficient"}},
+        .domains = {Domain::mechanical, Domain::hydraulic},
+    };
     return effect;
 }
 

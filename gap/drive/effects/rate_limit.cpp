@@ -47,7 +47,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& rate_limit() {
-    static const Effect effect{"rate_limit", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "rate_limit",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"per_s"}},
+    };
     return effect;
 }
 

@@ -22,7 +22,16 @@ void add(Scenario& scenario, std::span<const double> values) { scenario.jitter_s
 }  // namespace
 
 const Effect& sampling_jitter() {
-    static const Effect effect{"sampling_jitter", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "sampling_jitter",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::logger,
+        .numbers = {{"half_width_s"}, {"noise_share", Number::Given::otherwise, 1.0}},
+        .uneven_noise = true,
+        .only_spreads = true,
+    };
     return effect;
 }
 

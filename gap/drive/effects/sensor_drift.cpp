@@ -30,7 +30,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& sensor_drift() {
-    static const Effect effect{"sensor_drift", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "sensor_drift",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::sensor,
+        .numbers = {{"per_s"}},
+    };
     return effect;
 }
 

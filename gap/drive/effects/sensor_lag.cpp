@@ -41,7 +41,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& sensor_lag() {
-    static const Effect effect{"sensor_lag", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "sensor_lag",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::sensor,
+        .numbers = {{"tau_s"}},
+    };
     return effect;
 }
 

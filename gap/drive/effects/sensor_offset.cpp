@@ -25,7 +25,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& sensor_offset() {
-    static const Effect effect{"sensor_offset", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "sensor_offset",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::sensor,
+        .numbers = {{"offset"}},
+        .of_fitted_base = true,
+    };
     return effect;
 }
 

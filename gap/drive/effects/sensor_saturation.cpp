@@ -30,7 +30,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& sensor_saturation() {
-    static const Effect effect{"sensor_saturation", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "sensor_saturation",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::sensor,
+        .numbers = {{"limit"}},
+        .uneven_noise = true,
+    };
     return effect;
 }
 

@@ -28,7 +28,17 @@ void add(Scenario& scenario, std::span<const double> values) {
 }  // namespace
 
 const Effect& single_precision() {
-    static const Effect effect{"single_precision", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "single_precision",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::deployed,
+        .numbers = {{"oldest_first", Number::Given::otherwise, 0.0},
+                    {"increments", Number::Given::otherwise, 0.0},
+                    {"step_s", Number::Given::otherwise, 0.0}},
+        .of_fitted_base = true,
+    };
     return effect;
 }
 

@@ -42,7 +42,16 @@ void add(Scenario& scenario, std::span<const double> values) {
 }  // namespace
 
 const Effect& start_up_threshold() {
-    static const Effect effect{"start_up_threshold", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "start_up_threshold",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"threshold"},
+                    {"stops_below", Number::Given::otherwise, 0.0},
+                    {"width", Number::Given::otherwise, 0.0}},
+    };
     return effect;
 }
 

@@ -56,7 +56,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& structural_resonance() {
-    static const Effect effect{"structural_resonance", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "structural_resonance",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::output,
+        .numbers = {{"hz"}, {"damping"}, {"share"}},
+        .domains = {Domain::mechanical, Domain::hydraulic, Domain::electric},
+    };
     return effect;
 }
 

@@ -36,7 +36,14 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& supply_sag() {
-    static const Effect effect{"supply_sag", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "supply_sag",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::actuator,
+        .numbers = {{"per_unit_s", Number::Given::otherwise, 0.0}, {"resistance", Number::Given::otherwise, 0.0}},
+    };
     return effect;
 }
 

@@ -25,7 +25,15 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
 }  // namespace
 
 const Effect& time_scale_error() {
-    static const Effect effect{"time_scale_error", Kind::lasting, parameters, add};
+    static const Effect effect{
+        .name = "time_scale_error",
+        .kind = Kind::lasting,
+        .parameters = parameters,
+        .add_to = add,
+        .place = Place::plant,
+        .numbers = {{"scale"}},
+        .of_fitted_base = true,
+    };
     return effect;
 }
 

@@ -1,0 +1,136 @@
+// How files write the effects' numbers, and what each effect says of itself.
+#include "gap/drive/contract.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+
+#include "gap/drive/audit.hpp"
+#include "gap/drive/effect.hpp"
+#include "gap/drive/improved.hpp"
+#include "gap/drive/study.hpp"
+#include "qemu/failure.hpp"
+#include "stand_case.hpp"
+
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+std::vector<std::string> those(const std::function<bool(const gap::Effect&)>& wanted) {
+    std::vector<std::string> names;
+    for (const gap::Effect* effect : gap::effects()) {
+        if (wanted(*effect)) {
+            names.push_back(effect->name);
+        }
+    }
+    return names;
+}
+
+// Scales of a record in which each effect can occur.
+gap::Scales eventful() {
+    const gap::Record record = gap_test::log_of({}, {});
+    gap::Scales scales = gap::scales_of(gap::model_of(gap_test::linear_form()), {record}, gap::audit({record}));
+    scales.quantum = 0.001;
+    scales.held_share = 0.1;
+    scales.deployed_step_s = 0.02;
+    return scales;
+}
+
+TEST(GapContract, FilesCallTheNumbersAsTheFitsDo) {
+    const gap::Scales scales = eventful();
+    for (const gap::Effect* effect : gap::effects()) {
+        const auto parameters = effect->parameters(scales);
+        ASSERT_EQ(parameters.size(), effect->numbers.size()) << effect->name;
+        for (std::size_t i = 0; i < parameters.size(); ++i) {
+            EXPECT_EQ(parameters[i].name, effect->numbers[i].name) << effect->name;
+        }
+        EXPECT_FALSE(parameters.empty()) << effect->name;
+        EXPECT_FALSE(effect->domains.empty()) << effect->name;
+    }
+}
+
+TEST(GapContract, WhatIsWrittenIsReadBack) {
+    const gap::Scales scales = eventful();
+    for (const gap::Effect* effect : gap::effects()) {
+        std::vector<gap::Fitted> fitted;
+        std::vector<double> values;
+        for (const gap::EffectParameter& parameter : effect->parameters(scales)) {
+            const double value =
+                effect->guess != nullptr ? 0.25 + static_cast<double>(values.size()) : parameter.starts.front();
+            fitted.push_back({value, value - 0.1, value + 0.1});
+            values.push_back(value);
+        }
+        gap::Contracted contracted;
+        for (const gap::Written& written : effect->to_contract(*effect, fitted)) {
+            contracted[written.name] = written.value;
+        }
+        EXPECT_EQ(effect->from_contract(*effect, contracted), values) << effect->name;
+    }
+}
+
+TEST(GapContract, HasWordsAndListsWhereItSaysSo) {
+    const gap::Effect& fixed = gap::effect_named("fixed_point");
+    const std::vector<gap::Fitted> bits = {{15.0, 15.0, 15.0}, {1.0, 1.0, 1.0}, {0.02, 0.02, 0.02}};
+    const gap::Written format = fixed.to_contract(fixed, bits).front();
+    EXPECT_EQ(std::get<std::string>(format.value), "q15");
+    EXPECT_TRUE(format.intervals.empty());
+    const gap::Effect& missed = gap::effect_named("missed_counts");
+    const std::vector<gap::Fitted> jumps = {{2.0, 2.0, 2.0}, {0.5, 0.4, 0.6}, {0.0, 0.0, 0.0},
+                                            {0.0, 0.0, 0.0}, {7.0, 7.0, 7.0}, {-0.5, -0.7, -0.3}};
+    const std::vector<gap::Written> lists = missed.to_contract(missed, jumps);
+    ASSERT_EQ(lists.size(), 2U);
+    EXPECT_EQ(lists[0].name, "at_s");
+    EXPECT_THAT(std::get<std::vector<double>>(lists[0].value), ElementsAre(2.0, 7.0));
+    EXPECT_EQ(lists[1].name, "sizes");
+    EXPECT_THAT(std::get<std::vector<double>>(lists[1].value), ElementsAre(0.5, -0.5));
+    EXPECT_THAT(lists[1].intervals, ElementsAre(std::pair(0.4, 0.6), std::pair(-0.7, -0.3)));
+}
+
+void expect_refusal(const std::string& effects, const std::string& what) {
+    drive::Model model;
+    model.denominator = {{1.0, 1.0}, {1.0, 0.0}};
+    model.notes = R"({"effects": [)" + effects + "]}";
+    gap::Record record{"log", {0.0, 0.1, 0.2}, {1.0, 1.0, 1.0}, {}, 0.1};
+    try {
+        (void)gap::simulate_improved(model, record, "m.json");
+        ADD_FAILURE() << "taken: " << effects;
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        EXPECT_THAT(failure.what(), HasSubstr("m.json: effects: " + what));
+    }
+}
+
+TEST(GapContract, RefusesWhatItCannotRead) {
+    expect_refusal(R"({"effect": "backlash", "parameters": {}})", "backlash: expected a number gap");
+    expect_refusal(R"({"effect": "backlash", "parameters": {"gap": "wide"}})", "backlash: expected a number gap");
+    expect_refusal(R"({"effect": "backlash", "parameters": {"gap": 1, "play": 2}})", "backlash: has no parameter play");
+    expect_refusal(R"({"effect": "backlash", "parameters": {"gap": {}}})",
+                   "gap: expected a number, a word or a list of numbers, found {}");
+    expect_refusal(R"({"effect": "fixed_point", "parameters": {"format": "q7"}})",
+                   "fixed_point: expected format q31 or q15");
+    expect_refusal(R"({"effect": "missed_counts", "parameters": {"at_s": [1]}})", "expected a list of numbers sizes");
+    expect_refusal(R"({"effect": "missed_counts", "parameters": {"at_s": [1], "sizes": [1, 2]}})",
+                   "missed_counts: expected at_s and sizes");
+}
+
+TEST(GapContract, AnEffectSaysWhatItIs) {
+    EXPECT_THAT(those([](const gap::Effect& effect) { return effect.of_fitted_base; }),
+                ElementsAre("gain_error", "time_scale_error", "dead_time_error", "order_error", "sensor_offset",
+                            "finite_memory", "single_precision", "fixed_point"));
+    EXPECT_THAT(those([](const gap::Effect& effect) { return effect.uneven_noise; }),
+                ElementsAre("sensor_saturation", "encoder_quantisation", "dropped_samples", "sampling_jitter"));
+    EXPECT_THAT(those([](const gap::Effect& effect) { return effect.only_spreads; }), ElementsAre("sampling_jitter"));
+    EXPECT_THAT(those([](const gap::Effect& effect) { return effect.rounds; }), ElementsAre("encoder_quantisation"));
+    EXPECT_THAT(those([](const gap::Effect& effect) { return effect.place == gap::Place::deployed; }),
+                ElementsAre("finite_memory", "single_precision", "fixed_point"));
+    EXPECT_FALSE(gap::effect_named("backlash").domains.contains(gap::Domain::thermal));
+    EXPECT_TRUE(gap::effect_named("end_stop").domains.contains(gap::Domain::hydraulic));
+    EXPECT_EQ(gap::effect_named("sensor_lag").domains, gap::all_domains());
+    EXPECT_EQ(gap::domain_named("thermal"), gap::Domain::thermal);
+    EXPECT_THROW((void)gap::domain_named("chemical"), glsum::Failure);
+}
+
+}  // namespace
