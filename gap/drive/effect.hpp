@@ -16,12 +16,12 @@ class Course;
 
 /// How large things are in the training records, for bounds and starts, and what their audit found.
 struct Scales {
-    double input_max;   ///< of |u|
+    double input_max;   ///< of |u|; 1 where the input is 0 throughout
     double output_low;  ///< of the readings
     double output_high;
     double output_span;
     double speed_max;  ///< of |dz/dt|
-    double force;      ///< of the right-hand side: gain times the input
+    double force;      ///< of the right-hand side: gain times the input, or in free motion what moves instead
     double length_s;
     double interval_s;
     double time_constant_s;    ///< of the model: how long it takes to most of its way
@@ -31,6 +31,11 @@ struct Scales {
     double held_share;         ///< of the readings that repeat the one before; 0 where a quantum explains them
     double deployed_step_s;  ///< of the simulation that ran, where one may have: fractional, given, not too long; or 0
     bool steady;             ///< the model rests somewhere for each input: it does not integrate
+    bool two_signs;          ///< the input is above 0 here and below 0 there
+    double output_max;       ///< of |z|
+    double turn;             ///< readings jump by so much, as they do at the end of a turn; 0: they never do
+    bool maybe_speed;        ///< the highest order is about 1: the output may be a speed
+    double further_max;      ///< of |u| of the records' second input; 0: one has none
     bool driven = true;      ///< something is put in; free motions otherwise
 };
 
@@ -99,6 +104,9 @@ struct Effect {
     bool rounds = false;  ///< a reading stands for a range of values, within which nothing is missed
     std::vector<Written> (*to_contract)(const Effect& effect, std::span<const Fitted> fitted) = numbers_to_contract;
     std::vector<double> (*from_contract)(const Effect& effect, const Contracted& contracted) = numbers_from_contract;
+    /// A further start that the residuals of what is there without it tell, for numbers whose basin is narrow: values
+    /// in the order of `parameters`. For lasting ones.
+    std::vector<double> (*start)(const Clue& clue) = nullptr;
 };
 
 /// All that there are, in the order of the list (effects.def).

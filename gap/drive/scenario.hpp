@@ -32,16 +32,36 @@ struct Outflow {
     double reference;
 };
 
+/// A force that is locked to the place, size sin(2 pi per_unit y + phase); of a speed, to its integral over the record.
+struct Cogging {
+    double size;
+    double per_unit;
+    double phase_rad;
+    bool of_speed;
+};
+
 /// In units of the model's right-hand side. Each is solved for within the step, so that what sticks, sticks.
 struct Forces {
-    double friction_up = 0.0;     ///< against motion upwards, at least 0
-    double friction_down = 0.0;   ///< against motion downwards
-    double drag = 0.0;            ///< drag y' |y'|
-    double angle_per_unit = 0.0;  ///< kappa: a_0 sin(kappa y) / kappa instead of a_0 y; 0: linear
-    double bias = 0.0;            ///< always there
+    double friction_up = 0.0;    ///< against motion upwards, at least 0
+    double friction_down = 0.0;  ///< against motion downwards
+    /// Friction beside both: so much of |what drives| + |what restores|. In [0, 1).
+    double friction_share = 0.0;
+    bool friction_of_speed = false;  ///< the output is a speed: up and down are its signs; it stands at 0
+    double drag = 0.0;               ///< drag y' |y'|
+    double angle_per_unit = 0.0;     ///< kappa: a_0 sin(kappa y) / kappa instead of a_0 y; 0: linear
+    double cubic = 0.0;              ///< c: c y^3 more in the bracket of a_0
+    double bias = 0.0;               ///< always there
+    std::vector<Cogging> cogging;
     std::optional<Outflow> outflow;
     std::optional<EndStop> stop;
     std::vector<Push> pushes;
+};
+
+/// Another input of the record, added to the effective one behind a first-order lag.
+struct FurtherInput {
+    std::size_t number;  ///< in the record's further inputs
+    double gain;
+    double tau_s;
 };
 
 /// What was run instead of the model: the Grünwald-Letnikov scheme in some numbers, over some memory.
@@ -74,6 +94,7 @@ struct Scenario {
     double input_before = 0.0;      ///< the record, over the dead time
     std::vector<LevelStage> levels;
     std::vector<InputStage> input;
+    std::vector<FurtherInput> further_inputs;
     Forces forces;
     std::vector<OutputStage> output;
     std::vector<LoggerStage> logger;

@@ -1,9 +1,13 @@
 #include "gap/drive/simulate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "drive/simulation.hpp"
+#include "gap/drive/balance.hpp"
+#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {
@@ -44,28 +48,38 @@ Side side_of(const std::vector<drive::Term>& terms, const Exponentials& exponent
     return side;
 }
 
+struct Forcing {
+    std::vector<double> nodes;
+    double before;      // the record
+    double blow = 0.0;  // of the input's derivatives, at node 0, which has it not
+};
+
 // What drives the model at each node, its gain and numerator included: the mean of the intervals on both sides of a
 // node, so that a jump at a node counts half there.
-std::vector<double> forcing_of(const Scenario& scenario, const Course& course, std::span<const double> held) {
+// \param before_record  the effective input there
+Forcing forcing_of(const Scenario& scenario, const Course& course, std::span<const double> held, double before_record) {
     const Grid& grid = course.grid();
-    const std::vector<double> late = delayed(held, scenario.model.delay_s / grid.step_s, scenario.input_before);
+    const std::vector<double> late = delayed(held, scenario.model.delay_s / grid.step_s, before_record);
     std::vector<double> nodes(grid.count);
     for (std::size_t k = 0; k < grid.count; ++k) {
-        nodes[k] = 0.5 * (late[k] + (k > 0 ? late[k - 1] : scenario.input_before));
+        nodes[k] = 0.5 * (late[k] + (k > 0 ? late[k - 1] : before_record));
     }
     const Side above = side_of(scenario.model.numerator, course.exponentials(), grid.step_s);
-    std::vector<double> forcing(grid.count);
+    Forcing forcing{std::vector<double>(grid.count),
+                    scenario.model.gain * above.constant * before_record + scenario.forces.bias};
     Past past(course.exponentials(), above.table);
-    double before = 0.0;
+    double before = before_record;
     for (std::size_t k = 0; k < grid.count; ++k) {
         double value = above.constant * nodes[k];
         if (above.dynamic) {
             const double increment = nodes[k] - before;
-            value += past.newest() * increment + past.known();
+            const double newest = past.newest() * increment;
+            value += past.known() + (k == 0 ? 0.0 : newest);
+            forcing.blow += k == 0 ? scenario.model.gain * newest : 0.0;
             past.push(increment);
             before = nodes[k];
         }
-        forcing[k] = scenario.model.gain * value + scenario.forces.bias;
+        forcing.nodes[k] = scenario.model.gain * value + scenario.forces.bias;
     }
     for (const Push& push : scenario.forces.pushes) {
         for (std::size_t k = 0; k < grid.count; ++k) {
@@ -73,80 +87,34 @@ std::vector<double> forcing_of(const Scenario& scenario, const Course& course, s
             const double at_s = static_cast<double>(k) * grid.step_s;
             const double from = std::max(push.from_s, at_s - 0.5 * grid.step_s);
             const double to = std::min(push.to_s, at_s + 0.5 * grid.step_s);
-            forcing[k] += push.size * std::max(0.0, to - from) / grid.step_s;
+            forcing.nodes[k] += push.size * std::max(0.0, to - from) / grid.step_s;
         }
     }
     return forcing;
 }
 
-// The increment e for which stiffness-like terms, drag and friction balance `drive`:
-//   drive - mass e - a_0 restoring(y + e) - drag e |e| / h^2 - friction sign(e) = 0.
-class Balance {
-public:
-    Balance(const Scenario& scenario, double mass, double constant, double step_s)
-        : forces_(scenario.forces),
-          operating_(scenario.operating_output),
-          mass_(mass),
-          constant_(constant),
-          drag_(scenario.forces.drag / (step_s * step_s)),
-          linear_(forces_.angle_per_unit == 0.0 && !forces_.outflow && drag_ == 0.0) {}
-
-    [[nodiscard]] double increment(double drive, double y) const {
-        const double net = drive - constant_ * restoring(y);
-        double left = net;
-        if (forces_.friction_up != 0.0 || forces_.friction_down != 0.0) {
-            if (net > forces_.friction_up) {
-                left = net - forces_.friction_up;
-            } else if (net < -forces_.friction_down) {
-                left = net + forces_.friction_down;
-            } else {
-                return 0.0;
-            }
+// Further inputs, each behind a lag of its own that rests at the record's first level. What they were before it.
+double add_more_inputs(const Scenario& scenario, const Course& course, std::span<double> effective_input) {
+    double before = 0.0;
+    for (const FurtherInput& further : scenario.further_inputs) {
+        if (further.number >= course.more_held().size()) {
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 fmt::format("{}: expected {} inputs, found {}", course.record().name,
+                                             further.number + 2, course.more_held().size() + 1));
         }
-        double e = left / (mass_ + constant_ * slope(y));
-        if (linear_) {
-            return e;
+        const std::vector<double>& held = course.more_held()[further.number];
+        const double intervals = further.tau_s > 0.0 ? course.grid().step_s / further.tau_s : 0.0;
+        const double left = std::exp(-intervals);
+        const double mean_left = intervals > 0.0 ? -std::expm1(-intervals) / intervals : 0.0;
+        double at = held.front();
+        before += further.gain * at;
+        for (std::size_t k = 0; k < effective_input.size(); ++k) {
+            effective_input[k] += further.gain * (held[k] + (at - held[k]) * mean_left);
+            at = intervals > 0.0 ? held[k] + (at - held[k]) * left : held[k];
         }
-        for (int i = 0; i < 8; ++i) {  // Newton: both are smooth, and e is small
-            const double miss =
-                mass_ * e + constant_ * (restoring(y + e) - restoring(y)) + drag_ * e * std::fabs(e) - left;
-            const double by = miss / (mass_ + constant_ * slope(y + e) + 2.0 * drag_ * std::fabs(e));
-            e -= by;
-            if (std::fabs(by) <= 1e-12 * (std::fabs(e) + 1e-300)) {
-                break;
-            }
-        }
-        return e;
     }
-
-private:
-    [[nodiscard]] double restoring(double y) const {
-        if (forces_.outflow) {
-            return bent(y + operating_) - bent(operating_);
-        }
-        const double kappa = forces_.angle_per_unit;
-        return kappa == 0.0 ? y : std::sin(kappa * y) / kappa;
-    }
-    [[nodiscard]] double slope(double y) const {
-        if (forces_.outflow) {
-            const double c = forces_.outflow->curvature;
-            return (1.0 - c) + 2.0 * c * std::fabs(y + operating_) / forces_.outflow->reference;
-        }
-        const double kappa = forces_.angle_per_unit;
-        return kappa == 0.0 ? 1.0 : std::cos(kappa * y);
-    }
-    [[nodiscard]] double bent(double level) const {
-        const double c = forces_.outflow->curvature;
-        return level * ((1.0 - c) + c * std::fabs(level) / forces_.outflow->reference);
-    }
-
-    const Forces& forces_;
-    double operating_;
-    double mass_;
-    double constant_;
-    double drag_;
-    bool linear_;
-};
+    return before;
+}
 
 // What the simulation that ran shows beyond the model: both read at the stamps.
 void add_deployed_error(std::span<double> reading, const Scenario& scenario, const Course& course) {
@@ -208,6 +176,9 @@ Course::Course(const Record& record, double per_interval)
       held_(held_on(grid_, record.time_s, record.input)),
       exponentials_(grid_.count),
       correction_(record.size(), 0.0) {
+    for (const std::vector<double>& levels : record.more_inputs) {
+        more_held_.push_back(held_on(grid_, record.time_s, levels));
+    }
     std::vector<double> places(grid_.count);
     for (std::size_t k = 0; k < places.size(); ++k) {
         places[k] = static_cast<double>(k);
@@ -280,27 +251,40 @@ std::vector<double> move(const Scenario& scenario, const Course& course, std::ve
     for (const InputStage& stage : scenario.input) {
         stage(effective_input, grid);
     }
-    const std::vector<double> forcing = forcing_of(scenario, course, effective_input);
+    const double more_before = add_more_inputs(scenario, course, effective_input);
+    Forcing forcing = forcing_of(scenario, course, effective_input, scenario.input_before + more_before);
     const Side below = side_of(scenario.model.denominator, course.exponentials(), grid.step_s);
     Past past(course.exponentials(), below.table);
-    past.fill_near(scenario.initial_velocity * grid.step_s);
-    const Balance balance(scenario, past.newest(), below.constant, grid.step_s);
+    // As it came, it goes on evenly, until at node 0 forces begin that are not those that let it come. Of a jump at a
+    // node half counts there; the output at node 0 is given, so that node 1 has it. A blow moves it from there on.
+    const double even = scenario.initial_velocity * grid.step_s;
+    Balance balance(scenario, past.newest(), below.constant, grid.step_s);
+    past.fill_near(even);
     std::vector<double> y(grid.count);
     y[0] = scenario.initial_output;
+    const double after = 2.0 * forcing.nodes[0] - forcing.before;
+    forcing.nodes[1] += 0.5 * balance.unbalanced(after, past.known() + past.newest() * even, y[0], even);
+    double at = y[0];
+    if (forcing.blow != 0.0) {
+        const double moved = forcing.blow / (past.newest() + below.constant);
+        past.push(even + moved);
+        at += moved;
+    }
     for (std::size_t k = 1; k < grid.count; ++k) {
-        double e = balance.increment(forcing[k] - past.known(), y[k - 1]);
+        double e = balance.increment(forcing.nodes[k], past.known(), at);
         double remembered = e;
-        const bool stopped =
-            scenario.forces.stop && y[k - 1] + e > scenario.forces.stop->limit - scenario.operating_output;
+        const bool stopped = scenario.forces.stop && at + e > scenario.forces.stop->limit - scenario.operating_output;
         if (stopped) {
-            e = scenario.forces.stop->limit - scenario.operating_output - y[k - 1];
+            e = scenario.forces.stop->limit - scenario.operating_output - at;
             remembered = -scenario.forces.stop->restitution * remembered;
         }
         past.push(remembered);
         if (stopped) {
             past.fill_near(remembered);  // a blow: nothing of the speed before it is left
         }
-        y[k] = y[k - 1] + e;
+        balance.advance(at, e);
+        at += e;
+        y[k] = at;
         if (!std::isfinite(y[k]) || std::fabs(y[k]) > 1e12) {
             std::fill(y.begin() + static_cast<std::ptrdiff_t>(k), y.end(), std::nan(""));
             break;

@@ -19,6 +19,8 @@ public:
     [[nodiscard]] const Record& record() const { return *record_; }
     [[nodiscard]] const Grid& grid() const { return grid_; }
     [[nodiscard]] const std::vector<double>& held() const { return held_; }
+    /// Of the record's further inputs, likewise.
+    [[nodiscard]] const std::vector<std::vector<double>>& more_held() const { return more_held_; }
     [[nodiscard]] const Exponentials& exponentials() const { return exponentials_; }
     /// Values at the nodes, read at the stamps by straight lines.
     [[nodiscard]] std::vector<double> read(std::span<const double> nodes) const;
@@ -41,6 +43,7 @@ private:
     const Record* record_;
     Grid grid_;
     std::vector<double> held_;
+    std::vector<std::vector<double>> more_held_;
     Exponentials exponentials_;
     std::vector<double> correction_;
     std::vector<std::size_t> below_;  // the node before each stamp

@@ -33,14 +33,71 @@ double deployed_step_of(const drive::Model& model, const Scales& scales) {
     return fractional && scales.length_s / step_s <= most_deployed_steps ? step_s : 0.0;
 }
 
+// Of the second input. 0: a record has none, or it never acts.
+double further_max_of(const std::vector<Record>& records) {
+    double largest = 0.0;
+    for (const Record& record : records) {
+        if (record.more_inputs.empty()) {
+            return 0.0;
+        }
+        for (const double u : record.more_inputs.front()) {
+            largest = std::max(largest, std::fabs(u));
+        }
+    }
+    return largest;
+}
+
+// What moves the plant where nobody drives it: it falls back from the largest reading, or its inertia carries it on.
+double free_force_of(const drive::Model& model, const Scales& scales) {
+    const double constant = drive::constant_coefficient(model.denominator);
+    if (constant != 0.0) {
+        return std::fabs(constant) * scales.output_max;
+    }
+    const double highest = drive::highest_order(model.denominator);
+    double force = 0.0;
+    for (const drive::Term& term : model.denominator) {
+        if (term.order == highest) {
+            force = std::fabs(term.coefficient) * scales.output_span / std::pow(scales.time_constant_s, highest);
+        }
+    }
+    return force;
+}
+
+// The median of the jumps that are as high as the readings, beyond what they move to both sides of one.
+double turn_of(const std::vector<Record>& records, double output_span) {
+    constexpr double high = 0.6;
+    constexpr double calm = 0.25;
+    std::vector<double> jumps;
+    for (const Record& record : records) {
+        const std::vector<double>& z = record.output;
+        for (std::size_t i = 2; i + 1 < z.size(); ++i) {
+            const double before = z[i - 1] - z[i - 2];
+            const double after = z[i + 1] - z[i];
+            if (std::fabs(z[i] - z[i - 1]) > high * output_span && std::fabs(before) < calm * output_span &&
+                std::fabs(after) < calm * output_span) {
+                jumps.push_back(std::fabs(z[i] - z[i - 1] - 0.5 * (before + after)));
+            }
+        }
+    }
+    if (jumps.empty()) {
+        return 0.0;
+    }
+    const auto middle = jumps.begin() + static_cast<std::ptrdiff_t>(jumps.size() / 2);
+    std::nth_element(jumps.begin(), middle, jumps.end());
+    return *middle;
+}
+
 }  // namespace
 
 Scales scales_of(const drive::Model& model, const std::vector<Record>& records, const Audit& found) {
     Scales scales{};
+    double input_low = 0.0;
+    double input_high = 0.0;
     scales.output_low = scales.output_high = records.front().output.front();
     for (const Record& record : records) {
         for (const double u : record.input) {
-            scales.input_max = std::max(scales.input_max, std::fabs(u));
+            input_low = std::min(input_low, u);
+            input_high = std::max(input_high, u);
         }
         for (const double z : record.output) {
             scales.output_low = std::min(scales.output_low, z);
@@ -52,7 +109,12 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     scales.interval_s = records.front().usual_interval_s;
     scales.time_constant_s = time_constant_of(model, records.front());
     scales.speed_max = scales.output_span / scales.time_constant_s;
-    scales.force = std::fabs(model.gain) * scales.input_max;
+    scales.output_max = std::max(std::fabs(scales.output_low), std::fabs(scales.output_high));
+    const bool driven = input_low < 0.0 || input_high > 0.0;
+    scales.input_max = driven ? std::max(-input_low, input_high) : 1.0;
+    scales.force = driven ? std::fabs(model.gain) * scales.input_max : free_force_of(model, scales);
+    constexpr double least_share = 0.05;  // of the other sign: less is an offset of the command
+    scales.two_signs = std::min(-input_low, input_high) > least_share * scales.input_max;
     std::set<double> orders;
     for (const drive::Term& term : model.denominator) {
         orders.insert(std::max(0.0, term.order));
@@ -63,6 +125,10 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     scales.input_levels = found.levels;
     scales.deployed_step_s = deployed_step_of(model, scales);
     scales.driven = is_driven(records);
+    constexpr double first_order = 1.2;
+    scales.maybe_speed = drive::highest_order(model.denominator) <= first_order;
+    scales.turn = turn_of(records, scales.output_span);
+    scales.further_max = further_max_of(records);
     scales.steady = drive::constant_coefficient(model.denominator) != 0.0;
     return scales;
 }

@@ -1,0 +1,50 @@
+// The equation of motion over one step: what moves, resists, sticks and pulls back, solved together.
+#pragma once
+
+#include "gap/drive/scenario.hpp"
+
+namespace gap {
+
+class Balance {
+public:
+    /// \param mass      the newest increment's weight in the model's derivatives
+    /// \param constant  a_0
+    Balance(const Scenario& scenario, double mass, double constant, double step_s);
+
+    /// The increment e at which the forces balance:
+    ///   forcing - known - mass e - a_0 restoring(y + e) - drag e |e| / h^2 + cogging(y + e) - friction = 0.
+    /// Of several the first in the direction in which it is drawn. \param known  of the derivatives, what past
+    /// increments make \param y  before the step, without the operating point. Not a number where nothing balances.
+    [[nodiscard]] double increment(double forcing, double known, double y) const;
+
+    /// The force that nothing balances where a motion of even increments e at y goes over into that of the scenario.
+    /// \param derivatives  of the even motion
+    [[nodiscard]] double unbalanced(double forcing, double derivatives, double y, double e) const;
+
+    /// The step was made: from y by e.
+    void advance(double y, double e);
+
+private:
+    // Forces beside friction that the place y + e and the increment e make, against motion upwards.
+    [[nodiscard]] double resisting(double y, double e) const;
+    [[nodiscard]] double slope_of_resisting(double y, double e) const;
+    [[nodiscard]] double restoring(double y) const;
+    [[nodiscard]] double slope(double y) const;
+    [[nodiscard]] double bent(double level) const;
+    [[nodiscard]] double carried(double forcing, double y) const;
+    [[nodiscard]] double against_motion(double forcing, double net, double y) const;
+    [[nodiscard]] double against_speed(double net, double y) const;
+    // e where resisting(y, e) - resisting(y, 0) + share (|a_0 restoring(y + e)| - |a_0 restoring(y)|) = left.
+    [[nodiscard]] double solve(double left, double y, double share) const;
+
+    const Forces& forces_;
+    double operating_;
+    double mass_;
+    double constant_;
+    double step_s_;
+    double drag_;
+    double travelled_ = 0.0;  // the integral of the output
+    bool linear_;
+};
+
+}  // namespace gap
