@@ -36,6 +36,8 @@ gap::Scales eventful() {
     scales.quantum = 0.001;
     scales.held_share = 0.1;
     scales.deployed_step_s = 0.02;
+    scales.turn = 2.0;
+    scales.further_max = 1.0;
     return scales;
 }
 
@@ -129,6 +131,7 @@ TEST(GapContract, AnEffectSaysWhatItIs) {
     EXPECT_FALSE(gap::effect_named("backlash").domains.contains(gap::Domain::thermal));
     EXPECT_TRUE(gap::effect_named("end_stop").domains.contains(gap::Domain::hydraulic));
     EXPECT_EQ(gap::effect_named("sensor_lag").domains, gap::all_domains());
+    EXPECT_FALSE(gap::effect_named("cogging").domains.contains(gap::Domain::electric));
     EXPECT_EQ(gap::domain_named("thermal"), gap::Domain::thermal);
     EXPECT_THROW((void)gap::domain_named("chemical"), glsum::Failure);
 }

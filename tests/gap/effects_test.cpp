@@ -12,6 +12,7 @@
 #include "drive/response.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/simulate.hpp"
+#include "qemu/failure.hpp"
 
 namespace {
 
@@ -42,7 +43,8 @@ TEST(EffectLevels, AreTheirFormulae) {
     const Values u{0.0, 0.3, -0.3, 0.8, -1.0, 2.0};
     expect_near(levels_after("gain_error", {1.5}, u), {0.0, 0.45, -0.45, 1.2, -1.5, 3.0});
     expect_near(levels_after("input_saturation", {0.7}, u), {0.0, 0.3, -0.3, 0.7, -0.7, 0.7});
-    expect_near(levels_after("input_dead_zone", {0.5}, u), {0.0, 0.0, 0.0, 0.3, -0.5, 1.5});
+    expect_near(levels_after("input_dead_zone", {0.5, -1.0}, u), {0.0, 0.0, 0.0, 0.3, -0.5, 1.5});
+    expect_near(levels_after("input_dead_zone", {0.5, 0.2}, u), {0.0, 0.0, -0.1, 0.3, -0.8, 1.5});
     // u ((1 - c) + c |u| / r), c = 0.4, r = 2: 2 stays where it is.
     expect_near(levels_after("input_curve", {0.4, 2.0}, u), {0.0, 0.198, -0.198, 0.608, -0.8, 2.0});
 }
@@ -54,6 +56,22 @@ TEST(EffectLevels, AnActuatorStartsBeyondItsThreshold) {
     expect_near(levels_after("start_up_threshold", {0.5, 1.0, 0.0}, u), {0.0, 0.0, 0.6, 0.0, 0.0, 0.0, -0.6});
     // Over a width of 0.4 about the threshold it runs in part: at 0.6 three quarters.
     expect_near(levels_after("start_up_threshold", {0.5, 1.0, 0.4}, {0.6, 0.5, 0.31, 0.7}), {0.45, 0.25, 0.31 * 0.025, 0.7});
+}
+
+TEST(EffectLevels, AHysteresisDragsAPlayAlong) {
+    // The play is 0.2 wide on either side: 0, 0.1, 0.8, 0.8, 0.8, 0.2; half of w is that.
+    expect_near(levels_after("input_hysteresis", {0.4, 0.5}, {0.0, 0.3, 1.0, 0.9, 0.7, 0.0}),
+                {0.0, 0.2, 0.9, 0.85, 0.75, 0.1});
+}
+
+TEST(EffectLevels, AValveSticksForABandAndThenJumps) {
+    // Band 0.4, jump 0.1: it slides 0.15 behind, goes on after a rest of u when that has moved by 0.1, and turns when
+    // u has by 0.4.
+    expect_near(levels_after("valve_stiction", {0.4, 0.1, 0.0}, {0.0, 0.2, 0.3, 0.5, 0.5, 0.55, 0.65, 0.4, 0.24, 0.0}),
+                {0.0, 0.0, 0.15, 0.35, 0.35, 0.35, 0.5, 0.5, 0.39, 0.15});
+    // Without a jump it is a play of the band, half of it on either side.
+    expect_near(levels_after("valve_stiction", {0.4, 0.0, 0.0}, {0.1, 0.3, 1.0, 0.9, 0.5, 0.6}),
+                {0.0, 0.1, 0.8, 0.8, 0.7, 0.7});
 }
 
 // --- Inputs: with memory, of a held level; each value is the mean over its interval.
@@ -100,6 +118,31 @@ TEST(EffectInputs, OfAConstantAreTheirClosedForms) {
     EXPECT_NEAR(held_after("supply_sag", {0.25, 0.1}, turned).back(), -sag.back(), 1e-12);
 }
 
+TEST(EffectInputs, OfARampWithAVaryingDelayAreLateByIt) {
+    gap::Scenario plant;
+    plant.model.delay_s = 0.3;
+    const double depth_s = 0.2;
+    const double rate = 2.0 * std::numbers::pi / 1.7;
+    plant = with("variable_delay", {depth_s, 1.7, 0.6}, plant);
+    const gap::Grid grid{0.0, 0.001, 5000};
+    Values held;
+    Values wanted;
+    for (std::size_t k = 0; k < grid.count; ++k) {
+        const double from = grid.at(k);
+        const double to = grid.at(k + 1);
+        held.push_back(0.25 * (from + to));
+        // The mean of 0.5 (t - depth sin(rate (t + delay) + phase)) over the interval.
+        const auto integral = [&](double t) {
+            return 0.5 * (0.5 * t * t + depth_s / rate * std::cos(rate * (t + 0.3) + 0.6));
+        };
+        wanted.push_back((integral(to) - integral(from)) / grid.step_s);
+    }
+    plant.input.at(0)(held, grid);
+    for (std::size_t k = 300; k < 4700; ++k) {
+        ASSERT_NEAR(held[k], wanted[k], 2.5e-4) << k;  // half a step of the ramp; the delay makes 0.1 of it
+    }
+}
+
 // --- Outputs: of a motion that is known.
 
 Values read_after(const std::string& name, const Values& values, Values z, const Values& input = {},
@@ -118,6 +161,7 @@ TEST(EffectOutputs, AreTheirFormulae) {
     expect_near(read_after("sensor_drift", {0.5}, y), {0.0, 0.505, -0.49, 1.015, 2.02, -2.975});
     expect_near(read_after("sensor_saturation", {0.75}, y), {0.0, 0.5, -0.5, 0.75, 0.75, -0.75});
     expect_near(read_after("sensor_saturation", {-0.75}, y), {-0.75, -0.75, -0.75, -0.75, -0.75, -3.0});
+    expect_near(read_after("sensor_magnitude", {1.0}, y), {0.0, 0.5, 0.5, 1.0, 2.0, 3.0});
     // y ((1 - c) + c |y| / r), c = -0.3, r = 2
     expect_near(read_after("output_curve", {-0.3, 2.0, 0.0}, y), {0.0, 0.6125, -0.6125, 1.15, 2.0, -2.55});
     // A gap of 1: half of it on either side.
@@ -130,15 +174,19 @@ TEST(EffectOutputs, LagsOfARampAreTheirClosedForms) {
     Values lagged;
     Values down;
     Values lagged_down;
+    Values mean;
     for (std::size_t k = 0; k < count; ++k) {
         const double t = static_cast<double>(k) * h;
         ramp.push_back(0.7 * t);
         lagged.push_back(0.7 * (t - 0.4 + 0.4 * std::exp(-t / 0.4)));  // of a lag of 0.4 s
+        mean.push_back(t < 0.25 ? 0.7 * t * t / (2.0 * 0.25) : 0.7 * (t - 0.125));  // over 0.25 s
         down.push_back(-0.7 * t);
         lagged_down.push_back(-0.7 * (t - 0.15 + 0.15 * std::exp(-t / 0.15)));
     }
     expect_near(read_after("sensor_lag", {0.4}, ramp), lagged, 1e-10);
     expect_near(read_after("direction_asymmetry", {0.4, 0.15}, ramp), lagged, 1e-10);
+    expect_near(read_after("logger_filter", {0.25}, ramp), mean, 1e-10);
+    expect_near(read_after("logger_filter", {0.0}, ramp), ramp);
     expect_near(read_after("direction_asymmetry", {0.4, 0.15}, down), lagged_down, 1e-10);
     expect_near(read_after("direction_asymmetry", {0.0, 0.15}, ramp), ramp);
 }
@@ -153,16 +201,20 @@ TEST(EffectOutputs, AResonanceIsThatOfItsSecondOrderMode) {
     const double wn = 2.0 * std::numbers::pi * hz;
     const double wd = wn * std::sqrt(1.0 - damping * damping);
     Values wanted;
+    Values of_speed;
     for (std::size_t k = 0; k < 500; ++k) {
         const double t = std::max(0.0, static_cast<double>(k) - 3.0) * h;
         const double q = 1.0 - std::exp(-damping * wn * t) * (std::cos(wd * t) + damping * wn / wd * std::sin(wd * t));
         wanted.push_back(0.2 * 2.5 * 0.8 * q);
+        of_speed.push_back(-0.3 * 2.5 * 0.8 * wn / wd * std::exp(-damping * wn * t) * std::sin(wd * t));
     }
     const Values input(500, 0.8);
-    expect_near(read_after("structural_resonance", {hz, damping, 0.2}, Values(500, 0.0), input, plant), wanted, 1e-10);
+    expect_near(read_after("structural_resonance", {hz, damping, 0.2, 0.0}, Values(500, 0.0), input, plant), wanted, 1e-10);
+    expect_near(read_after("structural_resonance", {hz, damping, 0.0, -0.3}, Values(500, 0.0), input, plant), of_speed,
+                1e-10);
     // Of a dead time between nodes: the straight line between both.
     plant.model.delay_s = 3.5 * h;
-    const Values half = read_after("structural_resonance", {hz, damping, 0.2}, Values(500, 0.0), input, plant);
+    const Values half = read_after("structural_resonance", {hz, damping, 0.2, 0.0}, Values(500, 0.0), input, plant);
     // The input of an interval is the mean of both sides: 1.5 intervals behind a jump it is whole.
     EXPECT_NEAR(half[250], 0.5 * (wanted[250] + wanted[249]), 1e-9);
 }
@@ -183,6 +235,22 @@ TEST(EffectReadings, JumpAndStayAndAreRounded) {
     reading = {0.12, 0.26, 0.24, 0.46, -0.5};
     with("encoder_quantisation", {0.1}).logger.at(0)(reading, record);
     expect_near(reading, {0.1, 0.21, 0.29, 0.41, -0.55});
+}
+
+TEST(EffectReadings, AreWithinATurn) {
+    gap::Record record;
+    record.time_s = {0.0, 0.1, 0.2};
+    Values reading{0.2, 1.3, -0.2};
+    with("sensor_wrap", {1.0, 0.0}).logger.at(0)(reading, record);
+    expect_near(reading, {0.2, 0.3, 0.8});
+    reading = {0.2, 1.3, -0.7};
+    with("sensor_wrap", {1.0, -0.5}).logger.at(0)(reading, record);
+    expect_near(reading, {0.2, 0.3, 0.3});
+    // Beside a measured reading: in the turn that is nearest to it.
+    record.output = {0.1, 0.95, 0.9};
+    reading = {1.15, 2.03, -0.2};
+    with("sensor_wrap", {1.0, 0.0}).logger.at(0)(reading, record);
+    expect_near(reading, {0.15, 1.03, 0.8});
 }
 
 // --- The model itself, beside the exact response of the changed one.
@@ -244,9 +312,12 @@ struct Truth {
     double drag = 0.0;
     double friction_up = 0.0;
     double friction_down = 0.0;
+    double friction_share = 0.0;  // of |w| + |restoring|
     std::function<double(double t)> push = [](double) { return 0.0; };
     double limit = INFINITY;
     double restitution = 0.0;
+    double from = 0.0;  // it is released here
+    double damping = 0.6;
 };
 constexpr double mass = 0.25;
 constexpr double damping = 0.6;
@@ -256,7 +327,7 @@ Values integrated(const Truth& truth, const gap::Record& record) {
     constexpr int steps = 100;
     const double dt = h / steps;
     Values outputs;
-    double y = 0.0;
+    double y = truth.from;
     double v = 0.0;
     for (std::size_t k = 0; k < record.size(); ++k) {
         outputs.push_back(y);
@@ -264,13 +335,16 @@ Values integrated(const Truth& truth, const gap::Record& record) {
             const double t = record.time_s[k] + (i + 0.5) * dt;
             const double w = record.input[k] + truth.push(t);
             const auto acceleration = [&](double at, double speed) {
-                const double friction = speed > 0.0 ? truth.friction_up : speed < 0.0 ? -truth.friction_down : 0.0;
-                return (w - damping * speed - truth.restoring(at) - truth.drag * speed * std::fabs(speed) - friction) / mass;
+                const double load = truth.friction_share * (std::fabs(w) + std::fabs(truth.restoring(at)));
+                const double friction =
+                    speed > 0.0 ? truth.friction_up + load : speed < 0.0 ? -truth.friction_down - load : 0.0;
+                return (w - truth.damping * speed - truth.restoring(at) - truth.drag * speed * std::fabs(speed) - friction) / mass;
             };
             if (v == 0.0) {  // does it break loose?
                 const double net = w - truth.restoring(y);
-                if (net <= truth.friction_up && net >= -truth.friction_down &&
-                    (truth.friction_up > 0.0 || truth.friction_down > 0.0)) {
+                const double load = truth.friction_share * (std::fabs(w) + std::fabs(truth.restoring(y)));
+                if (net <= truth.friction_up + load && net >= -truth.friction_down - load &&
+                    (truth.friction_up > 0.0 || truth.friction_down > 0.0 || load > 0.0)) {
                     continue;
                 }
                 v = (net > 0.0 ? 1.0 : -1.0) * 1e-12;
@@ -279,7 +353,8 @@ Values integrated(const Truth& truth, const gap::Record& record) {
             const double half_y = y + 0.5 * dt * v;
             const double next = v + dt * acceleration(half_y, half_v);
             y += dt * half_v;
-            v = v * next < 0.0 && (truth.friction_up > 0.0 || truth.friction_down > 0.0) ? 0.0 : next;
+            const bool rubs = truth.friction_up > 0.0 || truth.friction_down > 0.0 || truth.friction_share > 0.0;
+            v = v * next < 0.0 && rubs ? 0.0 : next;
             if (y > truth.limit) {
                 y = truth.limit;
                 v = -truth.restitution * std::max(0.0, v);
@@ -314,19 +389,149 @@ TEST(EffectForces, AreThoseOfTheEquationOfMotion) {
     expect_truth("output_curve", {0.4, 0.9, 1.0}, outflow, 4e-4);
     Truth friction;
     friction.friction_up = friction.friction_down = 0.12;
-    expect_truth("coulomb_friction", {0.12}, friction, 6e-4);
+    expect_truth("coulomb_friction", {0.12, 0.0}, friction, 6e-4);
     friction.friction_up = 0.15;
     friction.friction_down = 0.05;
-    expect_truth("direction_dependent_friction", {0.15, 0.05}, friction, 6e-4);
+    expect_truth("direction_dependent_friction", {0.15, 0.05, 0.0}, friction, 6e-4);
     friction.friction_up = 0.05;
     friction.friction_down = 0.15;
-    expect_truth("direction_dependent_friction", {0.05, 0.15}, friction, 4e-4);
+    expect_truth("direction_dependent_friction", {0.05, 0.15, 0.0}, friction, 4e-4);
     Truth pushed;
     pushed.push = [](double t) { return t >= 3.0 && t < 3.9 ? -0.35 : 0.0; };
     expect_truth("load_disturbance", {3.0, 3.9, -0.35}, pushed, 4e-4);
     Truth stopped;
     stopped.limit = 0.7;
     expect_truth("end_stop", {0.7, 0.0}, stopped, 1e-3);
+    Truth stiffening;
+    stiffening.restoring = [](double y) { return y + 1.4 * y * y * y; };
+    expect_truth("cubic_stiffness", {1.4}, stiffening, 4e-4);
+    Truth cogged;
+    cogged.restoring = [](double y) { return y - 0.06 * std::sin(2.0 * std::numbers::pi * 2.0 * y + 0.5); };
+    expect_truth("cogging", {0.06, 2.0, 0.5, 0.0}, cogged, 4e-4);
+    Truth loaded;
+    loaded.friction_share = 0.08;
+    expect_truth("load_dependent_friction", {0.08}, loaded, 6e-4);
+}
+
+gap::Record without_input() {
+    gap::Record record = staircase();
+    std::fill(record.input.begin(), record.input.end(), 0.0);
+    return record;
+}
+
+TEST(EffectForces, SwingThroughMoreThanAQuarterTurn) {
+    const gap::Record record = without_input();
+    gap::Scenario plant;
+    plant.model.denominator = {{mass, 2.0}, {0.05, 1.0}, {1.0, 0.0}};
+    plant.initial_output = 2.36;  // 135 degrees
+    Truth swing;
+    swing.from = 2.36;
+    swing.damping = 0.05;
+    swing.restoring = [](double y) { return std::sin(y); };
+    const gap::Scenario swinging = with("gravity_nonlinearity", {1.0}, plant);
+    const Values wanted = integrated(swing, record);
+    EXPECT_LT(largest_difference(gap::simulate(swinging, gap::Course(record, 8)), wanted), 5e-5);
+    // On a grid on which a weight upside down would give way faster than its inertia holds it, it still swings.
+    gap::Record coarse = record;
+    coarse.usual_interval_s = 1.2;
+    const Values found = gap::simulate(swinging, gap::Course(coarse, 1));
+    for (const double y : found) {
+        ASSERT_LE(std::fabs(y), 2.4);
+    }
+}
+
+// --- Where the output is a speed: m y' + y + friction = w.
+
+struct SpeedTruth {
+    double friction_up = 0.0;
+    double friction_down = 0.0;
+    double cogging = 0.0;
+    double per_unit = 0.0;
+};
+
+Values integrated(const SpeedTruth& truth, const gap::Record& record) {
+    constexpr int steps = 200;
+    const double dt = h / steps;
+    Values outputs;
+    double y = 0.0;
+    double place = 0.0;
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        outputs.push_back(y);
+        for (int i = 0; i < steps; ++i) {
+            const double w =
+                record.input[k] + truth.cogging * std::sin(2.0 * std::numbers::pi * truth.per_unit * place + 0.3);
+            const bool rubs = truth.friction_up > 0.0;
+            const double sign = y > 0.0 || (y == 0.0 && w > 0.0) ? 1.0 : -1.0;
+            const double friction = sign > 0.0 ? truth.friction_up : truth.friction_down;
+            if (rubs && y == 0.0 && std::fabs(w) <= friction) {
+                continue;
+            }
+            const double next = y + dt * (w - y - sign * friction) / 0.5;
+            place += 0.5 * dt * (y + next);
+            y = rubs && y * next < 0.0 ? 0.0 : next;
+        }
+    }
+    return outputs;
+}
+
+TEST(EffectForces, OfASpeedActAgainstItAndGoWithItsIntegral) {
+    gap::Record record = staircase();
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        record.input[k] = k < 200 ? 0.4 : k < 350 ? 1.0 : k < 550 ? -0.06 : -0.7;
+    }
+    gap::Scenario plant;
+    plant.model.denominator = {{0.5, 1.0}, {1.0, 0.0}};
+    const gap::Course course(record, 8);
+    SpeedTruth rubbing;
+    rubbing.friction_up = rubbing.friction_down = 0.15;
+    const Values sticks = gap::simulate(with("coulomb_friction", {0.15, 1.0}, plant), course);
+    EXPECT_LT(largest_difference(sticks, integrated(rubbing, record)), 1e-3);
+    EXPECT_EQ(sticks[540], 0.0);  // it stands, and the input does not overcome it
+    rubbing.friction_down = 0.05;
+    const Values uneven = gap::simulate(with("direction_dependent_friction", {0.15, 0.05, 1.0}, plant), course);
+    EXPECT_LT(largest_difference(uneven, integrated(rubbing, record)), 1e-3);
+    EXPECT_GT(largest_difference(uneven, sticks), 0.05);
+    SpeedTruth cogged;
+    cogged.cogging = 0.1;
+    cogged.per_unit = 1.5;
+    const Values ripple = gap::simulate(with("cogging", {0.1, 1.5, 0.3, 1.0}, plant), course);
+    // Of a first order, the node at which an input jumps is off by a third of a step.
+    EXPECT_LT(largest_difference(ripple, integrated(cogged, record)), 1e-3);
+    EXPECT_GT(largest_difference(ripple, gap::simulate(plant, course)), 0.02);
+}
+
+// --- A second input.
+
+TEST(EffectInputs, ASecondOneActsBehindItsOwnLag) {
+    gap::Record record = staircase();
+    Values other;
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        other.push_back(k < 100 ? 0.0 : k < 300 ? 2.0 : -1.0);
+    }
+    record.more_inputs = {other};
+    gap::Scenario plant;
+    plant.model.denominator = {{mass, 2.0}, {damping, 1.0}, {1.0, 0.0}};
+    plant.model.delay_s = 0.1;
+    // gain / ((1 + 0.3 s) (0.25 s^2 + 0.6 s + 1))
+    drive::Model behind;
+    behind.gain = 0.35;
+    behind.denominator = {{0.3 * mass, 3.0}, {mass + 0.3 * damping, 2.0}, {damping + 0.3, 1.0}, {1.0, 0.0}};
+    behind.delay_s = 0.1;
+    Values wanted = drive::respond(plant.model, drive::changes_of(record.time_s, record.input), record.time_s);
+    const Values more = drive::respond(behind, drive::changes_of(record.time_s, other), record.time_s);
+    for (std::size_t i = 0; i < wanted.size(); ++i) {
+        wanted[i] += more[i];
+    }
+    const gap::Course course(record, 8);
+    EXPECT_LT(largest_difference(gap::simulate(with("second_input", {0.35, 0.3}, plant), course), wanted), 2.5e-4);
+    // What was there before the record has passed its lag.
+    std::fill(record.more_inputs[0].begin(), record.more_inputs[0].end(), 2.0);
+    const gap::Course constant(record, 1);
+    EXPECT_LT(largest_difference(gap::simulate(with("second_input", {0.35, 0.3}, plant), constant),
+                                 gap::simulate(with("second_input", {0.35, 0.0}, plant), constant)),
+              1e-12);
+    record.more_inputs.clear();
+    EXPECT_THROW((void)gap::simulate(with("second_input", {0.35, 0.3}, plant), gap::Course(record, 1)), glsum::Failure);
 }
 
 }  // namespace

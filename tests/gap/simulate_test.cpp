@@ -55,6 +55,60 @@ TEST(GapSimulation, IsTheExactResponse) {
     EXPECT_LT(rms(gap::simulate(plain, corrected), exact), 5e-6);
 }
 
+// The largest difference but at stamps of which the input jumps at one of the two before: there first orders are not.
+double smooth_difference(const gap::Record& record, const std::vector<double>& a, const std::vector<double>& b) {
+    double largest = 0.0;
+    for (std::size_t i = 3; i < a.size(); ++i) {
+        if (record.input[i] == record.input[i - 3]) {
+            largest = std::max(largest, std::fabs(a[i] - b[i]));
+        }
+    }
+    return largest;
+}
+
+// Half the step, a quarter of the error: of first and second order, with and without a zero.
+TEST(GapSimulation, IsSecondOrderFromTheFirstStampOn) {
+    gap::Record record = pulses(0.02, 8.0);
+    const std::vector<std::vector<drive::Term>> denominators = {
+        {{0.5, 1.0}, {1.0, 0.0}}, {{0.25, 2.0}, {0.3, 1.0}, {1.0, 0.0}}, {{0.3, 1.5}, {1.0, 0.0}}};
+    const std::vector<drive::Term> zero = {{0.1, 1.0}, {1.0, 0.0}};
+    const auto expect_second_order = [&](const gap::Scenario& scenario, const std::vector<double>& wanted) {
+        const auto off = [&](double per_interval) {
+            return smooth_difference(record, gap::simulate(scenario, gap::Course(record, per_interval)), wanted);
+        };
+        EXPECT_LT(off(8.0), 0.35 * off(4.0)) << drive::to_text(scenario.model);
+        EXPECT_LT(off(8.0), 2e-5) << drive::to_text(scenario.model);
+    };
+    gap::Scenario driven;
+    for (const auto& denominator : denominators) {
+        driven.model.denominator = denominator;
+        expect_second_order(
+            driven, drive::respond(driven.model, drive::changes_of(record.time_s, record.input), record.time_s));
+    }
+    driven.model.denominator = denominators[1];
+    driven.model.numerator = zero;
+    expect_second_order(driven,
+                        drive::respond(driven.model, drive::changes_of(record.time_s, record.input), record.time_s));
+    // Released from 1: 1 less the response to a step.
+    std::fill(record.input.begin(), record.input.end(), 1.0);
+    for (const auto& denominator : denominators) {
+        gap::Scenario released;
+        released.model.denominator = denominator;
+        auto wanted = drive::respond(released.model, drive::changes_of(record.time_s, record.input), record.time_s);
+        for (double& y : wanted) {
+            y = 1.0 - y;
+        }
+        released.model.gain = 0.0;
+        released.initial_output = 1.0;
+        expect_second_order(released, wanted);
+    }
+    // At rest under an input that was there before, nothing happens.
+    driven.initial_output = driven.input_before = 1.0;
+    for (const double y : gap::simulate(driven, gap::Course(record, 1))) {
+        ASSERT_NEAR(y, 1.0, 1e-11);
+    }
+}
+
 TEST(GapSimulation, OnACoarseGridReadsTheSame) {
     const gap::Record record = pulses(0.01, 20.0);
     gap::Scenario plain;
@@ -124,7 +178,7 @@ TEST(GapEffects, AreTheContractsAndChangeNothingAtTheirNeutralValue) {
     const gap::Scales scales = gap::scales_of(plain.model, {record}, found);
     const gap::Course course(record, 1);
     const std::vector<double> usual = gap::simulate(plain, course);
-    EXPECT_EQ(gap::effects().size(), 33U);
+    EXPECT_EQ(gap::effects().size(), 43U);
     for (const gap::Effect* effect : gap::effects()) {
         const auto parameters = effect->parameters(scales);
         if (parameters.empty()) {

@@ -1,4 +1,5 @@
-// A constant force against motion, and none moves that is not overcome.
+// A constant force against motion, and none moves that is not overcome. Where the output may be a speed, a variant acts
+// against the output itself, which then stands at 0.
 #include <algorithm>
 #include <cmath>
 
@@ -10,13 +11,20 @@ const Effect& coulomb_friction();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
-    return {{"force", "rhs", 0.0, 0.7 * scales.force, 0.0, {0.02 * scales.force, 0.1 * scales.force}}};
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    const std::vector<double> starts = {0.02 * scales.force, 0.1 * scales.force};
+    const EffectParameter force{"force", "rhs", 0.0, 0.7 * scales.force, 0.0, starts};
+    if (!scales.maybe_speed) {
+        return {force, {"of_speed", "1", 0.0, 1.0, 0.0, {0.0}, true}};
+    }
+    return {{"force", "rhs", 0.0, 0.7 * scales.force, 0.0, {starts[0], starts[1], starts[0], starts[1]}},
+            {"of_speed", "1", 0.0, 1.0, 0.0, {0.0, 0.0, 1.0, 1.0}, true}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
+void add(Scenario& scenario, std::span<const double> values) {
     scenario.forces.friction_up += values[0];
     scenario.forces.friction_down += values[0];
+    scenario.forces.friction_of_speed = values[1] > 0.5;
 }
 
 }  // namespace
@@ -28,7 +36,7 @@ const Effect& coulomb_friction() {
         .parameters = parameters,
         .add_to = add,
         .place = Place::plant,
-        .numbers = {{"force"}},
+        .numbers = {{"force"}, {"of_speed", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical},
     };
     return effect;

@@ -10,14 +10,18 @@ const Effect& gravity_nonlinearity();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    if (!scales.steady) {
+        return {};
+    }
+    // A swing of nearly half a turn, farther than which a weight does not fall back.
+    const double unit = 1.0 / scales.output_max;
     return {{"angle_per_unit",
              "rad/y",
              1e-3 / scales.output_span,
-             1.5 / std::max(std::fabs(scales.output_high), std::fabs(scales.output_low)),
+             3.0 * unit,
              1e-3 / scales.output_span,
-             {0.5 / std::max(std::fabs(scales.output_high), std::fabs(scales.output_low)),
-              1.0 / std::max(std::fabs(scales.output_high), std::fabs(scales.output_low))}}};
+             {0.5 * unit, 1.0 * unit, 2.0 * unit}}};
 }
 
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {

@@ -1,4 +1,5 @@
-// A lightly damped mode, excited by the input, adds to z: share K (wn^2 / (s^2 + 2 d wn s + wn^2)) u, late as y is.
+// A lightly damped mode q, excited by the input and late as y is, adds to z a share of its place and of its speed:
+// K (share + speed_share s / wn) (wn^2 / (s^2 + 2 d wn s + wn^2)) u.
 #include <algorithm>
 #include <cmath>
 
@@ -19,7 +20,8 @@ std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
              {1.0 / scales.time_constant_s, 2.5 / scales.time_constant_s, 0.05 / scales.interval_s,
               0.12 / scales.interval_s}},
             {"damping", "1", 0.002, 0.5, 0.05, {0.05}},
-            {"share", "1", -0.8, 0.8, 0.0, {0.03}}};
+            {"share", "1", -0.8, 0.8, 0.0, {0.03}},
+            {"speed_share", "1", -0.8, 0.8, 0.0, {0.0}}};
 }
 
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
@@ -27,7 +29,8 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
                             ? drive::static_gain(scenario.model)
                             : scenario.model.gain;
     scenario.output.emplace_back([gain, delay_s = scenario.model.delay_s, hz = values[0], damping = values[1],
-                                  share = values[2]](std::span<double> z, const Motion& motion) {
+                                  share = values[2],
+                                  speed_share = values[3]](std::span<double> z, const Motion& motion) {
         // Exact for a held input: the pair of poles turns by wd h and shrinks by d wn h a step.
         const double h = motion.grid.step_s;
         const double wn = 2.0 * 3.14159265358979323846 * hz;
@@ -42,7 +45,7 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
         const auto whole = static_cast<std::size_t>(late);
         const double part = late - static_cast<double>(whole);
         for (std::size_t k = 0; k < z.size(); ++k) {
-            z[k] += share * gain * q;
+            z[k] += gain * (share * q + speed_share * rate * wd / wn);
             const double u = (k >= whole ? (1.0 - part) * motion.input[k - whole] : 0.0) +
                              (k > whole ? part * motion.input[k - whole - 1] : 0.0);
             const double from = q - u;
@@ -62,7 +65,10 @@ const Effect& structural_resonance() {
         .parameters = parameters,
         .add_to = add,
         .place = Place::output,
-        .numbers = {{"hz"}, {"damping"}, {"share"}},
+        .numbers = {{"hz"},
+                    {"damping"},
+                    {"share", Number::Given::otherwise, 0.0},
+                    {"speed_share", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical, Domain::hydraulic, Domain::electric},
     };
     return effect;
