@@ -1,10 +1,12 @@
 // How files write the effects' numbers, and what each effect says of itself.
 #include "gap/drive/contract.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 #include "gap/drive/audit.hpp"
@@ -102,6 +104,83 @@ void expect_refusal(const std::string& effects, const std::string& what) {
     } catch (const glsum::Failure& failure) {
         EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
         EXPECT_THAT(failure.what(), HasSubstr("m.json: effects: " + what));
+    }
+}
+
+// Each by the names that the contract has, and by no other.
+TEST(GapContract, AnImprovedModelHasEachEffect) {
+    const std::vector<std::pair<std::string, std::string>> all = {
+        {"gain_error", R"("gain": 1.2)"},
+        {"time_scale_error", R"("scale": 1.3)"},
+        {"dead_time_error", R"("extra_s": 0.2)"},
+        {"order_error", R"("shift": 0.1)"},
+        {"input_saturation", R"("limit": 0.5)"},
+        {"input_dead_zone", R"("width": 0.1, "width_down": 0.2)"},
+        {"start_up_threshold", R"("threshold": 0.5)"},
+        {"input_curve", R"("curvature": 0.3, "reference": 1)"},
+        {"input_hysteresis", R"("width": 0.2, "share": 0.6)"},
+        {"valve_stiction", R"("band": 0.2, "jump": 0.1)"},
+        {"rate_limit", R"("per_s": 0.8)"},
+        {"actuator_lag", R"("tau_s": 0.3)"},
+        {"supply_sag", R"("per_unit_s": 0.02, "resistance": 0.1)"},
+        {"gain_drift", R"("per_s": 0.05)"},
+        {"second_input", R"("gain": 0.5, "tau_s": 0.2)"},
+        {"variable_delay", R"("depth_s": 0.2, "period_s": 5)"},
+        {"coulomb_friction", R"("force": 0.1)"},
+        {"direction_dependent_friction", R"("force_up": 0.1, "force_down": 0.05)"},
+        {"load_dependent_friction", R"("share": 0.1)"},
+        {"quadratic_drag", R"("coefficient": 0.8)"},
+        {"gravity_nonlinearity", R"("angle_per_unit": 1.2)"},
+        {"cubic_stiffness", R"("coefficient": 0.8)"},
+        {"cogging", R"("size": 0.05, "per_unit": 3)"},
+        {"end_stop", R"("limit": 0.6, "restitution": 0.3)"},
+        {"backlash", R"("gap": 0.1)"},
+        {"structural_resonance", R"("hz": 3, "damping": 0.05, "share": 0.1, "speed_share": 0.1)"},
+        {"direction_asymmetry", R"("tau_up_s": 0.1, "tau_down_s": 0.4)"},
+        {"output_curve", R"("curvature": 0.2)"},
+        {"load_disturbance", R"("from_s": 2, "to_s": 3, "size": 0.3)"},
+        {"sensor_offset", R"("offset": 0.1)"},
+        {"sensor_drift", R"("per_s": 0.05)"},
+        {"sensor_lag", R"("tau_s": 0.3)"},
+        {"sensor_saturation", R"("limit": 0.5)"},
+        {"sensor_magnitude", ""},
+        {"sensor_wrap", R"("turn": 0.4)"},
+        {"encoder_quantisation", R"("step": 0.1)"},
+        {"missed_counts", R"("at_s": [2, 4], "sizes": [0.2, -0.1])"},
+        {"logger_filter", R"("window_s": 0.4)"},
+        {"finite_memory", R"("taps": 20)"},
+        {"fixed_point", R"("format": "q15")"},
+    };
+    drive::Model model;
+    model.denominator = {{0.25, 1.9}, {0.6, 1.0}, {1.0, 0.0}};
+    gap::Record record{"log", {}, {}, {}, 0.02};
+    record.more_inputs.emplace_back();
+    for (int k = 0; k < 400; ++k) {
+        record.time_s.push_back(0.02 * k);
+        record.input.push_back(k < 150 ? 0.4 : k < 300 ? 1.0 : -0.5);
+        record.more_inputs[0].push_back(k < 200 ? 0.0 : 1.0);
+    }
+    gap::Scenario plain;
+    plain.model = model;
+    const std::vector<double> usual = gap::simulate(plain, gap::Course(record, 1));
+    for (const auto& [name, parameters] : all) {
+        model.notes = fmt::format(R"({{"effects": [{{"effect": "{}", "parameters": {{{}}}}}]}})", name, parameters);
+        const gap::Improved improved = gap::simulate_improved(model, record, "m.json");
+        EXPECT_THAT(improved.effects, ElementsAre(name));
+        double most = 0.0;
+        for (std::size_t i = 0; i < usual.size(); ++i) {
+            EXPECT_TRUE(std::isfinite(improved.output[i])) << name;
+            most = std::max(most, std::fabs(improved.output[i] - usual[i]));
+        }
+        EXPECT_GT(most, 0.01) << name;
+    }
+    // Those whose effect is too small to see here, or that move no reading.
+    EXPECT_EQ(all.size() + 3, gap::effects().size());
+    for (const auto& [name, parameters] :
+         {std::pair("single_precision", ""), std::pair("sampling_jitter", R"("half_width_s": 0.01)"),
+          std::pair("dropped_samples", R"("rate": 0.1)")}) {
+        model.notes = fmt::format(R"({{"effects": [{{"effect": "{}", "parameters": {{{}}}}}]}})", name, parameters);
+        EXPECT_THAT(gap::simulate_improved(model, record, "m.json").effects, ElementsAre(name));
     }
 }
 
