@@ -62,10 +62,13 @@ gap::Question question_of(drive::Form form, bool refit, std::vector<gap::Record>
 }
 
 // The one place where the base of a case without a model is found.
-gap::Question question_without_model(const stand::blind::Facts&, std::vector<gap::Record> train,
+gap::Question question_without_model(const stand::blind::Facts& facts, std::vector<gap::Record> train,
                                      std::vector<gap::Record> validate) {
-    drive::Form form = gap::search_form("sopdt", train);
-    return question_of(std::move(form), true, std::move(train), std::move(validate));
+    gap::Question question = question_of(gap::form_to_find(), true, std::move(train), std::move(validate));
+    question.domain = gap::domain_named(facts.domain);
+    question.metric_free = true;
+    gap::take_base(question, "fit");
+    return question;
 }
 
 }  // namespace

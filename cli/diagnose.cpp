@@ -32,6 +32,7 @@ struct Options {
     bool refit = false;
     std::string metric;
     std::optional<double> horizon_s;
+    std::string domain;
     std::vector<std::string> without;
     std::filesystem::path json;
     std::filesystem::path html;
@@ -126,20 +127,23 @@ void run(const Options& options) {
     for (const std::string& name : options.without) {
         (void)gap::effect_named(name);
     }
-    const bool found = options.model == "fit";
-    const bool fitted = options.model.starts_with("fit:");
-    const drive::Form form = found    ? gap::form_to_find()
-                             : fitted ? gap::search_form(options.model.substr(4), train)
-                                      : gap::form_of(read_model(options.model));
-    gap::Question question{form,
-                           found || fitted || options.refit,
+    const bool fitted = options.model == "fit" || options.model.starts_with("fit:");
+    gap::Question question{fitted ? gap::form_to_find() : gap::form_of(read_model(options.model)),
+                           fitted || options.refit,
                            std::move(train),
                            read_records(options.validate, options.columns),
                            options.split_s,
                            options.metric == "prediction" ? gap::Metric::prediction : gap::Metric::simulation,
                            options.without,
                            options.jobs};
-    question.find = found;
+    if (fitted) {
+        gap::take_base(question, options.model);
+    } else if (options.refit) {
+        question.base_name = "the model, refitted";
+    }
+    if (!options.domain.empty()) {
+        question.domain = gap::domain_named(options.domain);
+    }
     question.metric_free = options.metric.empty();
     question.horizon_s = options.horizon_s;
     question.base_name = fitted ? options.model.substr(4) : options.refit ? "the model, refitted" : "";
@@ -209,7 +213,9 @@ void add_options(Command& command, const Words&) {
         "dynamics,\n"
         "dead time, offset and initial state are fitted first.\n"
         "Example: glsum diagnose drive --model model.json --log train.csv --validate other.csv --json verdict.json");
-    of_drive.add_option("--model", options->model, "fit: the linear description that does best by itself; fit:FORM: one of a form; or a model JSON")
+    of_drive
+        .add_option("--model", options->model,
+                    "fit: the linear description that does best by itself; fit:FORM: one of a form; or a model JSON")
         .required();
     of_drive.add_option("--log", options->logs, "Logs that are fitted").required();
     of_drive.add_option("--validate", options->validate, "Logs that are not: the verdict is taken there");
@@ -218,12 +224,19 @@ void add_options(Command& command, const Words&) {
         .above(0);
     of_drive.add_flag("--refit", options->refit, "Fit the model first");
     of_drive
-        .add_option("--metric", options->metric,
-                    "simulation, or prediction: for drives that integrate or were logged in a closed loop; simulation unless a "
-                    "base is found that integrates")
+        .add_option(
+            "--metric", options->metric,
+            "simulation, or prediction: for drives that integrate or were logged in a closed loop; simulation unless a "
+            "base is found that integrates")
         .one_of({"simulation", "prediction"});
-    of_drive.add_option("--horizon", options->horizon_s, "SECONDS that a prediction looks ahead; a fiftieth of the record unless given")
+    of_drive
+        .add_option("--horizon", options->horizon_s,
+                    "SECONDS that a prediction looks ahead; a fiftieth of the record unless given")
         .above(0);
+    of_drive
+        .add_option("--domain", options->domain,
+                    "What the plant is; effects that cannot occur there are left off the list")
+        .one_of({"mechanical", "thermal", "hydraulic", "electric"});
     of_drive.add_option("--without", options->without, "Effects to leave off the list").delimiter(',');
     add_diagnosis_column_options(of_drive, options->columns);
     of_drive.add_option("--json", options->json, "The verdict, schema glsum-gap-1");

@@ -14,7 +14,10 @@ std::vector<const Effect*> list_of(const Question& question, const Scales& scale
     for (const Effect* effect : effects()) {
         const bool off =
             std::find(question.without.begin(), question.without.end(), effect->name) != question.without.end();
-        if (!off && !(question.refit && effect->of_fitted_base) && applies(*effect, scales)) {
+        const bool elsewhere = question.domain && !effect->domains.contains(*question.domain);
+        const bool of_input = effect->place == Place::command || effect->place == Place::actuator;
+        if (!off && !elsewhere && !(of_input && !scales.driven) && !(question.refit && effect->of_fitted_base) &&
+            applies(*effect, scales)) {
             list.push_back(effect);
         }
     }

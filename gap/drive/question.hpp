@@ -20,6 +20,7 @@ struct Question {
     Metric metric = Metric::simulation;
     std::vector<std::string> without;  ///< effects that are taken off the list
     unsigned jobs = 1;
+    std::optional<Domain> domain = {};     ///< what the plant is: effects that cannot be there are left out
     std::string base_name = {};            ///< of a fitted form
     bool find = false;                     ///< the base is looked for: `form` is none yet
     bool metric_free = false;              ///< predictions where the base that is found rests nowhere

@@ -86,6 +86,17 @@ drive::Form search_form(const std::string& form, const std::vector<Record>& reco
     return {kind, best};
 }
 
+void take_base(Question& question, const std::string& words) {
+    question.refit = true;
+    if (words == "fit") {
+        question.find = true;
+        question.form = form_to_find();
+        return;
+    }
+    question.base_name = words.substr(words.find(':') + 1);
+    question.form = search_form(question.base_name, question.train);
+}
+
 drive::Form form_of(const drive::Model& model) {
     drive::Form form(model.kind, model);
     if (model.kind == drive::Kind::fotf) {

@@ -28,29 +28,28 @@ void check_split(const Asked& asked, const std::vector<Record>& train) {
     }
 }
 
-drive::Form base_of(const Asked& asked, const Given& given) {
-    if (!asked.is_fitted()) {
-        return form_of(given.model.value());
-    }
-    const std::size_t colon = asked.base.find(':');
-    return search_form(colon == std::string::npos ? "" : asked.base.substr(colon + 1), given.train);
-}
-
 }  // namespace
 
 Question to_question(const Asked& asked, Given given, unsigned jobs) {
     if (asked.split_s) {
         check_split(asked, given.train);
     }
-    drive::Form base = base_of(asked, given);
-    return {.form = std::move(base),
-            .refit = asked.refit || asked.is_fitted(),
-            .train = std::move(given.train),
-            .validate = std::move(given.validate),
-            .split_s = asked.split_s,
-            .metric = asked.metric,
-            .without = {},
-            .jobs = jobs};
+    Question question{.form = asked.is_fitted() ? form_to_find() : form_of(given.model.value()),
+                      .refit = asked.refit || asked.is_fitted(),
+                      .train = std::move(given.train),
+                      .validate = std::move(given.validate),
+                      .split_s = asked.split_s,
+                      .metric = asked.metric.value_or(Metric::simulation),
+                      .without = {},
+                      .jobs = jobs};
+    question.metric_free = !asked.metric;
+    if (!asked.domain.empty()) {
+        question.domain = domain_named(asked.domain);
+    }
+    if (asked.is_fitted()) {
+        take_base(question, asked.base);
+    }
+    return question;
 }
 
 std::string to_answer(const Asked& asked, const Answer& answer) {

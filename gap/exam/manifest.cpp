@@ -71,9 +71,10 @@ Asked to_asked(Fields fields) {
     asked.domain = fields.has("domain") ? fields.one_of("domain", {"mechanical", "thermal", "hydraulic", "electric"})
                                         : std::string();
     asked.units = take_units(fields);
-    asked.metric = fields.has("metric") && fields.one_of("metric", {"simulation", "prediction"}) == "prediction"
-                       ? Metric::prediction
-                       : Metric::simulation;
+    if (fields.has("metric")) {
+        asked.metric = fields.one_of("metric", {"simulation", "prediction"}) == "prediction" ? Metric::prediction
+                                                                                             : Metric::simulation;
+    }
     asked.refit = fields.flag_or("refit", false);
     fields.refuse_rest(
         "name, train, validate, split_s, base, domain, metric, refit, time_column, input_columns, output_column and "

@@ -38,7 +38,7 @@ struct Asked {
     std::string base;                          ///< `fit`, `fit:FORM` or the path of a model's file
     std::string domain;                        ///< mechanical, thermal, hydraulic, electric; empty: not said
     std::map<std::string, std::string> units;  ///< by column
-    Metric metric = Metric::simulation;
+    std::optional<Metric> metric;              ///< not said: simulation, unless a base is found that integrates
     bool refit = false;
     [[nodiscard]] bool is_fitted() const { return base == "fit" || base.starts_with("fit:"); }
 };

@@ -92,8 +92,8 @@ void take_named(Reply& reply, Fields& fields) {
         const std::optional<double> which = number_in(value, "alternative");
         Fields own(std::move(value), place);
         const std::size_t alternative = reply.verdict == "attributed" ? 0
-                                        : which                       ? static_cast<std::size_t>(std::clamp(*which, 0.0, 1e6))
-                                                                      : row;
+                                        : which ? static_cast<std::size_t>(std::clamp(*which, 0.0, 1e6))
+                                                : row;
         by_alternative[alternative].push_back(own.text("effect"));
         const Json confidence = own.take("confidence");
         if (!confidence.is_number() || confidence.get<double>() < 0.0 || confidence.get<double>() > 1.0) {

@@ -152,7 +152,8 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     Question asked = question;
     asked.refit = true;
     asked.jobs = 1;
-    bench::parallel_for(tried.size(), question.jobs, [&](std::size_t i) { found[i] = describe(*tried[i], alone, asked); });
+    bench::parallel_for(tried.size(), question.jobs,
+                        [&](std::size_t i) { found[i] = describe(*tried[i], alone, asked); });
     std::vector<Described> all;
     for (std::optional<Described>& one : found) {
         if (one) {
