@@ -74,4 +74,26 @@ std::string as_decimal_commas(const std::vector<Field>& fields, std::size_t expe
                                                  : "; quote such fields or put semicolons between them");
 }
 
+void CommaDoubt::see(const std::vector<Field>& fields, std::size_t line) {
+    for (const Field& field : fields) {
+        settled_ = settled_ || field.quoted || field.text.find('.') != std::string_view::npos;
+        if (line_ == 0 && field.text.size() > 1 && field.text.front() == '0' && is_digits(field.text)) {
+            line_ = line;
+            field_ = std::string(field.text);
+            shown_ = shown(from_first_to_last(fields.front(), fields.back()));
+            fields_ = fields.size();
+        }
+    }
+}
+
+void CommaDoubt::refuse_if_any(const std::string& file) const {
+    if (settled_ || line_ == 0) {
+        return;
+    }
+    refuse(
+        fmt::format("{}:{}: expected a header or decimal points, found {} in {}: {} fields, or fewer with decimal "
+                    "commas? --decimal point or comma decides",
+                    file, line_, shown(field_), shown_, fields_));
+}
+
 }  // namespace drive

@@ -46,9 +46,16 @@ public:
     }
     /// Of a first line that is data: where --decimal says so, its commas separate and part in turn.
     void pair_decimals() {
-        if (pairs_ && fields_.size() % 2 == 0) {
-            fields_ = joined_pairs(fields_);
+        if (!pairs_ || any_quoted_) {
+            return;
         }
+        if (fields_.size() % 2 != 0) {
+            refuse(
+                fmt::format("{}: expected an even number of fields, which --decimal comma joins by twos, found {}; "
+                            "quote decimal commas or put semicolons between fields",
+                            place(), fields_.size()));
+        }
+        fields_ = joined_pairs(fields_);
     }
     void expect(std::size_t count) {
         if (fields_.size() == 2 * count && pairs_) {
@@ -172,7 +179,12 @@ Log parse_log(const std::string& text, const std::string& name, const Columns& c
     Stamps stamps(name, decimals, {header.names[at.time], time_below, columns.time_unit});
     more = has_units ? rows.next() : more;
     log.more_inputs.resize(at.more_inputs.size());
+    const bool may_doubt = !header.is_written && columns.decimal.empty() && rows.separator() == Separator::comma;
+    CommaDoubt doubt;
     for (; more; more = rows.next()) {
+        if (may_doubt) {
+            doubt.see(rows.fields(), rows.line());
+        }
         rows.expect(header.names.size());
         if (log.time_s.size() == LogLimits::samples) {
             refuse(fmt::format("{}: expected at most {} samples", rows.place(), LogLimits::samples));
@@ -199,6 +211,7 @@ Log parse_log(const std::string& text, const std::string& name, const Columns& c
     if (log.time_s.size() < 2) {
         refuse(fmt::format("{}: expected at least 2 samples, found {}", name, log.time_s.size()));
     }
+    doubt.refuse_if_any(name);
     std::vector<std::string> found;
     const auto say_if = [&](bool is_there, const std::string& what) {
         if (is_there) {

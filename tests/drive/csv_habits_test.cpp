@@ -95,6 +95,25 @@ TEST(LogHabits, DecimalCommasAmongCommasAreRefusedWithTheirReadings) {
                 HasSubstr("l.csv:3: expected 3"));
 }
 
+// Without a header nothing tells how many columns there are.
+TEST(LogHabits, DigitsThatNoNumberBeginsWithAreDoubted) {
+    const std::string text = "0,50,1,00\n1,05,2,00\n";
+    EXPECT_THAT(refusal(text), HasSubstr("l.csv:1: expected a header or decimal points, found '00' in '0,50,1,00': 4 "
+                                         "fields, or fewer with decimal commas? --decimal point or comma decides"));
+    const Log joined = drive::parse_log(text, "l.csv", {.needs_input = false, .decimal = "comma"});
+    EXPECT_THAT(joined.time_s, ElementsAre(0.5, 1.05));
+    EXPECT_THAT(joined.output, ElementsAre(1, 2));
+    EXPECT_THAT(drive::parse_log(text, "l.csv", {.decimal = "point"}).input, ElementsAre(50, 5));
+    EXPECT_THAT(drive::parse_log("0,1,00\n0.5,1,01\n", "l.csv").output, ElementsAre(0, 1));
+    EXPECT_THAT(drive::parse_log("0,1,3\n10,1,4\n", "l.csv").output, ElementsAre(3, 4));
+    EXPECT_THAT(drive::parse_log("time_s,input,y\n0,1,00\n1,1,01\n", "l.csv").output, ElementsAre(0, 1));
+    EXPECT_THAT(drive::parse_log("0,1;00,2;1\n1,1;00,2;2\n", "l.csv").output, ElementsAre(1, 2));
+    EXPECT_THAT(refusal("1,5,2\n2,5,3\n", {.decimal = "comma"}),
+                HasSubstr("l.csv:1: expected an even number of fields"));
+    EXPECT_THAT(drive::parse_log("0,\"0,5\",1,2\n1,\"1,5\",2,2\n", "l.csv", {.decimal = "comma"}).input,
+                ElementsAre(0.5, 1.5));
+}
+
 TEST(LogHabits, WhatMayBeReadInTwoWaysIsRefused) {
     EXPECT_THAT(refusal("time_s;input;output\n0;0,5;1\n1;0.5;1\n"),
                 HasSubstr("l.csv:3: input: expected decimal commas throughout, as '0,5' in line 2 has, found '0.5'"));
