@@ -252,10 +252,6 @@ std::optional<OpenCase> attempt_case(const OpenPlan& asked, std::uint64_t own, i
     }
     const Left with = left_by_a_base(*rig, records, clean);
     if (plan.plan.kind != Class::none && plan.plan.kind != Class::taken_up) {
-        if (with.validate < least_left_on_validation * truth.noise ||
-            with.train < least_left_in_training * truth.noise) {
-            return std::nullopt;
-        }
         const Left without = left_by_a_base(*rig, records, bare);
         truth.left_on_validation = beyond(with.validate, without.validate) / truth.noise;
         truth.left_in_training = beyond(with.train, without.train) / truth.noise;
