@@ -116,9 +116,13 @@ TEST(OpenScore, Counts) {
     EXPECT_EQ(stand::blind::right_of_the_sure(found.claims).hits, 1U);
     EXPECT_EQ(stand::blind::right_of_the_sure(found.claims).all, 2U);
     EXPECT_EQ(stand::blind::sure_of_the_right(found.claims).hits, 1U);
-    EXPECT_EQ(found.confusion.at("taken_up").at("end_stop"), 1U);
+    EXPECT_EQ(found.confusion.at("taken_up: gain_error").at("end_stop"), 1U);
+    EXPECT_EQ(found.confusion.at("end_stop").at("backlash or cogging"), 1U);
+    ASSERT_EQ(found.cases.size(), 6U);
+    EXPECT_DOUBLE_EQ(found.cases[4].judged.points, 0.5);
     EXPECT_THAT(stand::blind::to_text(found), HasSubstr("single causes, points (>= 80 %)                 50.0 %"));
-    EXPECT_THAT(stand::blind::to_json(found), HasSubstr("\"glsum-open-score-1\""));
+    EXPECT_THAT(stand::blind::to_json(found),
+                testing::AllOf(HasSubstr("\"glsum-open-score-1\""), HasSubstr("\"points\": 0.5")));
     EXPECT_THAT(stand::blind::missed_goals(found),
                 testing::ElementsAre(HasSubstr("points for single causes"), HasSubstr("wrong: expected at most 3 %"),
                                      HasSubstr("no_gap where"), HasSubstr("right of the answers at 0.9")));

@@ -1,6 +1,7 @@
 #include "drive/stand/blind/judge.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -38,6 +39,16 @@ OpenJson json_of(const Share& share) {
 
 OpenJson json_of(const Earned& earned) {
     return {{"points", earned.points}, {"of", earned.all}, {"share", earned.value()}};
+}
+
+std::string title_of(const SealedCase& truth) {
+    return truth.effects.empty() || truth.kind == "single"
+               ? row_of(truth)
+               : fmt::format("{}: {}", truth.kind, fmt::join(truth.effects, "+"));
+}
+
+std::string said_by(const Answer& answer) {
+    return answer.verdict == "ambiguous" ? fmt::format("{}", fmt::join(answer.effects, " or ")) : column_of(answer);
 }
 
 }  // namespace
@@ -81,7 +92,8 @@ OpenScore score_open(std::span<const SealedCase> truths, std::span<const Answer>
         const Answer& answer = answers[i];
         const Judgement judged = judge(truth, answer);
         total.wrong.count(judged.wrong);
-        ++total.confusion[row_of(truth)][column_of(answer)];
+        total.cases.push_back({truth, answer, judged});
+        ++total.confusion[title_of(truth)][said_by(answer)];
         if (truth.kind == "single") {
             earn(total.singles, judged.points);
             earn(total.by_effect[truth.effects.front()], judged.points);
@@ -140,7 +152,7 @@ std::string to_text(const OpenScore& score) {
     }
     text += "\ntruth: answers\n";
     for (const auto& [truth, answers] : score.confusion) {
-        text += fmt::format("  {:<30}", truth);
+        text += fmt::format("  {:<44}", truth);
         const char* between = "";
         for (const auto& [answer, count] : answers) {
             text += fmt::format("{} {} {}", between, count, answer);
@@ -177,6 +189,18 @@ std::string to_json(const OpenScore& score) {
                                        {"right", json_of(bin.right)}});
     }
     file["confusion"] = score.confusion;
+    file["cases"] = OpenJson::array();
+    for (const JudgedCase& one : score.cases) {
+        file["cases"].push_back({{"case", one.truth.name},
+                                 {"domain", one.truth.domain},
+                                 {"class", one.truth.kind},
+                                 {"truth", one.truth.effects},
+                                 {"verdict", one.answer.verdict},
+                                 {"named", one.answer.effects},
+                                 {"confidence", one.answer.confidence},
+                                 {"points", one.judged.points},
+                                 {"wrong", one.judged.wrong}});
+    }
     return file.dump(2) + "\n";
 }
 

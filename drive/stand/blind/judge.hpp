@@ -32,7 +32,15 @@ struct Earned {
     [[nodiscard]] double value() const { return all == 0 ? 0.0 : points / static_cast<double>(all); }
 };
 
+/// One case, its answer, and what that is worth.
+struct JudgedCase {
+    SealedCase truth;
+    Answer answer;
+    Judgement judged;
+};
+
 struct OpenScore {
+    std::vector<JudgedCase> cases;
     Earned singles;
     Earned pairs;
     Share wrong;                              ///< of all cases
@@ -43,7 +51,7 @@ struct OpenScore {
     std::map<std::string, Earned> by_size;    ///< single ones
     Share ambiguous_without;                  ///< of the ambiguous answers, those that hold nothing of the truth
     std::vector<Claim> claims;                ///< the attributed; right: all points
-    std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth, answer
+    std::map<std::string, std::map<std::string, std::size_t>> confusion;  ///< truth, answer; both by their names
 };
 
 /// \param answers  one for each case \throws glsum::Failure (bad input) for another number
