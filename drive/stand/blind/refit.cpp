@@ -69,15 +69,28 @@ std::vector<Through> filter(std::span<const EvenRecord> records, double time_s, 
     return all;
 }
 
-double delayed(const std::vector<double>& values, std::size_t k, double delay_steps) {
-    const double at = static_cast<double>(k) - delay_steps;
-    if (at <= 0.0) {
-        return 0.0;
+// Place and speed a dead time ago, which need not be a whole number of steps: moved on from the step before.
+class Delayed {
+public:
+    Delayed(double time_s, double damping, double delay_s, double step_s)
+        : whole_(static_cast<std::size_t>(std::ceil(delay_s / step_s - 1e-9))),
+          part_(one_step(time_s, damping, static_cast<double>(whole_) * step_s - delay_s)) {}
+
+    [[nodiscard]] std::array<double, 2> at(const EvenRecord& record, const Through& through, std::size_t k) const {
+        if (k < whole_) {
+            return {0.0, 0.0};
+        }
+        const double place = through.place[k - whole_];
+        const double speed = through.speed[k - whole_];
+        const double u = record.input[k - whole_];
+        return {part_[0][0] * place + part_[0][1] * speed + part_[0][2] * u,
+                part_[1][0] * place + part_[1][1] * speed + part_[1][2] * u};
     }
-    const auto before = static_cast<std::size_t>(at);
-    const double part = at - static_cast<double>(before);
-    return part > 0.0 ? values[before] + part * (values[before + 1] - values[before]) : values[before];
-}
+
+private:
+    std::size_t whole_;
+    Matrix3 part_;
+};
 
 // Sums of squares and products of 1, place, speed and output.
 struct Sums {
@@ -207,12 +220,11 @@ public:
     // Of output and input in units of their ranges, so that pivots and sums are about 1 a sample.
     double cost(LinearBase& base) const {
         Sums sums;
-        const double delay_steps = base.delay_s / step_s_;
+        const Delayed delayed(base.time_s, base.damping, base.delay_s, step_s_);
         for (std::size_t r = 0; r < records_.size(); ++r) {
             for (std::size_t k = records_[r].from; k < records_[r].output.size(); ++k) {
-                sums.add(delayed(through_[r].place, k, delay_steps) / input_,
-                         delayed(through_[r].speed, k, delay_steps) / input_,
-                         (records_[r].output[k] - middle_) / half_);
+                const auto [place, speed] = delayed.at(records_[r], through_[r], k);
+                sums.add(place / input_, speed / input_, (records_[r].output[k] - middle_) / half_);
             }
         }
         const double left = solve(sums, base);
@@ -240,21 +252,29 @@ private:
 
 LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double tau_s) {
     Search search(records, step_s);
-    LinearBase best;
-    double least = std::numeric_limits<double>::infinity();
+    struct Start {
+        double cost;
+        LinearBase base;
+    };
+    // Of each time constant its best; the sum of squares has more than one valley.
+    std::vector<Start> starts;
     for (const double time : {0.15, 0.3, 0.6, 1.0, 1.8}) {
+        Start start{std::numeric_limits<double>::infinity(), {}};
         for (const double damping : {0.3, 0.7, 1.2, 2.5}) {
             search.through(time * tau_s, damping);
             for (const double delay : {0.0, 0.1, 0.25, 0.5, 1.0}) {
                 LinearBase tried{time * tau_s, damping, delay * tau_s};
                 const double cost = search.cost(tried);
-                if (cost < least) {
-                    least = cost;
-                    best = tried;
+                if (cost < start.cost) {
+                    start = {cost, tried};
                 }
             }
         }
+        starts.push_back(start);
     }
+    std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
+    LinearBase best = starts.front().base;
+    double least = starts.front().cost;
     // Nelder and Mead's simplex in the logarithms of time and damping and in the delay.
     const auto at = [&](const Point& point) {
         LinearBase tried{tau_s * std::exp(point[0]), std::clamp(std::exp(point[1]), 0.05, 20.0),
@@ -266,22 +286,26 @@ LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double t
         }
         return cost;
     };
-    for (const double reach : {0.3, 0.1}) {
-        const Point first{std::log(best.time_s / tau_s), std::log(best.damping), best.delay_s / tau_s};
-        descend_from(first, reach, at);
+    const auto point_of = [&](const LinearBase& base) {
+        return Point{std::log(base.time_s / tau_s), std::log(base.damping), base.delay_s / tau_s};
+    };
+    constexpr std::size_t valleys = 3;
+    for (std::size_t i = 0; i < valleys; ++i) {
+        descend_from(point_of(starts[i].base), 0.3, at);
     }
+    descend_from(point_of(best), 0.1, at);
     return best;
 }
 
 double misfit(const LinearBase& base, std::span<const EvenRecord> records, double step_s) {
     const auto through = filter(records, base.time_s, base.damping, step_s);
+    const Delayed delayed(base.time_s, base.damping, base.delay_s, step_s);
     double square = 0.0;
     double count = 0.0;
     for (std::size_t r = 0; r < records.size(); ++r) {
         for (std::size_t k = records[r].from; k < records[r].output.size(); ++k) {
-            const double left = records[r].output[k] - base.offset -
-                                base.gain * delayed(through[r].place, k, base.delay_s / step_s) -
-                                base.lead_gain * delayed(through[r].speed, k, base.delay_s / step_s);
+            const auto [place, speed] = delayed.at(records[r], through[r], k);
+            const double left = records[r].output[k] - base.offset - base.gain * place - base.lead_gain * speed;
             square += left * left;
             count += 1.0;
         }

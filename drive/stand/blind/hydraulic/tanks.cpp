@@ -20,6 +20,7 @@ public:
         const double u = command_at(t);
         double w = u > tanks_.threshold ? u : 0.0;
         w = std::clamp(w - tanks_.dead_zone, 0.0, tanks_.input_limit);
+        w += tanks_.curvature * w * (w / tanks_.curve_reference - 1.0);
         if (std::fabs(w - stem_) > tanks_.stiction_band) {
             stem_ = w;
         }
@@ -72,8 +73,7 @@ struct Weather {
 
 Levels rates(const Tanks& tanks, const Levels& now, double opening, double t, const Weather& weather) {
     const double speed = tanks.pump_tau_s > 0.0 ? now.pump : opening;
-    const double bent = speed * (1.0 + tanks.curvature * (speed / tanks.curve_reference - 1.0));
-    const double inflow = tanks.inflow_per_unit * bent * weather.flow * (1.0 + tanks.gain_growth_per_s * t);
+    const double inflow = tanks.inflow_per_unit * speed * weather.flow * (1.0 + tanks.gain_growth_per_s * t);
     const double leak = t >= tanks.disturbance_from_s && t < tanks.disturbance_to_s ? tanks.disturbance_cm3_per_s : 0.0;
     const double between = tanks.two ? outflow(tanks, tanks.first_outflow_cm2_per_s, now.first_cm) : inflow;
     const double area = tanks.area_cm2 * (now.last_cm > tanks.wider_from_cm ? 1.0 + tanks.upper_area_share : 1.0);
