@@ -12,7 +12,7 @@ namespace {
 
 constexpr double quantile = 1.96;  // of a normal deviation: 95 %
 constexpr double likely = 2.0;     // units of likelihood: 95 %
-constexpr int steps = 16;          // of a range, on each side
+constexpr int tries = 16;          // of a range, on each side
 
 double half_squares(const Study& study, const Candidate& candidate, const Whitener* whitener) {
     double sum = 0.0;
@@ -43,8 +43,8 @@ double as_far_as_likely(const Study& study, Candidate& candidate, FreeParameter&
     const double best = half_squares(study, candidate, whitener);
     const double enough = samples_new(study, candidate);
     double far = value;
-    for (int step = 1; step <= steps; ++step) {
-        const double tried = value + (bound - value) * step / steps;
+    for (int step = 1; step <= tries; ++step) {
+        const double tried = value + (bound - value) * step / tries;
         parameter.value = tried;
         const double rises = 0.5 * enough * std::log(half_squares(study, candidate, whitener) / best);
         parameter.value = value;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "drive/fit.hpp"
+#include "gap/drive/base/find.hpp"
 #include "gap/drive/question.hpp"
 
 namespace gap {
