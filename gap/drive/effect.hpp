@@ -100,8 +100,9 @@ struct Effect {
     std::set<Domain> domains = all_domains();  ///< in which it can occur
     bool uneven_noise = false;                 ///< it makes noise uneven by nature
     bool of_fitted_base = false;               ///< a base that is fitted has this already
-    bool only_spreads = false;                 ///< moves no reading: found by likelihood, not by the sum of squares
-    bool rounds = false;  ///< a reading stands for a range of values, within which nothing is missed
+    bool linear = false;        ///< linear, and the same at all times: a base of another form takes it up
+    bool only_spreads = false;  ///< moves no reading: found by likelihood, not by the sum of squares
+    bool rounds = false;        ///< a reading stands for a range of values, within which nothing is missed
     std::vector<Written> (*to_contract)(const Effect& effect, std::span<const Fitted> fitted) = numbers_to_contract;
     std::vector<double> (*from_contract)(const Effect& effect, const Contracted& contracted) = numbers_from_contract;
     /// A further start that the residuals of what is there without it tell, for numbers whose basin is narrow: values

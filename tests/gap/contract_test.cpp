@@ -81,6 +81,16 @@ TEST(GapContract, HasWordsAndListsWhereItSaysSo) {
     const gap::Written format = fixed.to_contract(fixed, bits).front();
     EXPECT_EQ(std::get<std::string>(format.value), "q15");
     EXPECT_TRUE(format.intervals.empty());
+    const gap::Effect& mode = gap::effect_named("structural_resonance");
+    const std::vector<gap::Fitted> speed = {{3.0, 2.9, 3.1}, {0.05, 0.04, 0.06}, {0.2, 0.1, 0.3}, {1.0, 1.0, 1.0}};
+    const gap::Written speed_share = mode.to_contract(mode, speed).back();
+    EXPECT_EQ(speed_share.name, "speed_share");
+    EXPECT_EQ(std::get<double>(speed_share.value), 0.2);
+    const std::vector<double> both =
+        mode.from_contract(mode, {{"hz", 3.0}, {"damping", 0.05}, {"share", -0.3}, {"speed_share", 0.4}});
+    EXPECT_NEAR(both[2], -0.5, 1e-12);
+    EXPECT_NEAR(both[2] * std::cos(0.5 * 3.14159265358979 * both[3]), -0.3, 1e-12);
+    EXPECT_NEAR(both[2] * std::sin(0.5 * 3.14159265358979 * both[3]), 0.4, 1e-12);
     const gap::Effect& missed = gap::effect_named("missed_counts");
     const std::vector<gap::Fitted> jumps = {{2.0, 2.0, 2.0}, {0.5, 0.4, 0.6}, {0.0, 0.0, 0.0},
                                             {0.0, 0.0, 0.0}, {7.0, 7.0, 7.0}, {-0.5, -0.7, -0.3}};
@@ -203,6 +213,9 @@ TEST(GapContract, AnEffectSaysWhatItIs) {
                             "finite_memory", "single_precision", "fixed_point"));
     EXPECT_THAT(those([](const gap::Effect& effect) { return effect.uneven_noise; }),
                 ElementsAre("sensor_saturation", "encoder_quantisation", "dropped_samples", "sampling_jitter"));
+    EXPECT_THAT(those([](const gap::Effect& effect) { return effect.linear; }),
+                ElementsAre("gain_error", "time_scale_error", "dead_time_error", "order_error", "actuator_lag",
+                            "structural_resonance", "sensor_offset", "sensor_lag", "logger_filter"));
     EXPECT_THAT(those([](const gap::Effect& effect) { return effect.only_spreads; }), ElementsAre("sampling_jitter"));
     EXPECT_THAT(those([](const gap::Effect& effect) { return effect.rounds; }), ElementsAre("encoder_quantisation"));
     EXPECT_THAT(those([](const gap::Effect& effect) { return effect.place == gap::Place::deployed; }),

@@ -146,7 +146,7 @@ TEST(GapIdentifiable, WhatThePlantDoes) {
     expect_found({arm(), moved(-1.0)}, "cubic_stiffness", {1.2}, {{"coefficient", 1.2}});
     expect_found({arm(), moved(-1.0)}, "load_dependent_friction", {0.06}, {{"share", 0.06}});
     expect_found({arm(), moved(-1.0)}, "cogging", {0.05, 3.0, 0.7, 0.0}, {{"per_unit", 3.0}});
-    expect_found({arm(), moved(0.0)}, "structural_resonance", {2.4, 0.06, 0.0, 0.1},
+    expect_found({arm(), moved(0.0)}, "structural_resonance", {2.4, 0.06, 0.1, 1.0},
                  {{"hz", 2.4}, {"damping", 0.06}, {"speed_share", 0.1}});
     expect_found({rotor(), moved(-0.5), 0.01}, "coulomb_friction", {0.6, 1.0}, {{"force", 0.6}, {"of_speed", 1.0}});
     expect_found({rotor(), moved(-0.5), 0.01}, "direction_dependent_friction", {0.5, 0.25, 1.0},

@@ -46,6 +46,7 @@ const Effect& actuator_lag() {
         .add_to = add,
         .place = Place::actuator,
         .numbers = {{"tau_s"}},
+        .linear = true,
     };
     return effect;
 }

@@ -34,6 +34,7 @@ const Effect& dead_time_error() {
         .place = Place::command,
         .numbers = {{"extra_s"}},
         .of_fitted_base = true,
+        .linear = true,
     };
     return effect;
 }

@@ -33,6 +33,7 @@ const Effect& gain_error() {
         .place = Place::actuator,
         .numbers = {{"gain"}},
         .of_fitted_base = true,
+        .linear = true,
     };
     return effect;
 }

@@ -55,6 +55,7 @@ const Effect& logger_filter() {
         .add_to = add,
         .place = Place::logger,
         .numbers = {{"window_s"}},
+        .linear = true,
     };
     return effect;
 }

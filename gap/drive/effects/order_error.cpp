@@ -38,6 +38,7 @@ const Effect& order_error() {
         .place = Place::plant,
         .numbers = {{"shift"}, {"power", Number::Given::otherwise, 0.0}},
         .of_fitted_base = true,
+        .linear = true,
     };
     return effect;
 }

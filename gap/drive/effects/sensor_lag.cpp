@@ -48,6 +48,7 @@ const Effect& sensor_lag() {
         .add_to = add,
         .place = Place::sensor,
         .numbers = {{"tau_s"}},
+        .linear = true,
     };
     return effect;
 }

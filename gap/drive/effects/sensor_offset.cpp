@@ -33,6 +33,7 @@ const Effect& sensor_offset() {
         .place = Place::sensor,
         .numbers = {{"offset"}},
         .of_fitted_base = true,
+        .linear = true,
     };
     return effect;
 }

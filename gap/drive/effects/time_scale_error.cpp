@@ -33,6 +33,7 @@ const Effect& time_scale_error() {
         .place = Place::plant,
         .numbers = {{"scale"}},
         .of_fitted_base = true,
+        .linear = true,
     };
     return effect;
 }
