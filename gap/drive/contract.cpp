@@ -35,11 +35,11 @@ std::vector<double> numbers_from_contract(const Effect& effect, const Contracted
         }
         values.push_back(left_out ? number.otherwise : *value);
     }
-    for (const auto& [name, value] : contracted) {
+    for (const auto& given : contracted) {
         if (std::none_of(effect.numbers.begin(), effect.numbers.end(), [&](const Number& number) {
-                return number.name == name && number.given != Number::Given::never;
+                return number.name == given.first && number.given != Number::Given::never;
             })) {
-            cannot_read(fmt::format("{}: has no parameter {}", effect.name, name));
+            cannot_read(fmt::format("{}: has no parameter {}", effect.name, given.first));
         }
     }
     return values;
