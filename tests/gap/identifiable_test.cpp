@@ -7,6 +7,7 @@
 #include <random>
 
 #include "gap/drive/audit.hpp"
+#include "gap/drive/clued_start.hpp"
 #include "gap/drive/fit.hpp"
 #include "gap/drive/start.hpp"
 
@@ -82,15 +83,10 @@ gap::Study study_of(const Rig& rig) {
 // From its starts, and from what the residuals tell where it has a look at them.
 gap::Candidate fitted(const gap::Study& study, const gap::Effect& effect) {
     gap::Candidate best = gap::fit(study, {&effect}, {}, nullptr, {12, 2, 60});
-    if (effect.start != nullptr) {
-        const gap::Candidate none = gap::fit(study, {}, {}, nullptr);
-        const gap::Scenario plain = gap::scenario_of(study, none, 0);
-        const std::vector<double> residuals = gap::residuals_of(study, none, 0);
-        const std::vector<double> values = effect.start({study.courses[0], plain, residuals, study.scales});
+    const gap::Candidate none = gap::fit(study, {}, {}, nullptr);
+    if (const auto clued = gap::clued_start(study, none, effect); !clued.empty()) {
         gap::Candidate start = best;
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            start.lasting[0][i].value = values[i];
-        }
+        start.lasting[0] = clued;
         gap::Candidate other = gap::fit(study, {&effect}, start, nullptr, {12, 2, 60});
         best = other.cost < best.cost ? other : best;
     }
