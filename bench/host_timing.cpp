@@ -358,11 +358,11 @@ void initialise(const std::vector<std::string>& flags, bool quick_default) {
 
 HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, unsigned repetitions,
                         const std::vector<std::string>& flags) {
-    std::vector<std::string> words;
-    if (repetitions > 1) {
-        // Random turns: what disturbs the machine for a while meets all kernels alike.
-        words = {fmt::format("--benchmark_repetitions={}", repetitions), "--benchmark_enable_random_interleaving=true"};
-    }
+    // Random turns: what disturbs the machine for a while meets all kernels alike. Google Benchmark keeps its flags from
+    // one run to the next, so that each says all that it wants.
+    std::vector<std::string> words = {
+        fmt::format("--benchmark_repetitions={}", repetitions),
+        fmt::format("--benchmark_enable_random_interleaving={}", repetitions > 1 ? "true" : "false")};
     words.insert(words.end(), flags.begin(), flags.end());  // the later ones count
     initialise(words, true);
     const auto add = [&](const Timed& timed, const std::function<double(benchmark::State*)>& work) {

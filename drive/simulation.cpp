@@ -313,7 +313,7 @@ std::vector<double> make_input(const Excitation& excitation, double step_s, doub
     if (excitation.name == "staircase") {
         const std::size_t levels = 2 * std::max<std::size_t>(excitation.stairs, 1);
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t level = std::min(levels * k / count, levels - 1) + 1;
+            const std::size_t level = levels * k / count + 1;
             input[k] = excitation.amplitude * static_cast<double>(std::min(level, levels - level)) /
                        static_cast<double>(levels / 2);
         }

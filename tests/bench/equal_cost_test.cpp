@@ -15,6 +15,7 @@
 
 #include "bench/oustaloup.hpp"
 #include "bench/signals.hpp"
+#include "bench/tuned_oustaloup.hpp"
 
 namespace {
 
@@ -116,7 +117,7 @@ TEST(EqualCost, SixteenMultiplicationsAreSixteen) {
     wanted.signals = {"step"};
     wanted.samples = 300;
     const std::map<std::string, std::pair<std::string, std::size_t>> expected = {
-        {"shift_plain_f64", {"/taps:17/", 16}},      {"mirrorhold_oldest_f64", {"/taps:15/", 16}},
+        {"shift_plain_f64", {"/taps:17/", 16}},         {"mirrorhold_oldest_f64", {"/taps:15/", 16}},
         {"mirrorlinear_oldest_f64", {"/taps:14/", 16}}, {"modes_plain_f64", {"/taps:1+8/", 16}},
         {"oustaloup_f64", {"/poles:7/", 15}},
     };
@@ -198,6 +199,67 @@ TEST(EqualCost, TunedToOneRecordOustaloupBeatsThePublishedComparison) {
     }
     EXPECT_LT(errors[15], 9.2e-3);
     EXPECT_LT(errors[19], 3.6e-3);
+}
+
+// What a filter errs is relative to the record's peak, and of the samples that are wanted alone.
+TEST(EqualCost, AFiltersErrorIsRelativeToThePeak) {
+    const Oustaloup filter(0.5, h, 3, {1.0, 1000.0}, Mapping::tustin);
+    Oustaloup same = filter;
+    bench::FilterTarget target{{1.0, -0.5, 0.25, 2.0}, {}, 8.0};
+    std::vector<double> output;
+    for (const double x : target.record) {
+        output.push_back(same.step(x));
+    }
+    target.wanted = {{1, output[1] + 0.5}, {3, output[3] - 2.0}};
+    EXPECT_NEAR(bench::error_of(filter, target), 0.25, 1e-12);
+    target.wanted = {{0, output[0]}, {2, output[2]}};
+    EXPECT_EQ(bench::error_of(filter, target), 0.0);
+    target.wanted = {{3, std::nan("")}};
+    EXPECT_TRUE(std::isinf(bench::error_of(filter, target)));
+    EXPECT_THROW((void)bench::tune_oustaloup(0.5, h, 3, {}), std::invalid_argument);
+}
+
+// What the help and the README's table say is measured unless another is asked for.
+TEST(EqualCost, IsMeasuredAtTheDocumentedCostsAndOrders) {
+    const bench::EqualCost wanted;
+    EXPECT_EQ(wanted.costs, (std::vector<std::size_t>{16, 24, 32}));
+    EXPECT_EQ(wanted.orders, (std::vector<double>{0.2, 0.5, 0.9, 1.5, -0.5}));
+    EXPECT_EQ(wanted.samples, 5000U);
+    EXPECT_EQ(wanted.jobs, 1U);
+}
+
+// A line for each cost and way that has all signals of its table, the largest error behind them, the full memory last.
+TEST(EqualCost, TheTableIsOfTheRowsItIsGiven) {
+    bench::EqualCost wanted;
+    wanted.costs = {16, 24};
+    wanted.orders = {0.5};
+    wanted.signals = {"step", "noise"};
+    wanted.samples = 300;
+    const auto row = [](const char* way, std::size_t cost, const std::string& signal, const char* counter,
+                        double error) {
+        bench::Json made = bench::make_row("gl/k/order:0.5/taps:17/accuracy/signal:" + signal, 300);
+        made["way"] = way;
+        made["cost"] = cost;
+        made[counter] = error;
+        return made;
+    };
+    const std::vector<bench::Json> rows = {
+        row("shift_plain_f64", 16, "step", "error_max", 0.25),
+        row("shift_plain_f64", 16, "noise", "error_max", 0.125),
+        row("shift_plain_f64", 16, "noise/amplitude:0.0625", "error_max", 0.75),
+        row("mirror_multi_f64", 299, "step", "error_max", 1e-15),
+        row("mirror_multi_f64", 299, "noise", "error_max", 2e-15),
+        row("shift_plain_f64", 24, "step", "derivative_error_max", 0.5),
+        row("shift_plain_f64", 32, "step", "error_max", 0.5),  // of a cost that was not asked for
+    };
+    EXPECT_EQ(to_table(wanted, rows),
+              "\nOrder 0.5, against the exact sum\n"
+              "  multiplications  way                          step    noise    worst\n"
+              "               16  window                    2.5e-01  1.2e-01  2.5e-01\n"
+              "              299  full memory               1.0e-15  2.0e-15  2.0e-15\n"
+              "\nOrder 0.5, against the exact derivative, where the signal has a formula\n"
+              "  multiplications  way                          step    worst\n"
+              "               24  window                    5.0e-01  5.0e-01\n");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "drive/coverage.hpp"
+#include "drive/response.hpp"
 #include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
@@ -56,6 +57,94 @@ TEST(Tangent, RefusesWhatHasNotSettled) {
     Acquisition shorter = clean;
     shorter.until_s = 1.8;
     EXPECT_THROW((void)drive::tangent_construction(Kind::fopdt, record_of(plants::niopdt(), shorter)), glsum::Failure);
+}
+
+// A search looks on a grid of 60 time constants and 100 dead times: it ends beside the truth, wherever that lies.
+TEST(SearchStart, EndsBesideTheTruth) {
+    for (const double time_constant_s : {0.2, 0.4, 1.1}) {
+        for (const double delay_s : {0.0, 0.33, 1.8}) {
+            const Model first =
+                drive::search_start(Kind::fopdt, {record_of(drive::make_fopdt(-3.0, time_constant_s, delay_s))});
+            EXPECT_NEAR(first.gain, -3.0, 0.03);
+            EXPECT_NEAR(first.denominator[0].coefficient / time_constant_s, 1.0, 0.12);
+            EXPECT_NEAR(first.delay_s, delay_s, 0.065);
+            const Model second =
+                drive::search_start(Kind::sopdt, {record_of(drive::make_sopdt(2.0, time_constant_s, delay_s))});
+            EXPECT_NEAR(second.gain, 2.0, 0.02);
+            EXPECT_NEAR(std::sqrt(second.denominator[0].coefficient) / time_constant_s, 1.0, 0.12);
+            EXPECT_NEAR(second.delay_s, delay_s, 0.065);
+        }
+    }
+    // The lightest damping, and one in the middle, of a second order that swings.
+    for (const double damping : {0.05, 0.5}) {
+        Model swinging = drive::make_sopdt(1.0, 0.15, 0.5);
+        swinging.kind = Kind::fotf;
+        swinging.denominator[1].coefficient *= damping;
+        const Model found = drive::search_start(Kind::niopdt, {record_of(swinging)});
+        EXPECT_NEAR(std::sqrt(found.denominator[0].coefficient) / 0.15, 1.0, 0.06);
+        EXPECT_NEAR(found.denominator[1].coefficient / swinging.denominator[1].coefficient, 1.0, 0.6);
+        EXPECT_NEAR(found.delay_s, 0.5, 0.1);
+    }
+    // Two records at once, of other lengths and sizes.
+    Acquisition shorter = clean;
+    shorter.until_s = 3.0;
+    shorter.excitation = {.name = "pulse", .amplitude = 0.25, .off_s = 1.5};
+    const Model both = drive::search_start(Kind::fopdt, {record_of(drive::make_fopdt(2.0, 0.3, 0.4), shorter, 2),
+                                                         record_of(drive::make_fopdt(2.0, 0.3, 0.4))});
+    EXPECT_NEAR(both.gain, 2.0, 0.04);
+    EXPECT_NEAR(both.denominator[0].coefficient, 0.3, 0.04);
+    Record silent = record_of(plants::fopdt());
+    std::fill(silent.output.begin(), silent.output.end(), 0.0);
+    EXPECT_THROW((void)drive::search_start(Kind::fopdt, {silent}), glsum::Failure);
+}
+
+TEST(TakeLog, IsTheExactResponseWithTheNoiseAndTheQuantumOfItsSeed) {
+    const Acquisition rough{.excitation = {.name = "step"},
+                            .until_s = 50.0,
+                            .interval_s = 0.01,
+                            .jitter_s = 0.002,
+                            .noise = 0.02,
+                            .quantum = 0.0};
+    const auto log = drive::take_log(plants::sopdt(), rough, 7);
+    ASSERT_EQ(log.time_s.size(), 5001U);
+    EXPECT_EQ(log.name, "seed 7");
+    EXPECT_EQ(log.time_s[0], 0.0);
+    EXPECT_EQ(log.line[0], 2U);  // behind the header
+    EXPECT_EQ(log.line[5000], 5002U);
+    drive::StepResponse step(plants::sopdt());
+    double latest = 0.0;
+    double square = 0.0;
+    double fourth = 0.0;
+    double sum = 0.0;
+    for (std::size_t k = 1; k < log.time_s.size(); ++k) {
+        latest = std::max(latest, std::fabs(log.time_s[k] - 0.01 * static_cast<double>(k)));
+        const double noise = log.output[k] - step(log.time_s[k]);
+        sum += noise / 5000.0;
+        square += noise * noise / 5000.0;
+        fourth += noise * noise * noise * noise / 5000.0;
+    }
+    EXPECT_LE(latest, 0.002);
+    EXPECT_GT(latest, 0.00199);
+    EXPECT_NEAR(sum, 0.0, 0.0012);                       // four deviations of a mean
+    EXPECT_NEAR(std::sqrt(square), 0.02, 0.0008);        // and of a deviation
+    EXPECT_NEAR(fourth / (square * square), 3.0, 0.35);  // as of a normal one
+    Acquisition counted = rough;
+    counted.quantum = 0.008;
+    const auto counts = drive::take_log(plants::sopdt(), counted, 7);
+    EXPECT_EQ(counts.time_s, log.time_s);
+    for (std::size_t k = 0; k < counts.output.size(); ++k) {
+        ASSERT_NEAR(counts.output[k], 0.008 * std::round(log.output[k] / 0.008), 1e-12);
+    }
+    EXPECT_NE(drive::take_log(plants::sopdt(), rough, 8).output, log.output);
+    const Acquisition usual;  // a laboratory's: 1000 counts a turn, 45 degrees as 1
+    EXPECT_EQ(usual.excitation.name, "pulse");
+    EXPECT_EQ(usual.excitation.amplitude, 1.0);
+    EXPECT_EQ(usual.excitation.off_s, 2.6);
+    EXPECT_EQ(usual.until_s, 5.0);
+    EXPECT_EQ(usual.interval_s, 0.01);
+    EXPECT_EQ(usual.jitter_s, 0.001);
+    EXPECT_EQ(usual.noise, 0.01);
+    EXPECT_EQ(usual.quantum, 0.008);
 }
 
 TEST(Fit, FindsEachFormFromNothing) {
@@ -243,6 +332,13 @@ TEST(Fit, IntervalsHoldTheTruth) {
     }
     EXPECT_GE(found.jointly_inside, 33U);
     EXPECT_LE(found.jointly_inside, 40U);
+    EXPECT_EQ(found.runs, 40U);
+    EXPECT_EQ(found.names, (std::vector<std::string>{"gain", "time_constant_s", "delay_s"}));
+    EXPECT_EQ(found.truth, (std::vector<double>{1.0, 0.319, 1.064}));
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_NEAR(found.mean[i], found.truth[i], 4.0 * found.spread[i] / std::sqrt(40.0)) << found.names[i];
+        EXPECT_LT(found.spread[i], 0.01) << found.names[i];
+    }
 }
 
 // A curved parameter: the ends of a profile are where the least sum of squares over the others has grown by t^2

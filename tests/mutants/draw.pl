@@ -1,7 +1,10 @@
 #!/usr/bin/perl
 # draw.pl ROOT SEED COUNT AREA: draws one-line changes of the product's code at random. Prints for each a line as planted/bugs.txt
 # has them: name | file | substitution. The same seed draws the same from the same code. What is in comments, in texts, in
-# includes and in the lists of names (*.def) is no code; equivalent.txt says which changes alter nothing.
+# includes and in the lists of names (*.def) is no code; equivalent.txt says which changes alter nothing. Left out as whole classes,
+# since no answer depends on them: what shows progress on a terminal; reserve(), which only saves time; and, in the files that lay
+# out pictures alone, numbers (where a key or a margin lies), and in bench/pieces.cpp (how long work is expected to take, by which
+# shards are dealt). Their other code is drawn, as is every threshold elsewhere.
 use strict;
 use warnings;
 
@@ -67,23 +70,29 @@ sub code_of {
     return $code;
 }
 
+my $no_numbers = qr{^(?:bench/pieces|bench/plot|bench/gnuplot|bench/report/gain_plot|bench/report/cost_plot|drive/pictures)\.cpp$};
 my %places_of;
 for my $one (@areas) {
-    my @files = grep { !m{/(README|engines|peers|plugin|m7)} } split /\n/,
+    my @files = grep { !m{/(README|engines|peers|plugin|m7|progress\.)} } split /\n/,
         `cd '$root' && find '$one' \\( -name '*.cpp' -o -name '*.hpp' \\) -not -path '*/build/*' | LC_ALL=C sort`;
     for my $file (@files) {
         open my $in, '<', "$root/$file" or die "$file: $!";
-        my ($comment, $raw) = (0, 0);
+        my ($comment, $raw, $foreign) = (0, 0, 0);
         while (my $line = <$in>) {
             chomp $line;
             $raw = 1 if $line =~ /R"\w*\(/;
-            my $skip = $raw || $comment || $line =~ m{^\s*(#|//|/\*|\*|namespace|static_assert|template|using)} || $line =~ /= (delete|default|0);$/ || $line =~ /fmt::format|refuse\(|Failure\(|notes\.|warnings\./;
+            # Code of other processors is not compiled here; what is before and behind it is.
+            $foreign = $line =~ /^#if.*(__ARM|GLSUM_M7)|^#elif defined\(__aarch64__\)/ if $line =~ /^#(if|el|endif)/;
+            my $skip = $raw || $foreign || $comment || $line =~ m{^\s*(#|//|/\*|\*|namespace|static_assert|template|using)} || $line =~ /= (delete|default|0);$/ || $line =~ /fmt::format|refuse\(|Failure\(|notes\.|warnings\.|\.reserve\(|\b[Pp]rogress\b/;
             $raw = 0 if $raw && $line =~ /\)\w*"/;
             $comment = 1 if $line =~ m{/\*} && $line !~ m{\*/};
             $comment = 0 if $line =~ m{\*/};
             next if $skip;
             # What is blanked for the search is as it was where it is put back.
-            push @{$places_of{$one}}, [$file, $., $_->[0], substr($line, $_->[0], length $_->[1]), $_->[2]] for places(code_of($line));
+            for (places(code_of($line))) {
+                next if $file =~ $no_numbers && $_->[1] =~ /^\d/;
+                push @{$places_of{$one}}, [$file, $., $_->[0], substr($line, $_->[0], length $_->[1]), $_->[2]];
+            }
         }
     }
 }

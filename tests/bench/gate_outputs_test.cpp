@@ -1,0 +1,230 @@
+// A verdict in each of its writings, from one that is made by hand: nothing is lost, nothing is added.
+#include "bench/gate/outputs.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "bench/row.hpp"
+
+namespace {
+
+using namespace bench::gate;
+using bench::Json;
+using testing::HasSubstr;
+using testing::Not;
+
+Finding finding(Level level, Layer layer, const char* row, const char* counter, const char* what, const char* reason) {
+    Finding made;
+    made.level = level;
+    made.layer = layer;
+    made.row = row;
+    made.counter = counter;
+    made.what = what;
+    made.reason = reason;
+    return made;
+}
+
+Verdict verdict() {
+    Verdict made;
+    made.status = glsum::Exit::check_failed;
+    made.baseline_name = "old.json";
+    made.current_name = "new.json";
+    made.not_judged = "64 host times";
+    made.differences = {{"cpu", "one", "two", Effect::advisory}, {"commit", "a", "b", Effect::note}};
+    made.rows = {"gl/a/m7", "gl/b/m7", "gl/c/m7"};
+    made.count(Layer::rows) = {3, 0, 0, 0, 0, 0};
+    made.count(Layer::accuracy) = {9, 0, 2, 0, 0, 0};
+    made.count(Layer::instructions_and_bytes) = {7, 1, 1, 1, 2, 0};
+    made.count(Layer::host_time) = {0, 0, 0, 0, 0, 64};
+    Finding failed =
+        finding(Level::fail, Layer::instructions_and_bytes, "gl/a/m7", "code_bytes", "400 -> 500", "exact");
+    failed.baseline = 400.0;
+    failed.current = 500.0;
+    failed.change = 0.25;
+    Finding better = finding(Level::improvement, Layer::host_time, "gl/b/m7", "cpu_time", "faster", "ratio");
+    better.change_low = -0.5;
+    better.change_high = -0.25;
+    made.findings = {finding(Level::note, Layer::rows, "gl/d/*", "", "a new kernel", ""), failed,
+                     finding(Level::warn, Layer::accuracy, "gl/b/m7", "error_max", "worse", "exact_ly"), better};
+    return made;
+}
+
+TEST(GateOutputs, JsonHoldsEverything) {
+    EXPECT_EQ(Json::parse(to_json(verdict())), Json::parse(R"({
+        "schema": "glsum-gate-1", "verdict": "fail", "exit_status": 1,
+        "headline": "instructions_and_bytes: gl/a/m7 code_bytes: 400 -> 500",
+        "baseline": "old.json", "current": "new.json", "not_judged": "64 host times",
+        "conditions": [{"field": "cpu", "baseline": "one", "current": "two", "effect": "advisory"},
+                       {"field": "commit", "baseline": "a", "current": "b", "effect": "note"}],
+        "rows": 3,
+        "layers": [
+            {"layer": "rows", "compared": 3, "failed": 0, "warned": 0, "better": 0, "moot": 0, "not_judged": 0},
+            {"layer": "right_answer", "compared": 0, "failed": 0, "warned": 0, "better": 0, "moot": 0, "not_judged": 0},
+            {"layer": "accuracy", "compared": 9, "failed": 0, "warned": 2, "better": 0, "moot": 0, "not_judged": 0},
+            {"layer": "instructions_and_bytes", "compared": 7, "failed": 1, "warned": 1, "better": 1, "moot": 2,
+             "not_judged": 0},
+            {"layer": "model_cycles", "compared": 0, "failed": 0, "warned": 0, "better": 0, "moot": 0, "not_judged": 0},
+            {"layer": "host_time", "compared": 0, "failed": 0, "warned": 0, "better": 0, "moot": 0, "not_judged": 64}],
+        "findings": [
+            {"level": "note", "layer": "rows", "row": "gl/d/*", "what": "a new kernel"},
+            {"level": "fail", "layer": "instructions_and_bytes", "row": "gl/a/m7", "counter": "code_bytes",
+             "baseline": 400.0, "current": 500.0, "change": 0.25, "what": "400 -> 500", "reason": "exact"},
+            {"level": "warn", "layer": "accuracy", "row": "gl/b/m7", "counter": "error_max", "what": "worse",
+             "reason": "exact_ly"},
+            {"level": "improvement", "layer": "host_time", "row": "gl/b/m7", "counter": "cpu_time", "change_low": -0.5,
+             "change_high": -0.25, "what": "faster", "reason": "ratio"}]
+    })"));
+    // Two blanks a level, one line at the end.
+    EXPECT_TRUE(to_json(verdict()).starts_with("{\n  \"schema\""));
+    EXPECT_TRUE(to_json(verdict()).ends_with("}\n"));
+}
+
+// A case for each row that was looked at, for the conditions, and for what has no row of its own.
+TEST(GateOutputs, JUnitHasACaseForEachRow) {
+    Verdict failed = verdict();
+    failed.findings[1].what = "one\ttwo\rthree";
+    EXPECT_EQ(
+        to_junit(failed),
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<testsuites tests=\"5\" failures=\"1\">\n"
+        "  <testsuite name=\"glsum gate\" tests=\"5\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
+        "    <testcase classname=\"glsum.gate\" name=\"conditions\">\n"
+        "      <system-out>cpu: one in the baseline, two now&#10;commit: a in the baseline, b now&#10;</system-out>\n"
+        "    </testcase>\n"
+        "    <testcase classname=\"glsum.gate\" name=\"gl/a/m7\">\n"
+        "      <failure message=\"instructions_and_bytes: code_bytes: one&#9;two&#13;three (exact)\">"
+        "instructions_and_bytes: code_bytes: one&#9;two&#13;three (exact)&#10;</failure>\n"
+        "    </testcase>\n"
+        "    <testcase classname=\"glsum.gate\" name=\"gl/b/m7\">\n"
+        "      <system-out>accuracy: error_max: worse (exact_ly)&#10;host_time: cpu_time: faster (ratio)&#10;"
+        "</system-out>\n"
+        "    </testcase>\n"
+        "    <testcase classname=\"glsum.gate\" name=\"gl/c/m7\"/>\n"
+        "    <testcase classname=\"glsum.gate\" name=\"gl/d/*\">\n"
+        "      <system-out>rows: a new kernel&#10;</system-out>\n"
+        "    </testcase>\n"
+        "  </testsuite>\n"
+        "</testsuites>\n");
+    // What cannot be compared has judged no row, and its conditions fail.
+    Verdict other = verdict();
+    other.status = glsum::Exit::not_comparable;
+    other.findings.clear();
+    other.differences[0].effect = Effect::incomparable;
+    EXPECT_THAT(to_junit(other), HasSubstr("<testsuites tests=\"1\" failures=\"1\">"));
+    EXPECT_THAT(to_junit(other), HasSubstr("<failure message=\"cpu: one in the baseline, two now\">"));
+    EXPECT_THAT(to_json(other), HasSubstr("\"effect\": \"incomparable\""));
+    Verdict refused;
+    refused.status = glsum::Exit::bad_input;
+    refused.refusal = "no file";
+    EXPECT_THAT(to_junit(refused), HasSubstr("<failure message=\"no file\">"));
+}
+
+TEST(GateOutputs, TheTableHasEveryLayerAndTheWorstFirst) {
+    EXPECT_EQ(to_table(verdict(), false),
+              "gate: new.json against old.json; not judged: 64 host times\n"
+              "  cpu: one in the baseline, two now: host times only warn\n"
+              "  commit: a in the baseline, b now: for your information\n"
+              "\n"
+              "  layer                     compared    fail    warn  better    moot  not judged\n"
+              "  rows                             3       0       0       0       0           0  ok\n"
+              "  right_answer                     0       0       0       0       0           0  -\n"
+              "  accuracy                         9       0       2       0       0           0  warn\n"
+              "  instructions_and_bytes           7       1       1       1       2           0  FAIL\n"
+              "  model_cycles                     0       0       0       0       0           0  -\n"
+              "  host_time                        0       0       0       0       0          64  -\n"
+              "\nFailures (1)\n  instructions_and_bytes gl/a/m7 code_bytes: 400 -> 500\n"
+              "\nWarnings (1)\n  accuracy               gl/b/m7 error_max: worse\n"
+              "\nImprovements (1)\n  host_time              gl/b/m7 cpu_time: faster\n"
+              "\nNotes (1)\n  rows                   gl/d/*: a new kernel\n"
+              "\nfail: instructions_and_bytes: gl/a/m7 code_bytes: 400 -> 500\n");
+    // Colours are around the words and change none of them; only a layer that failed has one.
+    std::string coloured = to_table(verdict(), true);
+    EXPECT_THAT(coloured, HasSubstr("\033[31m  instructions_and_bytes"));
+    EXPECT_THAT(coloured, Not(HasSubstr("m  accuracy                         9")));
+    EXPECT_THAT(coloured, HasSubstr("\033[31mFailures (1)\033[0m"));
+    EXPECT_THAT(coloured, HasSubstr("\033[33mWarnings (1)\033[0m"));
+    EXPECT_THAT(coloured, HasSubstr("\033[32mImprovements (1)\033[0m"));
+    EXPECT_THAT(coloured, HasSubstr("\033[2mNotes (1)\033[0m"));
+    EXPECT_THAT(coloured, HasSubstr("\033[31m\nfail: "));
+    for (std::size_t at; (at = coloured.find('\033')) != std::string::npos;) {
+        coloured.erase(at, coloured.find('m', at) - at + 1);
+    }
+    EXPECT_EQ(coloured, to_table(verdict(), false));
+    Verdict good = verdict();
+    good.status = glsum::Exit::good;
+    good.findings.clear();
+    EXPECT_THAT(to_table(good, true), HasSubstr("\033[32m\npass: 19 values of 3 rows"));
+    // Without a judgement there are no layers.
+    Verdict other = verdict();
+    other.status = glsum::Exit::not_comparable;
+    other.differences[0].effect = Effect::incomparable;
+    EXPECT_THAT(to_table(other, false), Not(HasSubstr("compared")));
+    EXPECT_THAT(to_table(other, false), HasSubstr("two now: not comparable\n"));
+    EXPECT_THAT(to_markdown(other), Not(HasSubstr("compared")));
+    Verdict refused = verdict();
+    refused.status = glsum::Exit::bad_input;
+    refused.refusal = "no file";
+    EXPECT_THAT(to_table(refused, false), Not(HasSubstr("compared")));
+    EXPECT_THAT(to_markdown(refused), Not(HasSubstr("compared")));
+}
+
+TEST(GateOutputs, MarkdownHasTheSame) {
+    EXPECT_EQ(
+        to_markdown(verdict()),
+        "## ❌ glsum gate: fail\n\ninstructions\\_and\\_bytes: gl/a/m7 code\\_bytes: 400 -> 500\n\n"
+        "`new.json` against `old.json`\n"
+        "\n| condition | baseline | now | effect |\n|---|---|---|---|\n"
+        "| cpu | one | two | host times only warn |\n| commit | a | b | for your information |\n"
+        "\n| layer | compared | fail | warn | better | |\n|---|--:|--:|--:|--:|---|\n"
+        "| rows | 3 | 0 | 0 | 0 | ok |\n| right\\_answer | 0 | 0 | 0 | 0 | - |\n| accuracy | 9 | 0 | 2 | 0 | warn |\n"
+        "| instructions\\_and\\_bytes | 7 | 1 | 1 | 1 | FAIL |\n| model\\_cycles | 0 | 0 | 0 | 0 | - |\n"
+        "| host\\_time | 0 | 0 | 0 | 0 | - |\n"
+        "\n<details open><summary>Failures (1)</summary>\n\n| layer | row | counter | change | why "
+        "|\n|---|---|---|---|---|\n"
+        "| instructions\\_and\\_bytes | gl/a/m7 | code\\_bytes | 400 -> 500 | exact |\n\n</details>\n"
+        "\n<details><summary>Warnings (1)</summary>\n\n| layer | row | counter | change | why "
+        "|\n|---|---|---|---|---|\n"
+        "| accuracy | gl/b/m7 | error\\_max | worse | exact\\_ly |\n\n</details>\n"
+        "\n<details><summary>Improvements (1)</summary>\n\n| layer | row | counter | change | why "
+        "|\n|---|---|---|---|---|\n"
+        "| host\\_time | gl/b/m7 | cpu\\_time | faster | ratio |\n\n</details>\n"
+        "\n<details><summary>Notes (1)</summary>\n\n| layer | row | counter | change | why |\n|---|---|---|---|---|\n"
+        "| rows | gl/d/\\* |  | a new kernel |  |\n\n</details>\n");
+    Verdict hostile = verdict();
+    hostile.findings[1].what = "a|b\\c*d_e`f<g[h\ni";
+    EXPECT_THAT(to_markdown(hostile), HasSubstr("a\\|b\\\\c\\*d\\_e\\`f\\<g\\[h i"));
+    Verdict good;
+    EXPECT_TRUE(to_markdown(good).starts_with("## ✅ glsum gate: pass\n"));
+    EXPECT_THAT(to_markdown(good), Not(HasSubstr("| condition |")));
+}
+
+TEST(GateOutputs, AnnotationsAreOfFailuresAndWarnings) {
+    EXPECT_EQ(to_annotations(verdict()),
+              "::error title=glsum gate%3A instructions_and_bytes::gl/a/m7 code_bytes: 400 -> 500\n"
+              "::warning title=glsum gate%3A accuracy::gl/b/m7 error_max: worse\n");
+    Verdict other = verdict();
+    other.status = glsum::Exit::not_comparable;
+    other.differences[0] = {"cpu", "a,\rb", "two", Effect::incomparable};
+    EXPECT_EQ(to_annotations(other),
+              "::error title=glsum gate%3A not comparable::cpu: a,%0Db in the baseline, two now\n");
+    EXPECT_EQ(to_annotations(Verdict{}), "");
+    // Exactly ten are all shown, and none more is promised.
+    Verdict ten = verdict();
+    ten.findings.assign(10, ten.findings[1]);
+    EXPECT_THAT(to_annotations(ten), Not(HasSubstr("more")));
+    ten.findings.push_back(ten.findings[0]);
+    const std::string eleven = to_annotations(ten);
+    EXPECT_EQ(std::count(eleven.begin(), eleven.end(), '\n'), 10);
+    EXPECT_THAT(eleven, HasSubstr("%0Aand 1 more\n"));
+    // The table shows twenty, Markdown a hundred.
+    ten.findings.assign(20, ten.findings[0]);
+    EXPECT_THAT(to_table(ten, false), Not(HasSubstr("more")));
+    ten.findings.assign(21, ten.findings[0]);
+    EXPECT_THAT(to_table(ten, false), HasSubstr("  ... and 1 more; --json has them all\n"));
+    ten.findings.assign(100, ten.findings[0]);
+    EXPECT_THAT(to_markdown(ten), Not(HasSubstr("more")));
+    ten.findings.assign(101, ten.findings[0]);
+    EXPECT_THAT(to_markdown(ten), HasSubstr("\n... and 1 more\n"));
+}
+
+}  // namespace

@@ -1,0 +1,222 @@
+// Pictures as gnuplot is told to draw them: a script in its place keeps what it is sent. Points, lines and keys are
+// held against the rows; where things lie in the picture is for people to look at.
+#include "bench/plot.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
+
+#include "bench/equal_cost.hpp"
+#include "bench/gnuplot.hpp"
+#include "qemu/failure.hpp"
+
+namespace {
+
+using bench::Entry;
+using bench::Group;
+using testing::HasSubstr;
+using testing::Not;
+
+// A folder with a program `gnuplot`, the first that is found.
+class Drawing : public testing::Test {
+protected:
+    void SetUp() override {
+        std::filesystem::create_directories(folder_);
+        path_ = std::getenv("PATH");
+        setenv("PATH", (folder_.string() + ":" + path_).c_str(), 1);
+        pretend("tee -a '" + (folder_ / "sent").string() +
+                "' | sed -n \"s/^set output '\\(.*\\)'$/\\1/p\" | while read -r file; do echo drawn >\"$file\"; done");
+    }
+    void TearDown() override {
+        setenv("PATH", path_.c_str(), 1);
+        std::filesystem::remove_all(folder_);
+    }
+    void pretend(const std::string& body) {
+        std::ofstream(folder_ / "gnuplot") << "#!/bin/sh\n" << body << '\n';
+        std::filesystem::permissions(folder_ / "gnuplot", std::filesystem::perms::owner_all);
+    }
+    // What was sent for the first of the two pictures.
+    std::string sent() {
+        std::ifstream in(folder_ / "sent");
+        const std::string all{std::istreambuf_iterator<char>(in), {}};
+        std::filesystem::remove(folder_ / "sent");
+        return all.substr(0, all.find("unset output"));
+    }
+    std::filesystem::path stem() const { return folder_ / "picture"; }
+
+    std::filesystem::path folder_ = std::filesystem::temp_directory_path() / ("plot_test-" + std::to_string(getpid()));
+    std::string path_;
+};
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
+        ++count;
+    }
+    return count;
+}
+
+TEST_F(Drawing, IsMadeTwiceAndPublishedWhole) {
+    bench::draw({"plot sin(x)", 321, 123}, stem());
+    std::ifstream in(folder_ / "sent");
+    const std::string all{std::istreambuf_iterator<char>(in), {}};
+    EXPECT_THAT(all, HasSubstr("set terminal svg size 321,123 "));
+    EXPECT_THAT(all, HasSubstr("set terminal pngcairo size 321,123 "));
+    EXPECT_EQ(count_of(all, "plot sin(x)\nunset output\n"), 2U);
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "picture.svg"));
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "picture.png"));
+    // Nothing is left beside them.
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 4);
+    bench::draw({"plot sin(x)"}, folder_ / "it's one");
+    EXPECT_TRUE(std::filesystem::exists(folder_ / "it's one.svg") ||
+                std::filesystem::exists(folder_ / "it''s one.svg"));
+}
+
+TEST_F(Drawing, AGnuplotThatFailsOrDrawsNothingIsAnError) {
+    const auto status = [&] {
+        try {
+            bench::draw({"plot sin(x)"}, stem());
+        } catch (const glsum::Failure& failure) {
+            return failure.status();
+        }
+        return glsum::Exit::good;
+    };
+    pretend("cat >/dev/null; exit 1");
+    EXPECT_EQ(status(), glsum::Exit::missing);
+    pretend("cat >/dev/null");
+    EXPECT_EQ(status(), glsum::Exit::check_failed);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "picture.svg"));
+}
+
+TEST(Gnuplot, SeesNoTextThatCouldEndAStringAndLeavesRoomAroundValues) {
+    EXPECT_EQ(bench::gnuplot_text("a_B 9.:+-,/()"), "a_B 9.:+-,/()");
+    EXPECT_EQ(bench::gnuplot_text("\"`$\\'\n;ä"), "?????????");
+    EXPECT_EQ(bench::gnuplot_text(std::string(70, 'x')), std::string(60, 'x'));
+    double low = 0.0;
+    double high = 0.0;
+    ASSERT_EQ(std::sscanf(bench::log_range(1e-6, 1e-2).c_str(), "[%lf:%lf]", &low, &high), 2);
+    EXPECT_LT(low, 1e-6);
+    EXPECT_GT(low, 1e-7);
+    EXPECT_GT(high, 1e-2);
+    EXPECT_LT(high, 1e-1);
+}
+
+Entry entry(const char* kernel, std::optional<double> error, std::optional<double> rounding, double truncation) {
+    Entry made;
+    made.kernel = kernel;
+    made.error_max = error;
+    made.rounding_error_max = rounding;
+    made.truncation_error_max = truncation;
+    return made;
+}
+
+std::vector<Group> groups() {
+    return {{"0.5", "50", {entry("a_f32", 0.25, 1e-7, 0.125), entry("b_q15", 0.5, 1e-3, 0.125)}},
+            {"0.5", "2+7", {entry("c_f64", 1e-3, 1e-15, 1e-3)}},
+            {"0.5", "full", {entry("a_f32", 1e-6, 1e-6, 0.0), entry("unmeasured", {}, {}, 0.0)}},
+            {"0.9", "50", {entry("a_f32", 0.75, {}, 0.0625)}}};
+}
+
+TEST_F(Drawing, OfErrorsHasAPanelForEachOrderAndKind) {
+    bench::plot_error(groups(), {{"0.5", {{"50", 0.375}}}}, stem());
+    const std::string text = sent();
+    EXPECT_THAT(text, HasSubstr("set multiplot layout 2,2 "));
+    // Kernels in the order of their appearance, then the truncation of windows, then its bound. The full memory lies
+    // behind the longest length, under its name.
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n50 2.500000e-01\n85 1.000000e-06\nEOD\n$d1 << EOD\n50 5.000000e-01\nEOD\n"
+                                "$d2 << EOD\n16 1.000000e-03\nEOD\n$d3 << EOD\n50 1.250000e-01\nEOD\n"
+                                "$d4 << EOD\n50 3.750000e-01\nEOD\nset title \"order 0.5: total error\""));
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n50 1.000000e-07\n85 1.000000e-06\nEOD\n$d1 << EOD\n50 1.000000e-03\nEOD\n"
+                                "$d2 << EOD\n16 1.000000e-15\nEOD\nset title \"order 0.5: rounding error\""));
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n50 7.500000e-01\nEOD\n$d3 << EOD\n50 6.250000e-02\nEOD\nset title \"order "
+                                "0.9: total error\""));
+    // Nothing is known of its rounding: the place stays empty.
+    EXPECT_THAT(text, Not(HasSubstr("order 0.9: rounding error")));
+    EXPECT_EQ(count_of(text, "set multiplot next\n"), 1U);
+    EXPECT_THAT(text, Not(HasSubstr("unmeasured")));
+    // One key, in the first panel; the two lines of truncation are black, without points, and told apart.
+    EXPECT_EQ(count_of(text, "set key at"), 1U);
+    EXPECT_LT(text.find("set key at"), text.find("unset key"));
+    EXPECT_THAT(text, HasSubstr("dt 2 pt -1 ps 0.6 lc rgb \"#000000\" title \"truncation alone\""));
+    EXPECT_THAT(text, HasSubstr("dt 4 pt -1 ps 0.6 lc rgb \"#000000\" title \"truncation bound\""));
+    for (const auto& [kernel, i] : {std::pair("a_f32", 0), std::pair("b_q15", 1), std::pair("c_f64", 2)}) {
+        EXPECT_THAT(text, HasSubstr("dt 1 pt " + std::to_string(4 + i) + " ps 0.6 lc rgb \"" + bench::palette[i] +
+                                    "\" title \"" + kernel + "\""));
+    }
+    EXPECT_THAT(text, HasSubstr("set yrange " + bench::log_range(1e-6, 0.5)));
+    EXPECT_THAT(text, HasSubstr("set yrange " + bench::log_range(1e-15, 1e-3)));
+    // Marks: windows first, then what has room.
+    EXPECT_THAT(text, HasSubstr("set xtics (\"50\" 50, \"full\" 85, \"2+7\" 16)"));
+    EXPECT_THAT(text, HasSubstr("set xrange [12.8:106.25]"));
+    bench::plot_error(groups(), {}, stem());
+    EXPECT_THAT(sent(), Not(HasSubstr("truncation bound")));
+}
+
+TEST_F(Drawing, OfMoreKernelsThanColoursHasAColourForEachFormat) {
+    Group many{"0.5", "50", {}};
+    for (const char* kernel : {"a_f32", "b_f32", "c_q15", "d_q15", "e_f64", "f_f32", "g_f32", "h_f32", "i_f64"}) {
+        many.entries.push_back(entry(kernel, 0.5, 0.25, 0.125));
+    }
+    Group close{"0.5", "20+20", {entry("a_f32", 0.5, 0.25, 0.125)}};  // 60: too near to 50 for a mark
+    bench::plot_error({many, close}, {}, stem());
+    const std::string text = sent();
+    EXPECT_EQ(count_of(text, "title \"f32\""), 2U);  // once a panel
+    EXPECT_EQ(count_of(text, "title \"q15\""), 2U);
+    EXPECT_EQ(count_of(text, "title \"f64\""), 2U);
+    EXPECT_EQ(count_of(text, " notitle"), 12U);
+    EXPECT_EQ(count_of(text, std::string("lc rgb \"") + bench::palette[2] + "\""), 4U);  // the two in double
+    EXPECT_THAT(text, HasSubstr("set xtics (\"50\" 50)"));
+    many.entries.pop_back();  // eight have one each
+    bench::plot_error({many}, {}, stem());
+    EXPECT_EQ(count_of(sent(), "title \"h_f32\""), 2U);
+}
+
+TEST_F(Drawing, OfEqualCostHasAPanelForEachOrderAndSignal) {
+    bench::EqualCost wanted;
+    wanted.costs = {16, 24};
+    wanted.orders = {0.5, 0.9};
+    wanted.signals = {"step", "noise"};
+    const auto row = [](const char* way, std::size_t cost, const std::string& where, double error) {
+        bench::Json made = bench::make_row("gl/k/" + where, 300);
+        made["way"] = way;
+        made["cost"] = cost;
+        made["error_max"] = error;
+        return made;
+    };
+    bench::plot_equal_cost(wanted,
+                           {row("shift_plain_f64", 16, "order:0.5/taps:17/accuracy/signal:step", 0.25),
+                            row("shift_plain_f64", 24, "order:0.5/taps:25/accuracy/signal:step", 1e-12),
+                            row("modes_plain_f64", 24, "order:0.9/taps:25/accuracy/signal:noise", 0.5),
+                            row("mirror_multi_f64", 299, "order:0.9/taps:25/accuracy/signal:noise", 1e-15)},
+                           stem());
+    const std::string text = sent();
+    EXPECT_THAT(text, HasSubstr("set multiplot layout 2,2 "));
+    EXPECT_THAT(text, HasSubstr("set xtics nomirror (16, 24)"));
+    // What is exact is drawn at the floor.
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n16 2.500000e-01\n24 1.000000e-10\nEOD\n$d1 << EOD\n16 NaN\nEOD\n"));
+    EXPECT_EQ(count_of(text, "24 5.000000e-01\n"), 1U);
+    EXPECT_EQ(count_of(text, "1.000000e-15"), 0U);  // the full memory is no way to save
+    const std::size_t shown = bench::equal_cost_ways().size() - 2;
+    EXPECT_EQ(count_of(text, "<< EOD"), 4 * shown);
+    EXPECT_EQ(count_of(text, "NaN"), 4 * shown - 2);
+    for (const char* title : {"order 0.5: step", "order 0.5: noise", "order 0.9: step", "order 0.9: noise"}) {
+        EXPECT_EQ(count_of(text, std::string("set title \"") + title), 1U);
+    }
+    // One key, whose lines are all ways; the axis is named below the last row alone.
+    EXPECT_EQ(count_of(text, "set key at"), 1U);
+    EXPECT_EQ(count_of(text, "title \"modes\" noenhanced"), 1U);
+    EXPECT_EQ(count_of(text, "title \"full memory\""), 0U);
+    EXPECT_EQ(count_of(text, "set xlabel \"multiplications a sample\""), 2U);
+    EXPECT_GT(text.find("set xlabel \"multiplications a sample\""), text.find("order 0.5: noise"));
+    EXPECT_THAT(text, HasSubstr("set yrange " + bench::log_range(1e-10, 0.25)));
+    EXPECT_EQ(count_of(text, "set yrange [1e-3:1]"), 2U);
+}
+
+}  // namespace

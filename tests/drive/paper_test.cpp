@@ -1,0 +1,274 @@
+// What `glsum paper` says of each claim: its numbers by hand from the printed tables, or from the responses themselves.
+#include "drive/paper.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <regex>
+
+#include "drive/indices.hpp"
+#include "drive/pictures.hpp"
+#include "drive/response.hpp"
+#include "drive/simulation.hpp"
+#include "tests/drive/plants.hpp"
+
+namespace {
+
+using drive::Holds;
+using testing::HasSubstr;
+using testing::Not;
+
+const drive::PaperModels models{plants::fopdt(), plants::sopdt(), plants::niopdt()};
+
+drive::Model without_delay() {
+    drive::Model model = plants::niopdt();
+    model.delay_s = 0.0;
+    return model;
+}
+
+std::vector<double> times() {
+    std::vector<double> all;
+    for (int k = 0; k <= 5000; ++k) {
+        all.push_back(0.001 * k);
+    }
+    return all;
+}
+
+std::vector<double> response_of(const drive::Model& model) {
+    drive::StepResponse step(model);
+    std::vector<double> all;
+    for (const double t : times()) {
+        all.push_back(step(t));
+    }
+    return all;
+}
+
+double farthest(const std::vector<double>& a, const std::vector<double>& b) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < a.size(); ++k) {
+        largest = std::max(largest, std::fabs(a[k] - b[k]));
+    }
+    return largest;
+}
+
+TEST(Paper, EachClaimIsJudgedByItsNumbers) {
+    const auto claims = drive::check_paper(models);
+    ASSERT_EQ(claims.size(), 10U);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(claims[i].paper, "stable");
+        EXPECT_EQ(claims[i].holds, Holds::yes) << claims[i].claim << claims[i].ours;
+        EXPECT_THAT(claims[i].ours, HasSubstr("stable: "));
+        EXPECT_THAT(claims[i].ours, HasSubstr("by the argument principle 0 unstable"));
+    }
+    // The sectors end at q pi/2; in s^0.01 model (12) has as many roots as its largest order has hundredths, about.
+    EXPECT_THAT(claims[0].ours, HasSubstr("limit 0.0157 rad"));
+    EXPECT_THAT(claims[0].ours, HasSubstr("199 roots"));
+    EXPECT_THAT(claims[1].ours, HasSubstr("2 roots, nearest at 3.1416 rad, limit 1.5708 rad"));
+    EXPECT_THAT(claims[2].ours, HasSubstr("1 roots, nearest at 3.1416 rad, limit 1.5708 rad"));
+
+    // Lengths: each error is that of a simulation of so many taps.
+    EXPECT_EQ(claims[3].holds, Holds::with_reservation);
+    const auto exact = response_of(without_delay());
+    const std::vector<double> input(exact.size(), 1.0);
+    for (const std::size_t taps : {100U, 200U, 300U, 600U, 1000U, 2000U}) {
+        drive::Scheme scheme;
+        scheme.taps = taps;
+        const double plain = farthest(drive::simulate(without_delay(), scheme, input).output, exact);
+        scheme.increments = true;
+        const double increments = farthest(drive::simulate(without_delay(), scheme, input).output, exact);
+        EXPECT_THAT(claims[3].ours, HasSubstr(fmt::format("{}: {:.1e} ({:.1e})", taps, plain, increments)));
+    }
+
+    // 1 - sqrt(ISE / h) / 5000 of the three ISE, and ISE / (1 - fit)^2: by hand.
+    EXPECT_EQ(claims[4].holds, Holds::no);
+    EXPECT_THAT(claims[4].ours, HasSubstr("gives 99.947 %, 99.965 %, 99.980 % for those ISE"));
+    EXPECT_THAT(claims[4].ours, HasSubstr("h = 0.882, 0.884, 0.879 by the three rows"));
+    const auto niopdt = response_of(models.niopdt);
+    double mean = 0.0;
+    double square = 0.0;
+    for (const double y : niopdt) {
+        mean += y / 5001.0;
+        square += y * y;
+    }
+    EXPECT_THAT(claims[4].ours,
+                HasSubstr(fmt::format("(12) itself has {:.2f} over 5 s", 0.001 * (square - 5001.0 * mean * mean))));
+
+    // Of the printed roots of the ISE 0.08314, 0.05480, 0.03112 and IAE 0.12005, 0.07859, 0.04656: sums, differences.
+    const std::vector<double> all[] = {response_of(models.fopdt), response_of(models.sopdt), niopdt};
+    const char* const sides[2][3] = {{"in [0.0283, 0.1379]", "in [0.0520, 0.1143]", "in [0.0237, 0.0859]"},
+                                     {"in [0.0415, 0.1986]", "in [0.0735, 0.1666]", "in [0.0320, 0.1251]"}};
+    const char* const pairs[] = {"FOPDT-SOPDT", "FOPDT-NIOPDT", "SOPDT-NIOPDT"};
+    const std::pair<int, int> which[] = {{0, 1}, {0, 2}, {1, 2}};
+    for (int kind = 0; kind < 2; ++kind) {
+        const drive::Claim& claim = claims[5 + kind];
+        for (int i = 0; i < 3; ++i) {
+            const auto apart = drive::compute_indices(times(), all[which[i].first], all[which[i].second]);
+            EXPECT_THAT(claim.ours,
+                        HasSubstr(fmt::format("{} {:.4f} {}", pairs[i], kind == 0 ? std::sqrt(apart.ise) : apart.iae,
+                                              sides[kind][i])));
+        }
+        EXPECT_EQ(claim.holds, claim.ours.find(" NO") == std::string::npos ? Holds::yes : Holds::no) << claim.ours;
+    }
+    EXPECT_EQ(claims[7].holds, Holds::with_reservation);
+    EXPECT_EQ(claims[8].holds, Holds::with_reservation);
+    const double nearest = std::sqrt(drive::compute_indices(times(), all[2], all[1]).ise);
+    EXPECT_THAT(claims[8].ours, HasSubstr(fmt::format("(12) and (11) are {:.4f} apart", nearest)));
+    // 5000 samples of 4 bytes; a table for each order, or one.
+    EXPECT_EQ(claims[9].holds, Holds::with_reservation);
+    EXPECT_THAT(claims[9].ours, HasSubstr("20000 B of past and 20000 B for each order's table, 80000 B with the two of "
+                                          "(12); one merged table: 40000 B. 600 terms: 4800 B"));
+}
+
+// A model that fits worse than the table says breaks the inequalities, and the claim with them.
+TEST(Paper, ModelsThatAreTooFarApartDoNotFitTheTables) {
+    drive::PaperModels others = models;
+    others.sopdt.delay_s = 0.5;
+    const auto claims = drive::check_paper(others);
+    for (const int i : {5, 6}) {
+        EXPECT_EQ(claims[i].holds, Holds::no) << claims[i].ours;
+        EXPECT_THAT(claims[i].ours, HasSubstr(" NO"));
+    }
+    others.niopdt.denominator[1].coefficient = -0.1;
+    EXPECT_EQ(drive::check_paper(others)[0].holds, Holds::no);
+}
+
+TEST(Paper, TheValueAfterFiveSecondsIsThePublishedOne) {
+    const auto value = drive::value_at_5_s(models.niopdt);
+    EXPECT_EQ(value.without_delay, "0.9977144659");
+    EXPECT_NEAR(std::stod(value.with_delay), drive::StepResponse(models.niopdt)(5.0), 1e-9);
+    EXPECT_EQ(value.with_delay.size(), value.without_delay.size());
+    EXPECT_EQ(drive::value_at_5_s(models.niopdt, 4).without_delay, "0.9977");
+}
+
+// drive/README.md's table.
+TEST(Paper, PrecisionsEndWhereTheReadmeSays) {
+    const std::pair<const char*, double> expected[] = {{"single precision, merged table, newest first", 1.147},
+                                                       {"single precision, a sum for each order, newest first", 1.292},
+                                                       {"single precision, oldest first", 0.9975},
+                                                       {"double, 600 terms", 0.987},
+                                                       {"single precision in increments, 600 terms", 0.9977},
+                                                       {"single precision in increments", 0.9977},
+                                                       {"double", 0.998},
+                                                       {"exact", 0.9977}};
+    const auto found = drive::compare_precisions(models.niopdt);
+    ASSERT_EQ(found.size(), std::size(expected));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        EXPECT_EQ(found[i].how, expected[i].first);
+        const double digits = expected[i].second * 1000.0 == std::round(expected[i].second * 1000.0) ? 5.1e-4 : 1.1e-4;
+        EXPECT_NEAR(found[i].after_5_s, expected[i].second, i == 4 ? 7e-3 : digits) << found[i].how;
+    }
+    EXPECT_NEAR(found[4].largest_error, 6.8e-3, 1e-4);
+    EXPECT_NEAR(found[5].largest_error, 5.4e-4, 1e-5);
+    EXPECT_NEAR(found[6].largest_error, 5.4e-4, 1e-5);
+    EXPECT_EQ(found[7].largest_error, 0.0);
+    EXPECT_NEAR(found[7].after_5_s, 0.9977144659, 1e-9);
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
+        ++count;
+    }
+    return count;
+}
+
+TEST(Paper, PicturesShowTheThreeModelsAndEveryPrecision) {
+    const auto steps = drive::picture_of_step_responses(models).script;
+    EXPECT_EQ(count_of(steps, "<< EOD"), 3U);
+    for (const char* model : {"(10) ", "(11) ", "(12) "}) {
+        EXPECT_THAT(steps, HasSubstr(std::string("title \"") + model));
+    }
+    EXPECT_THAT(steps, HasSubstr(fmt::format("\n5 {:.7g}\n", drive::StepResponse(models.sopdt)(5.0))));
+    const auto precisions = drive::picture_of_precisions(models.niopdt).script;
+    // All but double with full memory, which lies on the exact one.
+    EXPECT_EQ(count_of(precisions, "<< EOD"), 7U);
+    for (const auto& precision : drive::compare_precisions(models.niopdt)) {
+        const std::string title = "title \"" + precision.how + "\"";
+        EXPECT_EQ(count_of(precisions, title), precision.how == "double" ? 0U : 1U) << title;
+    }
+}
+
+TEST(Pictures, CurvesHoldTheirPoints) {
+    const std::vector<drive::Curve> curves = {{"log", {0.0, 0.5, 1.0}, {1.0, std::nan(""), 3.0}, true},
+                                              {"model", {0.0, 1.0}, {0.25, 0.75}},
+                                              {"best", {0.0, 1.0}, {0.125, 0.5}}};
+    const auto script = drive::picture_of_curves(curves, "a title", "rad").script;
+    EXPECT_THAT(script, HasSubstr("$d0 << EOD\n0 1\n1 3\nEOD\n$d1 << EOD\n0 0.25\n1 0.75\nEOD\n$d2"));
+    EXPECT_THAT(script, HasSubstr("set title \"a title\" noenhanced"));
+    EXPECT_THAT(script, HasSubstr("set ylabel \"rad\""));
+    // Samples are grey points, the last curve is solid, and no two lines before it look alike.
+    EXPECT_THAT(script, HasSubstr("$d0 using 1:2 with points pt 7 ps 0.5 lc rgb \"#AAAAAA\" title \"log\""));
+    std::smatch dash;
+    EXPECT_TRUE(std::regex_search(
+        script, dash, std::regex("\\$d1 using 1:2 with lines lw 2 dt ([2-9]) lc rgb \"([^\"]*)\" title \"model\"")));
+    std::smatch solid;
+    EXPECT_TRUE(std::regex_search(
+        script, solid, std::regex("\\$d2 using 1:2 with lines lw 2 dt 1 lc rgb \"([^\"]*)\" title \"best\"")));
+    EXPECT_NE(dash[2], solid[1]);
+    // Of a long record at most some thousand points.
+    drive::Curve longer{"long", {}, {}};
+    for (int k = 0; k < 20000; ++k) {
+        longer.time_s.push_back(k);
+        longer.value.push_back(k);
+    }
+    const auto thinned = drive::picture_of_curves({longer}, "t", "u").script;
+    EXPECT_LT(count_of(thinned, "\n"), 5100U);
+    EXPECT_GT(count_of(thinned, "\n"), 2500U);
+}
+
+TEST(Pictures, RootsLieBesideTheSectorOfTheLimit) {
+    for (const double limit : {0.0157, 1.5708}) {
+        drive::StabilityVerdict judged;
+        judged.base_order = limit / 1.5708;
+        judged.limit_rad = limit;
+        judged.roots = {{0.5, 0.125}, {0.5, -0.125}, {-2.0, 0.0}};
+        const auto script = drive::picture_of_roots(judged, "a model").script;
+        EXPECT_THAT(script, HasSubstr("$roots << EOD\n0.5 0.125\n0.5 -0.125\n-2 0\nEOD\n"));
+        EXPECT_THAT(script, HasSubstr("all 3 roots"));
+        EXPECT_THAT(script, HasSubstr("a model: "));
+        // Every corner of the shaded sector lies on its edges or at the picture's side, above as below.
+        static const std::regex polygon(
+            "xrange \\[([^:]*):([^\\]]*)\\]\nset yrange \\[([^:]*):([^\\]]*)\\]\nset object 1 polygon "
+            "from 0,0 to ([^,]*),([^ ]*) to ([^,]*),([^ ]*) to ([^,]*),([^ ]*) to ([^,]*),([^ ]*) to 0,0");
+        std::size_t panels = 0;
+        for (std::sregex_iterator at(script.begin(), script.end(), polygon); at != std::sregex_iterator(); ++at) {
+            ++panels;
+            std::vector<double> n;
+            for (std::size_t i = 1; i < at->size(); ++i) {
+                n.push_back(std::stod((*at)[i]));
+            }
+            const double slope = std::tan(std::min(limit, 1.5706));
+            EXPECT_EQ(n[2], -n[3]);
+            EXPECT_LE(n[4], n[1] * (1 + 1e-6));
+            EXPECT_NEAR(n[5], std::min(n[3], n[1] * slope), 1e-4 * n[3]);
+            EXPECT_NEAR(n[4] * slope, n[5], 1e-4 * n[3]);
+            EXPECT_NEAR(n[6], n[1], 1e-4);
+            EXPECT_NEAR(n[7], n[5], 1e-4);
+            EXPECT_NEAR(n[8], n[6], 1e-9);
+            EXPECT_NEAR(n[9], -n[7], 1e-9);
+            EXPECT_NEAR(n[10], n[4], 1e-9);
+            EXPECT_NEAR(n[11], -n[5], 1e-9);
+            // All roots are in the first panel, the one nearest to the axis in the second.
+            EXPECT_GT(n[1], panels == 1 ? 2.0 : 0.5154);
+            EXPECT_LT(n[0], panels == 1 ? -2.0 : 0.0);
+            EXPECT_GT(n[3], 0.125);
+        }
+        EXPECT_EQ(panels, limit > 0.5 ? 1U : 2U);
+    }
+}
+
+TEST(Pictures, AModelsTitleHasFourDigits) {
+    drive::Model model = plants::niopdt();
+    model.delay_s = 1.23456789;
+    EXPECT_THAT(drive::short_text(model), HasSubstr("1.235"));
+    EXPECT_THAT(drive::short_text(model), HasSubstr("0.1823"));
+    EXPECT_THAT(drive::short_text(model), HasSubstr("0.9832"));
+    EXPECT_THAT(drive::short_text(model), Not(HasSubstr("0.98319")));
+    model.numerator = {{1.23456, 0.0}};
+    EXPECT_THAT(drive::short_text(model), HasSubstr("1.235"));
+}
+
+}  // namespace

@@ -1,0 +1,435 @@
+// What becomes of a firmware's answers, of the counter's log and of the timer's, from a program and logs made by hand:
+// no emulator is needed to tell whether they are put together rightly.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+
+#include "qemu/elf.hpp"
+#include "qemu/failure.hpp"
+#include "qemu/firmware.hpp"
+#include "qemu/scratch.hpp"
+#include "qemu/software_double.hpp"
+#include "qemu/watched.hpp"
+#include "tests/qemu/made_elf.hpp"
+
+namespace {
+
+using test::MadeElf;
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+template <class Ask>
+std::string refusal(glsum::Exit status, Ask ask) {
+    try {
+        ask();
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), status) << failure.what();
+        return failure.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return "";
+}
+
+// Build attributes as an assembler writes them: a name of the processor (tag 5), its architecture (6), profile (7).
+std::vector<std::uint8_t> attributes(std::uint8_t architecture, char profile) {
+    std::vector<std::uint8_t> bytes{'A', 40, 0, 0, 0, 'a', 'e', 'a', 'b', 'i', 0, 1, 30, 0, 0, 0};
+    for (const char c : {'\5', 'M', '7', '\0', '\x20', '\1', 'x', '\0', '\x22', '\1', '\x8a', '\1', '\1'}) {
+        bytes.push_back(static_cast<std::uint8_t>(c));  // a processor, a text of tag 32, a number, one of tag 138
+    }
+    bytes.insert(bytes.end(), {6, architecture});
+    if (profile != 0) {
+        bytes.insert(bytes.end(), {7, static_cast<std::uint8_t>(profile)});
+    }
+    return bytes;
+}
+
+TEST(MadeElf, HasItsSymbolsFunctionsAndBytes) {
+    const qemu::Scratch folder;
+    MadeElf made;
+    made.sections = {{0x100, test::bytes_of({0x11223344, 0x55667788})}, {0x20000000, {'h', 'e', 'l', 'l', 'o'}}};
+    made.symbols = {{"first", 0x101, 4, true},       {"second", 0x109, 0x10, true},
+                    {"of_assembly", 0x119, 0, true}, {"third", 0x121, 2, true},
+                    {"data", 0x20000001, 5},         {"elsewhere", 0x500, 4, true, false},
+                    {"_Z5shownif", 0x141, 8, true},  {"_Z5twicei", 0x151, 8, true},
+                    {"_Z5twicef", 0x161, 8, true},   {"loop.constprop.0", 0x171, 8, true}};
+    made.write(folder.file("a.elf"));
+    const qemu::Elf elf(folder.file("a.elf"));
+    EXPECT_EQ(elf.symbol("first"), 0x100U);  // without the Thumb bit
+    EXPECT_EQ(elf.symbol("data"), 0x20000001U);
+    EXPECT_FALSE(elf.symbol("elsewhere"));
+    EXPECT_FALSE(elf.symbol("nothing"));
+    EXPECT_EQ(elf.word(0x100), 0x11223344U);
+    EXPECT_EQ(elf.word(0x104), 0x55667788U);
+    EXPECT_EQ(elf.word(0x102), 0x77881122U);
+    EXPECT_EQ(elf.text(0x20000000, 5), "hello");
+    EXPECT_EQ(elf.text(0x20000001, 2), "el");
+    for (const std::uint32_t address : {0xFCU, 0xFFU, 0x105U, 0x108U, 0x20000002U, 0xFFFFFFFFU}) {
+        EXPECT_EQ(refusal(glsum::Exit::bad_input, [&] { (void)elf.word(address); })
+                      .find(folder.file("a.elf").string() + ": no section holds address 0x"),
+                  0U);
+    }
+    // A function holds its bytes and no more; the end of one without a size is where the next begins.
+    EXPECT_EQ(elf.function_at(0xFF), nullptr);
+    EXPECT_EQ(elf.function_at(0x100)->name, "first");
+    EXPECT_EQ(elf.function_at(0x103)->name, "first");
+    EXPECT_EQ(elf.function_at(0x104), nullptr);
+    EXPECT_EQ(elf.function_at(0x117)->name, "second");
+    EXPECT_EQ(elf.function_at(0x118), nullptr);
+    EXPECT_EQ(elf.end_of_function(0x108), 0x118U);
+    EXPECT_EQ(elf.end_of_function(0x118), 0x120U);
+    EXPECT_EQ(elf.end_of_function(0x1000), 0x1000U);
+    // By the names of the linker and of C++.
+    EXPECT_EQ(elf.function("second").address, 0x108U);
+    EXPECT_EQ(elf.function("second").bytes, 0x10U);
+    EXPECT_EQ(elf.function("shown").address, 0x140U);
+    EXPECT_EQ(elf.function("shown(int, float)").address, 0x140U);
+    EXPECT_EQ(elf.function("_Z5shownif").address, 0x140U);
+    EXPECT_EQ(elf.function("twice(int)").address, 0x150U);
+    EXPECT_EQ(elf.function("loop").address, 0x170U);
+    EXPECT_NE(refusal(glsum::Exit::bad_input, [&] { (void)elf.function("twice"); })
+                  .find("twice is the name of 2 functions: _Z5twicei at 0x150 _Z5twicef at 0x160"),
+              std::string::npos);
+    // The three closest, the closest first.
+    EXPECT_NE(
+        refusal(glsum::Exit::bad_input, [&] { (void)elf.function("secund"); }).find("the closest names are second, "),
+        std::string::npos);
+    EXPECT_NE(refusal(glsum::Exit::bad_input, [&] { (void)elf.function("thirds"); })
+                  .find("the closest names are third, first, twice(float)"),
+              std::string::npos)
+        << refusal(glsum::Exit::bad_input, [&] { (void)elf.function("thirds"); });
+    EXPECT_THROW((void)elf.function("data"), glsum::Failure);
+}
+
+TEST(MadeElf, ALabelInCodeIsAFunctionOfItsFirstInstruction) {
+    const qemu::Scratch folder;
+    MadeElf made;
+    made.sections = {{0x100, test::bytes_of({0, 0})}, {0x20000000, test::bytes_of({0})}};
+    made.symbols = {{"label", 0x105, 0, true}, {"in_memory", 0x20000000, 0}, {"f", 0x101, 4, true}};
+    made.write(folder.file("a.elf"));
+    const qemu::Elf elf(folder.file("a.elf"));
+    EXPECT_EQ(elf.function("label").address, 0x104U);
+    EXPECT_EQ(elf.function("label").bytes, 2U);
+    EXPECT_THROW((void)elf.function("in_memory"), glsum::Failure);
+}
+
+TEST(MadeElf, OtherMachinesTypesAndDamageAreRefused) {
+    const qemu::Scratch folder;
+    const auto said = [&](const MadeElf& made) {
+        made.write(folder.file("a.elf"));
+        return refusal(glsum::Exit::bad_input, [&] { const qemu::Elf elf(folder.file("a.elf")); });
+    };
+    MadeElf made;
+    made.sections = {{0, test::bytes_of({0})}};
+    made.symbols = {{"f", 1, 2, true}};
+    made.machine = 62;
+    EXPECT_NE(said(made).find("an ELF of machine 62 and type 2"), std::string::npos);
+    made.machine = 40;
+    made.type = 1;
+    EXPECT_NE(said(made).find("an ELF of machine 40 and type 1"), std::string::npos);
+    made.type = 2;
+    made.symbols = {{std::string(8193, 'x'), 1, 2, true}};
+    EXPECT_NE(said(made).find("a symbol's name of more than 8192 bytes"), std::string::npos);
+    made.symbols = {{std::string(8192, 'x'), 1, 2, true}};
+    made.write(folder.file("a.elf"));
+    EXPECT_EQ(qemu::Elf(folder.file("a.elf")).symbols().size(), 1U);
+}
+
+TEST(MadeElf, RunsOnTheCoreByItsAttributesOrItsVectors) {
+    const qemu::Scratch folder;
+    MadeElf made;
+    made.symbols = {{"f", 1, 2, true}};
+    const auto checked = [&]() -> std::string {
+        made.write(folder.file("a.elf"));
+        try {
+            qemu::Elf(folder.file("a.elf")).check_runs_on_cortex_m7();
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+            const std::string what = failure.what();
+            return what.substr(what.find("found ") + 6);
+        }
+        return "";
+    };
+    made.sections = {{0, test::bytes_of({0x20001000, 0x101})}};
+    // [Arm IHI 0045]: v6-M 11, v6S-M 12, v7E-M 13, and v7 10 of profile M.
+    for (const auto& [architecture, profile] :
+         {std::pair(11, 'M'), std::pair(12, 'M'), std::pair(13, 'M'), std::pair(10, 'M'), std::pair(13, '\0')}) {
+        made.attributes = attributes(static_cast<std::uint8_t>(architecture), profile);
+        EXPECT_EQ(checked(), "") << architecture;
+    }
+    for (const auto& [architecture, profile, name] :
+         {std::tuple(10, 'A', "one for ARMv7, profile A"), std::tuple(10, '\0', "one for ARMv7"),
+          std::tuple(14, 'A', "one for ARMv8-A, profile A"), std::tuple(15, 'R', "one for ARMv8-R, profile R"),
+          std::tuple(16, 'M', "one for ARMv8-M baseline, profile M"),
+          std::tuple(17, 'M', "one for ARMv8-M mainline, profile M"),
+          std::tuple(21, 'M', "one for ARMv8.1-M mainline, profile M"),
+          std::tuple(22, 'A', "one for ARMv9-A, profile A"), std::tuple(9, '\0', "one for architecture 9")}) {
+        made.attributes = attributes(static_cast<std::uint8_t>(architecture), profile);
+        EXPECT_EQ(checked(), name);
+    }
+    // Without any: by the vector table at address 0, whose second word begins in Thumb state.
+    made.attributes.clear();
+    EXPECT_EQ(checked(), "");
+    const std::string none = "none whose vector table at address 0 starts it in Thumb state";
+    made.sections = {{0, test::bytes_of({0x20001000, 0x100})}};
+    EXPECT_EQ(checked(), none);
+    made.sections = {{0, {0, 0, 0, 0, 1, 0, 0}}};
+    EXPECT_EQ(checked(), none);
+    made.sections = {{0x100, test::bytes_of({0x20001000, 0x101})}};
+    EXPECT_EQ(checked(), none);
+}
+
+TEST(MadeElf, DoubleRoutinesAreItsOwnFromTheirFirstByteToTheirLast) {
+    const qemu::Scratch folder;
+    MadeElf made;
+    made.sections = {{0, test::bytes_of({0, 0})}};
+    made.symbols = {{"__aeabi_dadd", 0x201, 0x10, true},
+                    {"__adddf3", 0x201, 0x10, true},
+                    {"__aeabi_dmul", 0x301, 0, true},
+                    {"memcpy", 0x341, 4, true},
+                    {"__aeabi_fadd", 0x401, 4, true}};
+    made.write(folder.file("a.elf"));
+    const qemu::Elf elf(folder.file("a.elf"));
+    timing::TimingRequest request;
+    request.cores = {{"one", "", ""}};
+    const timing::TimingRequest own = qemu::for_program(request, elf);
+    ASSERT_EQ(own.double_routines.size(), 2U);
+    EXPECT_EQ(own.double_routines[0].begin, 0x200U);
+    EXPECT_EQ(own.double_routines[0].end, 0x210U);
+    EXPECT_EQ(own.double_routines[1].begin, 0x300U);
+    EXPECT_EQ(own.double_routines[1].end, 0x340U);  // where the next function begins
+    EXPECT_EQ(own.cores.size(), 1U);
+}
+
+// The loops whose counts targets/firmware/check_loops.S derives: of each turn, and once.
+struct Loop {
+    const char* name;
+    int turn[4];
+    int once[4];
+};
+constexpr Loop loops[] = {
+    {"glsum_check_steps", {4, 1, 1, 1}, {1, 0, 0, 1}},    {"glsum_check_one_more", {4, 1, 1, 1}, {2, 0, 0, 1}},
+    {"glsum_check_multiple", {4, 4, 4, 1}, {3, 2, 2, 1}}, {"glsum_check_wide", {8, 7, 7, 1}, {1, 0, 0, 1}},
+    {"glsum_check_edge", {4, 1, 1, 1}, {3, 0, 0, 1}},     {"glsum_check_skipped", {5, 0, 0, 1}, {1, 0, 0, 1}},
+    {"glsum_check_nested", {6, 1, 1, 3}, {3, 2, 2, 1}},
+};
+
+constexpr std::uint32_t ring = 0x400;
+constexpr std::uint32_t block = 0x440;
+constexpr std::uint32_t block_answer = 0x480;
+
+// A program with two kernels, one in halves; marks and loops.
+MadeElf program() {
+    const std::string names = "ring_plain_f32block_plain_q31";
+    std::vector<std::uint8_t> text(names.begin(), names.end());
+    MadeElf made;
+    made.sections = {{0x1000, text},
+                     {0x2000, test::bytes_of({0x1000, 14, ring + 1, 0, 0x100E, 15, block + 1, block_answer + 1, 2})}};
+    made.symbols = {{"glsum_watched", 0x2000, 32},
+                    {"glsum_watched_count", 0x2020, 4},
+                    {"glsum_mark_row", 0x601, 2, true},
+                    {"glsum_mark_on", 0x611, 2, true},
+                    {"glsum_mark_off", 0x621, 2, true},
+                    {"step_of_ring", ring + 1, 0x20, true},
+                    {"step_of_block", block + 1, 0x30, true},
+                    {"helper", 0x501, 0x10, true}};
+    std::uint32_t at = 0x801;
+    for (const Loop& loop : loops) {
+        made.symbols.push_back({loop.name, at, 0x10, true});
+        at += 0x10;
+    }
+    return made;
+}
+
+std::string calls(std::uint32_t entry, int count, const char* counts) {
+    return "calls " + std::to_string(entry) + ' ' + std::to_string(count) + ' ' + counts + '\n';
+}
+
+std::string check_calls() {
+    std::string log;
+    std::uint32_t at = 0x800;
+    for (const Loop& loop : loops) {
+        for (const int turns : {1, 10, 1000}) {
+            std::string counts;
+            for (int i = 0; i < 4; ++i) {
+                counts += (i > 0 ? " " : "") + std::to_string(loop.turn[i] * turns + loop.once[i]);
+            }
+            log += calls(at, 1, counts.c_str());
+        }
+        at += 0x10;
+    }
+    return log;
+}
+
+// Of 3 taps: the first call, three that fill the past, 32 of a turn, one on the painted stack. Of 40 taps the turn is
+// 40, of whose first 32 the mean is. In halves: 32 first halves behind.
+const std::string rows_of_log =
+    calls(ring, 1, "100 10 5 7") + calls(ring, 3, "500 90 90 90") + calls(ring, 16, "50 20 10 4") +
+    calls(ring, 16, "70 24 10 6") + calls(ring, 1, "999 999 999 999") + calls(ring, 1, "200 20 10 14") +
+    calls(ring, 40, "900 1 1 1") + calls(ring, 32, "50 20 10 4") + calls(ring, 8, "80 99 99 99") +
+    calls(ring, 1, "50 20 10 4") + calls(block, 1, "31 3 2 1") + calls(block, 2, "9 9 9 9") +
+    calls(block, 33, "40 8 4 2") + calls(block_answer, 32, "5 1 1 1");
+const std::string reached = "reached 1024 1024 1030 1280 64\nreached 1088 1088\nend\n";
+
+class MeasureMade : public testing::Test {
+protected:
+    void SetUp() override {
+        program().write(folder_.file("measure.elf"));
+        say("row 0 0 ab 12 34 56\nrow 1 0 cd 13 35 57\nrow 2 5\nrow 3 0 ef 14 36 58\nend 4\n");
+        log(check_calls() + rows_of_log + reached);
+        script_ =
+            "of() { echo \"$GLSUM_QEMU_PLUGIN\" | tr , '\\n' | sed -n \"s/^$1=//p\"; }\n"
+            "cd '" +
+            folder_.file("").string() +
+            "'\necho \"$GLSUM_QEMU_PLUGIN\" >plugin\n"
+            "cp log \"$(of out)\"; cp \"$(of watch)\" watch\n"
+            "if [ -n \"$(of timing)\" ]; then cp times \"$(of times)\"; cp \"$(of marks)\" marks; cp \"$(of timing)\" "
+            "request; fi\n"
+            "cat said\n";
+        std::ofstream(folder_.file("emulate")) << "#!/bin/sh\n" << script_;
+        std::filesystem::permissions(folder_.file("emulate"), std::filesystem::perms::owner_all);
+    }
+    void say(const std::string& text) { std::ofstream(folder_.file("said")) << text; }
+    void log(const std::string& text) { std::ofstream(folder_.file("log")) << text; }
+    std::vector<qemu::MeasuredRow> measure(qemu::Counting counting = qemu::Counting::blocks,
+                                           const timing::TimingRequest& timing = {}) {
+        const qemu::Board board{
+            folder_.file("measure.elf"), "replay.elf", "x.so", {folder_.file("emulate"), std::chrono::seconds(20)}};
+        std::vector<qemu::PlannedRow> plan;
+        for (const std::size_t taps : {3U, 40U, 7U}) {
+            plan.push_back({"ring_plain_f32", 0.5, taps, 0, qemu::calls_to_measure("ring_plain_f32", taps)});
+        }
+        plan.push_back({"block_plain_q31", 0.5, 2, 0, qemu::calls_to_measure("block_plain_q31", 2)});
+        return qemu::measure(
+            board, plan, {{0.5}}, [&] { ++done_; }, counting, timing);
+    }
+    std::string fault() {
+        return refusal(glsum::Exit::check_failed, [&] { (void)measure(); });
+    }
+
+    qemu::Scratch folder_;
+    std::string script_;
+    std::size_t done_ = 0;
+};
+
+TEST_F(MeasureMade, CountsAreTheMeansOfTheSteadyCalls) {
+    const auto rows = measure();
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_EQ(done_, 4U);
+    EXPECT_EQ(rows[0].hash, 0xABU);
+    EXPECT_EQ(rows[0].stack_bytes, 12U);
+    EXPECT_EQ(rows[0].state_bytes, 34U);
+    EXPECT_EQ(rows[0].coefficient_bytes, 56U);
+    EXPECT_EQ(rows[0].first, (qemu::CallCounts{100, 10, 5, 7}));
+    EXPECT_DOUBLE_EQ(rows[0].instructions, 60.0);
+    EXPECT_DOUBLE_EQ(rows[0].loads, 22.0);
+    EXPECT_DOUBLE_EQ(rows[0].stores, 10.0);
+    EXPECT_DOUBLE_EQ(rows[0].branches, 5.0);
+    EXPECT_EQ(rows[0].worst_instructions, 70U);
+    EXPECT_EQ(rows[0].code_bytes, 0x20U + 0x10U);  // the kernel's own function and the helper, each once
+    EXPECT_TRUE(rows[0].cores.empty());
+    EXPECT_EQ(rows[1].first.instructions, 200U);
+    EXPECT_DOUBLE_EQ(rows[1].instructions, 50.0);
+    EXPECT_DOUBLE_EQ(rows[1].loads, 20.0);
+    EXPECT_EQ(rows[1].worst_instructions, 80U);
+    EXPECT_EQ(rows[2].status, static_cast<glsum::Status>(5));
+    EXPECT_EQ(rows[3].first.instructions, 31U);
+    EXPECT_DOUBLE_EQ(rows[3].instructions, 40.0);
+    EXPECT_DOUBLE_EQ(rows[3].branches, 2.0);
+    EXPECT_EQ(rows[3].code_bytes, 0x30U);
+    // The instrument is told of the loops first, then of the kernels with their halves.
+    EXPECT_EQ(text_of(folder_.file("watch")), "2048\n2064\n2080\n2096\n2112\n2128\n2144\n1088\n1152\n1024\n");
+    const std::string plugin = text_of(folder_.file("plugin"));
+    EXPECT_EQ(plugin.find("x.so,watch="), 0U) << plugin;
+    EXPECT_NE(plugin.find(",stream=off\n"), std::string::npos) << plugin;
+    EXPECT_EQ(plugin.find("timing="), std::string::npos) << plugin;
+    (void)measure(qemu::Counting::stream);
+    EXPECT_NE(text_of(folder_.file("plugin")).find(",stream=on\n"), std::string::npos);
+}
+
+TEST_F(MeasureMade, CyclesAreThoseOfEachRowsLog) {
+    std::ofstream times(folder_.file("times"));
+    for (const auto& [kernel, taps, first, halves] :
+         {std::tuple("ring_plain_f32", 3U, 100, 0), std::tuple("ring_plain_f32", 40U, 200, 0),
+          std::tuple("block_plain_q31", 2U, 31, 32)}) {
+        const firmware::TimedCalls timed = qemu::timed_calls(kernel, taps);
+        std::size_t count = 0;
+        for (std::size_t call = 0; call < timed.calls(); ++call) {
+            count += timed.contains(call) ? 1 : 0;
+        }
+        std::string losses;
+        for (std::size_t e = 0; e < timing::effect_count; ++e) {
+            losses += " 0";
+        }
+        times << "calls " << count << " 1024 " << first << " core 3 " << 2 * taps << ' ' << taps << ' ' << 3 * taps
+              << losses << " 0\n";
+        if (halves > 0) {
+            times << "calls " << halves << " 1152 5 core 3 6 6 6" << losses << " 0\n";
+        }
+        times << "unknown " << 500 + taps << " 9\nend\n";
+    }
+    times.close();
+    timing::TimingRequest request;
+    request.cores_folder = TEST_CORES;
+    request.cores = {{"m7-ideal", "", ""}};
+    const auto rows = measure(qemu::Counting::blocks, request);
+    for (const auto& [i, taps] : {std::pair(0, 3.0), std::pair(1, 40.0), std::pair(3, 2.0)}) {
+        ASSERT_EQ(rows[i].cores.size(), 1U);
+        EXPECT_NEAR(rows[i].cores[0].cycles, taps, 1e-12);
+        EXPECT_NEAR(rows[i].cores[0].low, 0.5 * taps, 1e-12);
+        EXPECT_NEAR(rows[i].cores[0].high, 1.5 * taps, 1e-12);
+        EXPECT_EQ(rows[i].unknown_encodings, std::vector<std::uint32_t>{500 + static_cast<std::uint32_t>(taps)});
+    }
+    EXPECT_NEAR(rows[3].cores[0].latency_cycles, 3.0, 1e-12);
+    EXPECT_TRUE(rows[2].cores.empty());
+    EXPECT_EQ(text_of(folder_.file("marks")), "1536 1552 1568\n");
+    EXPECT_NE(text_of(folder_.file("request")).find("core m7-ideal "), std::string::npos);
+    // A core that does not exist is refused before anything runs.
+    request.cores = {{"no-core", "", ""}};
+    std::filesystem::remove(folder_.file("plugin"));
+    EXPECT_THROW((void)measure(qemu::Counting::blocks, request), glsum::Failure);
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("plugin")));
+}
+
+TEST_F(MeasureMade, AnInstrumentThatMiscountsIsNotBelieved) {
+    std::string wrong = check_calls();
+    wrong.replace(wrong.find("calls 2048 1 5 1 1 2"), 20, "calls 2048 1 6 1 1 2");
+    log(wrong + rows_of_log + reached);
+    EXPECT_EQ(fault(),
+              "the instrument miscounts: glsum_check_steps with 1 turns: expected 5 instructions, 1 loads, 1 stores, 2 "
+              "branches; found 6 instructions, 1 loads, 1 stores, 2 branches");
+    wrong = check_calls();
+    const std::string last = "calls 2144 1 6003 1002 1002 3001";
+    ASSERT_NE(wrong.find(last), std::string::npos) << wrong;
+    wrong.replace(wrong.find(last), last.size(), "calls 2144 1 6003 1002 1002 3000");
+    log(wrong + rows_of_log + reached);
+    EXPECT_NE(fault().find("glsum_check_nested with 1000 turns"), std::string::npos);
+    log(check_calls() + rows_of_log + calls(ring, 1, "1 1 1 1") + reached);
+    EXPECT_EQ(fault(), "the instrument saw more calls than the program made");
+    log(check_calls() + reached);
+    EXPECT_EQ(fault(), "the instrument saw other calls than the program made");
+    log(check_calls() + calls(block, 1, "1 1 1 1") + rows_of_log + reached);
+    EXPECT_EQ(fault(), "the instrument saw other calls than the program made");
+    log(check_calls() + rows_of_log + "reached 1024 1024\nend\n");
+    EXPECT_EQ(fault(), "the instrument saw no instruction of block_plain_q31");
+}
+
+TEST_F(MeasureMade, WhatTheProgramMustOfferIsAskedForByName) {
+    for (const char* missing : {"glsum_watched", "glsum_watched_count", "glsum_mark_row", "glsum_mark_on",
+                                "glsum_mark_off", "glsum_check_edge"}) {
+        MadeElf without = program();
+        std::erase_if(without.symbols, [&](const test::MadeSymbol& symbol) { return symbol.name == missing; });
+        without.write(folder_.file("measure.elf"));
+        EXPECT_EQ(refusal(glsum::Exit::bad_input, [&] { (void)measure(); }),
+                  folder_.file("measure.elf").string() + ": expected the symbol " + missing);
+    }
+}
+
+}  // namespace
