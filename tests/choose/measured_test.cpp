@@ -52,7 +52,7 @@ TEST(MeasuredErrors, AreTheBitsOfBenchsRowsAndTheWorstSignals) {
     EXPECT_EQ(errors.longest(), samples);
     std::size_t asked = 0;
     for (const char* kernel :
-         {"ring_plain_f32", "ring_plain_q15", "mirrorhold_oldest_f32", "nested_plain_f32", "modes_plain_f32"}) {
+         {"ring_plain_f32", "ring_plain_q15", "mirrorhold_plain_f32", "nested_plain_f32", "modes_plain_f32"}) {
         for (const std::size_t taps : {2U, 20U}) {
             const choose::ErrorAt at = errors.error(kernel, taps);
             const auto rows = rows_of(kernel, taps);
