@@ -408,13 +408,14 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
     Json json;
     {
         Reporter reporter(cases.size());
-        if (benchmark::RunSpecifiedBenchmarks(&reporter) == 0) {
+        const std::size_t ran = benchmark::RunSpecifiedBenchmarks(&reporter);
+        benchmark::ClearRegisteredBenchmarks();
+        if (ran == 0) {
             throw glsum::Failure(glsum::Exit::bad_input,
                                  "--benchmark_filter: expected to match some timing, found none that it does");
         }
         json = reporter.json();
     }
-    benchmark::ClearRegisteredBenchmarks();
     HostTiming timing;
     timing.context = json["context"];
     timing.context["cycle_counter"] = cycle_counter().name();

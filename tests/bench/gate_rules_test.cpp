@@ -68,6 +68,14 @@ TEST(GateRules, OfHostTimeHaveAnAnchor) {
     EXPECT_EQ(parse_rules(text + "witnesses = \"peer_*\"\n", "rules")[0].witnesses, std::vector<std::string>{"peer_*"});
     EXPECT_THAT(refusal(text + "witnesses = 3\n"), HasSubstr("witnesses"));
     EXPECT_EQ(rules[0].confidence, 0.95);
+    const std::string without = changed("\"accuracy\"", "\"host_time\"") + "anchor = \"peer_std_f32\"\n";
+    for (const double taken : {0.5, 0.9999}) {
+        EXPECT_EQ(parse_rules(without + "confidence = " + std::to_string(taken) + "\n", "rules")[0].confidence, taken);
+    }
+    for (const char* refused : {"0.4999", "0.99991", "1.0"}) {
+        EXPECT_THAT(refusal(without + "confidence = " + refused + "\n"), HasSubstr("from 0.5 to 0.9999")) << refused;
+    }
+    EXPECT_EQ(parse_rules(without, "rules")[0].confidence, 0.99);
     EXPECT_THAT(refusal(text + "absolute = 1\n"), HasSubstr("t.toml:11:12: absolute: times of two runs"));
     EXPECT_THAT(refusal(good + "anchor = \"peer_std_f32\"\n"), HasSubstr("only rules of the layer host_time"));
 }

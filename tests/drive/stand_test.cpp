@@ -494,6 +494,108 @@ TEST(Stand, EachEffectCanBeAbsentAndBeBroughtBack) {
     EXPECT_EQ(stand::parse_stand(stand::to_toml(none), "own"), none);
 }
 
+// What is commanded, by the closed form of each name.
+TEST(Stand, CommandsAreWhatTheirNamesSay) {
+    const stand::Experiment usual;
+    EXPECT_EQ(usual.name, "pulse");
+    EXPECT_EQ(usual.duty, 0.27);
+    EXPECT_EQ(usual.low_duty, 0.0);
+    EXPECT_EQ(usual.off_s, 2.6);
+    EXPECT_EQ(usual.until_s, 5.0);
+    EXPECT_EQ(usual.stairs, 4);
+    EXPECT_EQ(usual.from_hz, 0.05);
+    EXPECT_EQ(usual.to_hz, 2.0);
+    EXPECT_EQ(usual.bit_s, 0.25);
+    EXPECT_EQ(usual.angle_rad, 0.7);
+    const auto duties = [](stand::Experiment experiment, std::uint64_t seed = 1) {
+        return stand::run(bare(), experiment, seed).duty;
+    };
+    stand::Experiment asked{.name = "pulse", .duty = 0.5, .low_duty = 0.1, .off_s = 3.0, .until_s = 8.0};
+    const auto pulse = duties(asked);
+    ASSERT_EQ(pulse.size(), 801U);
+    EXPECT_EQ(pulse[299], 0.5);
+    EXPECT_EQ(pulse[300], 0.0);
+    asked.name = "staircase";
+    const auto stairs = duties(asked);
+    const double levels[] = {0.2, 0.3, 0.4, 0.5, 0.4, 0.3, 0.2, 0.1};
+    for (std::size_t k = 0; k < 801; ++k) {
+        EXPECT_NEAR(stairs[k], levels[std::min<std::size_t>(k / 100, 7)], 1e-12) << k;
+    }
+    asked.name = "ramp";
+    const auto ramp = duties(asked);
+    for (std::size_t k = 0; k < 801; ++k) {
+        EXPECT_NEAR(ramp[k], 0.5 - 0.4 * std::fabs(static_cast<double>(k) - 400.0) / 400.0, 1e-12) << k;
+    }
+    asked.name = "release";
+    EXPECT_EQ(duties(asked), std::vector<double>(801, 0.0));
+    EXPECT_EQ(stand::run(bare(), asked, 1).angle_rad[0], 0.7);
+    // Of 0.5 to 4 Hz in 8 s three octaves: T f (2^(3 t/T) - 1) / (3 ln 2) turns from the lowest, 13.46 in all.
+    asked.name = "chirp";
+    asked.from_hz = 0.5;
+    asked.to_hz = 4.0;
+    const auto chirp = duties(asked);
+    for (std::size_t k = 0; k < 801; ++k) {
+        const double turns = 4.0 * (std::exp2(3.0 * static_cast<double>(k) / 800.0) - 1.0) / (3.0 * std::numbers::ln2);
+        EXPECT_NEAR(chirp[k], 0.3 - 0.2 * std::cos(2.0 * std::numbers::pi * turns), 1e-9) << k;
+    }
+    // Of ten bits the longest sequence: 1023 bits that come again, 512 of them high; other seeds begin elsewhere in it.
+    asked.name = "prbs";
+    asked.bit_s = 0.02;
+    asked.until_s = 41.5;
+    const auto bits = duties(asked);
+    std::size_t high = 0;
+    for (std::size_t bit = 0; bit < 1023; ++bit) {
+        const double value = bits[2 * bit];
+        EXPECT_TRUE(value == 0.5 || value == 0.1) << bit;
+        EXPECT_EQ(bits[2 * bit + 1], value) << bit;  // held
+        EXPECT_EQ(bits[2 * (bit + 1023)], value) << bit;
+        high += value == 0.5 ? 1 : 0;
+    }
+    EXPECT_EQ(high, 512U);
+    EXPECT_NE(duties(asked, 2), bits);
+}
+
+TEST(Stand, SeriesShareABatteryAndTheLastIsBlownUpon) {
+    stand::Stand built = bare();
+    built.damping_n_m_s = 0.11;
+    built.sag_per_unit_s = 0.05;
+    built.start_up_s = 0.5;
+    const stand::Experiment pulse{.name = "pulse", .duty = 0.4, .off_s = 2.0, .until_s = 3.0};
+    const auto series = stand::run_series(built, pulse, 7, 3);
+    ASSERT_EQ(series.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const std::string number = std::to_string(i + 1);
+        EXPECT_EQ(series[i].name, "series " + number + ", pulse, seed 700" + number);
+        // From the end of the start-up, of up to 10 ms more or less, to the end of the pulse.
+        EXPECT_NEAR(series[i].truth.points.back().charge, 0.4 * 1.5 * static_cast<double>(i + 1),
+                    0.4 * 0.01 * static_cast<double>(i + 1));
+    }
+    // Alone there is no last one; of two it is disturbed from 1.5 s to 2.1 s and not before.
+    const auto alone = stand::run_series(built, pulse, 7, 1);
+    EXPECT_EQ(alone[0].angle_rad, series[0].angle_rad);
+    stand::Stand blown = built;
+    const auto two = stand::run_series(built, pulse, 7, 2);
+    std::size_t apart = 0;
+    for (std::size_t k = 0; k < 301; ++k) {
+        const double difference = two[1].truth.points[k].angle_rad - series[1].truth.points[k].angle_rad;
+        if (k <= 150) {
+            EXPECT_NEAR(difference, 0.0, 1e-7) << k;
+        }
+        apart += difference < -1e-3 ? 1 : 0;  // against the first motor
+    }
+    EXPECT_GT(apart, 80U);
+    blown.disturbance_from_s = 1.5;
+    blown.disturbance_to_s = 2.1;
+    blown.disturbance_size = 0.3 * 0.4 * 0.4;
+    blown.start_up_s = 0.0;
+    built.start_up_s = 0.0;
+    const auto same = stand::run(blown, pulse, 7002, 0.8);  // the first took 0.4 for 2 s
+    const auto without_start = stand::run_series(built, pulse, 7, 2);
+    for (std::size_t k = 0; k < 301; ++k) {
+        EXPECT_NEAR(without_start[1].angle_rad[k], same.angle_rad[k], 1e-6) << k;
+    }
+}
+
 // What each size is where its effect is absent, and the least and the largest that it may be: such are taken, what lies
 // beyond is refused. Files of stands hold such values.
 TEST(Stand, SizesAreTakenToTheirEndsAndNotBeyond) {

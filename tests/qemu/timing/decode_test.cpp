@@ -154,6 +154,14 @@ constexpr Row rows[] = {
     {"vmov r1, s0", Kind::fp_to_core, "=r1 os0"},
     {"vmov s4, s5, r0, r1", Kind::fp_from_core, "=s4 =s5 or0 or1"},
     {"vmov r0, r1, d3", Kind::fp_to_core, "=r0 =r1 os6 os7"},
+    {"vmov.32 d1[1], r0", Kind::fp_from_core, "=s3 or0"},
+    {"vmov.32 d14[0], r7", Kind::fp_from_core, "=s28 or7"},
+    {"vmov.32 r0, d2[0]", Kind::fp_to_core, "=r0 os4"},
+    {"vmov.32 r9, d15[1]", Kind::fp_to_core, "=r9 os31"},
+    {"vmsr fpscr, r3", Kind::fp_from_core, "=fpscr or3"},
+    {"vmrs r3, fpscr", Kind::fp_to_core, "=r3 ?fpscr"},
+    {"vcvtb.f64.f16 d1, s5", Kind::fp_convert, "=s2 =s3 os5"},
+    {"vcvtt.f16.f64 s5, d1", Kind::fp_convert, "=s5 os2 os3"},
     {"vldr s5, [r0, #8]", Kind::load, "<s5 @r0"},
     {"vldr d5, [r0, #8]", Kind::load_multiple, "<s10 <s11 @r0"},
     {"vstr s5, [r0]", Kind::store, "ds5 @r0"},
@@ -212,6 +220,177 @@ TEST(Decode, InAnItBlockNarrowArithmeticSetsNoFlagsAndReadsThem) {
     const auto lines = listing::assemble("it eq\naddeq r0, r1, r2\n");
     const timing::Decoded d = timing::decode(lines[1].encoding, 2, 0x0, true);
     EXPECT_EQ(words_of(d), split("=r0 or1 or2 ?nzcv"));
+}
+
+// How many registers a transfer has and of how many bytes each, and what else the pipeline asks: written by hand.
+struct Facts {
+    const char* text;
+    const char* facts;
+};
+
+std::string facts_of(const timing::Decoded& d) {
+    std::string text;
+    const auto add = [&](const std::string& word) { text += (text.empty() ? "" : " ") + word; };
+    if (d.registers > 0) {
+        add(std::to_string(d.registers) + "x" + std::to_string(d.access_bytes));
+    }
+    for (const auto& [holds, word] :
+         {std::pair(d.backward, "backward"), std::pair(d.sets_flags, "flags"), std::pair(d.uses_shifter, "shifter"),
+          std::pair(d.fused, "fused"), std::pair(d.is_double, "double"), std::pair(d.is_fp, "fpu"),
+          std::pair(d.both_fp_ports, "both"), std::pair(d.early_result, "early"),
+          std::pair(d.saturates, "saturates")}) {
+        if (holds) {
+            add(word);
+        }
+    }
+    return text;
+}
+
+constexpr Facts facts[] = {
+    {"ldr r0, [r1]", "1x4"},
+    {"ldrh r0, [r1, #2]", "1x2"},
+    {"ldrb r0, [r1, #1]", "1x1"},
+    {"ldrsb r0, [r1, r2]", "1x1"},
+    {"ldrsh r0, [r1, r2]", "1x2"},
+    {"ldrb r0, [r1, r2]", "1x1"},
+    {"ldrh r0, [r1, r2]", "1x2"},
+    {"ldr r0, [r1, r2]", "1x4"},
+    {"str r0, [r1, r2]", "1x4"},
+    {"strh r0, [r1, r2]", "1x2"},
+    {"strb r0, [r1, r2]", "1x1"},
+    {"str r0, [r1, #4]", "1x4"},
+    {"strh r0, [r1, #2]", "1x2"},
+    {"strb r0, [r1, #1]", "1x1"},
+    {"str r0, [sp, #4]", "1x4"},
+    {"ldr r0, [sp, #4]", "1x4"},
+    {"ldr r0, [pc, #4]", "1x4"},
+    {"push {r0, r2, lr}", "3x4"},
+    {"pop {r1, r3, pc}", "3x4"},
+    {"ldmia r0!, {r1-r4}", "4x4"},
+    {"stmia r0!, {r1, r7}", "2x4"},
+    {"ldr.w r0, [r1, #1000]", "1x4"},
+    {"ldrh.w r0, [r1, #1000]", "1x2"},
+    {"ldrb.w r0, [r1, #1000]", "1x1"},
+    {"ldrsh.w r0, [r1, #1000]", "1x2"},
+    {"ldrsb.w r0, [r1, #1000]", "1x1"},
+    {"str.w r0, [r1, #1000]", "1x4"},
+    {"strh.w r0, [r1, #1000]", "1x2"},
+    {"strb.w r0, [r1, #1000]", "1x1"},
+    {"ldrd r0, r1, [r2]", "2x4"},
+    {"strd r0, r1, [r2]", "2x4"},
+    {"ldmdb r0, {r1, r8, r9}", "3x4"},
+    {"ldrex r0, [r1]", "1x4"},
+    {"ldrexb r0, [r1]", "1x1"},
+    {"ldrexh r0, [r1]", "1x2"},
+    {"strex r0, r1, [r2]", "1x4"},
+    {"strexb r0, r1, [r2]", "1x1"},
+    {"strexh r0, r1, [r2]", "1x2"},
+    {"tbb [r0, r1]", "1x1"},
+    {"tbh [r0, r1, lsl #1]", "1x2"},
+    {"pld [r0]", ""},
+    {"vldr s0, [r0]", "1x4 fpu"},
+    {"vldr d0, [r0]", "2x4 double fpu"},
+    {"vstr d1, [r0]", "2x4 double fpu"},
+    {"vldmia r0, {s1-s5}", "5x4 fpu"},
+    {"vstmia r0!, {d1-d3}", "6x4 double fpu"},
+    {"vpush {d8, d9}", "4x4 double fpu"},
+    {"b .-4", "backward"},
+    {"b .+8", ""},
+    {"beq .-4", "backward"},
+    {"beq .+8", ""},
+    {"b.w .-4", "backward"},
+    {"b.w .+8", ""},
+    {"beq.w .-4", "backward"},
+    {"beq.w .+8", ""},
+    {"bl .-4", ""},
+    {"adds r0, r1, r2", "flags"},
+    {"add r0, r8", ""},
+    {"cmp r0, r1", "flags"},
+    {"cmp r0, r8", "flags"},
+    {"cmp r0, #1", "flags"},
+    {"movs r0, #1", "flags"},
+    {"lsls r0, r1, #2", "flags"},
+    {"muls r0, r1, r0", "flags"},
+    {"mvns r0, r1", "flags"},
+    {"adcs r0, r1", "flags"},
+    {"adds.w r0, r8, r1", "flags"},
+    {"add.w r0, r8, r1", ""},
+    {"tst.w r0, r8", "flags"},
+    {"lsls.w r0, r8, r1", "flags"},
+    {"lsl.w r0, r8, r1", ""},
+    {"vmrs apsr_nzcv, fpscr", "flags fpu both"},
+    {"add.w r0, r8, r1, lsl #2", "shifter"},
+    {"add.w r0, r1, #0x100", "shifter"},
+    {"add.w r0, r8, #255", ""},
+    {"mov.w r0, r8, lsl #3", ""},
+    {"pkhbt r0, r1, r2", ""},
+    {"pkhbt r0, r1, r2, lsl #1", "shifter"},
+    {"ssat r0, #3, r1", "saturates"},
+    {"usat16 r0, #3, r1", "saturates"},
+    {"qadd r0, r1, r2", "saturates"},
+    {"qdsub r0, r1, r2", "saturates"},
+    {"qadd8 r0, r1, r2", "saturates"},
+    {"uqsub16 r0, r1, r2", "saturates"},
+    {"shadd8 r0, r1, r2", ""},
+    {"uadd8 r0, r1, r2", ""},
+    {"uhsax r0, r1, r2", ""},
+    {"rev r0, r1", "early"},
+    {"rev.w r8, r1", "early"},
+    {"rbit r0, r1", "early"},
+    {"revsh.w r8, r1", "early"},
+    {"clz r0, r1", ""},
+    {"vfma.f32 s0, s1, s2", "fused fpu"},
+    {"vmla.f32 s0, s1, s2", "fpu"},
+    {"vfnms.f64 d0, d1, d2", "fused double fpu"},
+    {"vadd.f64 d0, d1, d2", "double fpu"},
+    {"vmov.f32 s0, #1.0", "fpu"},
+    {"vmov.f64 d0, #1.0", "double fpu"},
+    {"vcvt.f64.f32 d0, s1", "fpu"},
+    {"vcvt.f32.f64 s0, d1", "double fpu"},
+    {"vcvt.s32.f64 s0, d1", "double fpu"},
+    {"vmov s0, r1", "fpu"},
+    {"vmov r1, s0", "fpu"},
+    {"vmov s0, s1, r0, r1", "fpu both"},
+    {"vmov d0, r0, r1", "fpu both"},
+    {"vmov.32 d1[1], r0", "fpu"},
+    {"vmsr fpscr, r0", "fpu both"},
+    {"vmrs r0, fpscr", "fpu both"},
+};
+
+TEST(Decode, KnowsWhatThePipelineAsks) {
+    std::string text;
+    for (const Facts& row : facts) {
+        text += std::string(row.text) + "\n";
+    }
+    const auto lines = listing::assemble(text);
+    ASSERT_EQ(lines.size(), std::size(facts));
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        EXPECT_EQ(facts_of(timing::decode(lines[i].encoding, lines[i].bytes)), facts[i].facts) << facts[i].text;
+    }
+}
+
+// What an encoding of one architecture is that of another would have: registers beyond the sixteen doubles, none at
+// all.
+TEST(Decode, ADoubleBeyondTheSixteenthIsUnknown) {
+    constexpr std::uint32_t low = 1U << 5;     // of Vm
+    constexpr std::uint32_t high = 1U << 22;   // of Vd
+    constexpr std::uint32_t middle = 1U << 7;  // of Vn
+    for (const std::uint32_t e :
+         {0xEE310B02U /* vadd.f64 d0, d1, d2 */, 0xEEA10B02U /* vfma.f64 */, 0xFE010B02U /* vseleq.f64 */}) {
+        EXPECT_NE(timing::decode(e, 4).kind, Kind::unknown);
+        for (const std::uint32_t bit : {low, high, middle}) {
+            EXPECT_EQ(timing::decode(e | bit, 4).kind, Kind::unknown) << std::hex << (e | bit);
+            EXPECT_NE(timing::decode((e & ~0x100U) | bit, 4).kind, Kind::unknown) << std::hex << (e | bit);  // of f32
+        }
+    }
+    EXPECT_NE(timing::decode(0xED900B00U, 4).kind, Kind::unknown);  // vldr d0, [r0]
+    EXPECT_EQ(timing::decode(0xED900B00U | high, 4).kind, Kind::unknown);
+    EXPECT_EQ(timing::decode(0xEC900A00U, 4).kind, Kind::unknown);  // vldmia of none
+    EXPECT_NE(timing::decode(0xEC90FA01U, 4).kind, Kind::unknown);  // of s30
+    EXPECT_NE(timing::decode(0xEC90FA02U, 4).kind, Kind::unknown);  // of s30 and s31
+    EXPECT_EQ(timing::decode(0xEC90FA03U, 4).kind, Kind::unknown);
+    EXPECT_EQ(timing::decode(0xEC410A3FU, 4).kind, Kind::unknown);  // vmov s31, s32, r0, r1
+    EXPECT_NE(timing::decode(0xEC410A1FU, 4).kind, Kind::unknown);  // s30 and s31
 }
 
 TEST(Decode, WhatNoRowMatchesIsUnknown) {

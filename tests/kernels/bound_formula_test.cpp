@@ -1,0 +1,272 @@
+// Bounds by their derivations, to first order, counted anew from what their headers state: neither too small, which the
+// signals of bound_test would show, nor larger than what was derived.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bench/host_line.hpp"
+#include "glsum/bound.hpp"
+#include "glsum/gain.hpp"
+#include "glsum/registry.hpp"
+
+namespace {
+
+using namespace glsum;
+
+constexpr double u = 0x1p-24;
+
+// a_1 ... a_last of an order.
+std::vector<double> weights(double order, std::size_t last) {
+    std::vector<double> all(last + 1, 1.0);
+    for (std::size_t j = 1; j <= last; ++j) {
+        all[j] = all[j - 1] * (1.0 - (order + 1.0) / static_cast<double>(j));
+    }
+    return all;
+}
+
+template <class K>
+double bound_of(const Design& design, double peak, std::size_t samples = longest_record) {
+    bench::HostLine<K> line(design);
+    EXPECT_EQ(line.status(), Status::ok) << K::name();
+    return error_bound<K>(design, line.state(), peak, samples);
+}
+
+// Higher orders are u times as large, times the terms.
+void expect_first_order(double found, double expected) { EXPECT_NEAR(found / expected, 1.0, 2e-5); }
+
+// Each sample rounded once, each coefficient once, each product once, and the additions from its own on: of a_j the
+// L - j that follow in the order newest first.
+TEST(BoundFormula, OfAPlainWindow) {
+    constexpr std::size_t taps = 30;
+    const auto a = weights(0.5, taps - 1);
+    double roundings = 1.0 + (taps - 1);
+    for (std::size_t j = 1; j < taps; ++j) {
+        roundings += std::fabs(a[j]) * (2.0 + 1.0 + static_cast<double>(taps - j));
+    }
+    expect_first_order(bound_of<Sum<Ring, Plain, F32>>({0.5, taps}, 0.75), 0.75 * u * roundings);
+    // Sums in double: their roundings are nothing beside the samples', the coefficients' and the output's.
+    double data = 2.0;
+    for (std::size_t j = 1; j < taps; ++j) {
+        data += std::fabs(a[j]) * 3.0;
+    }
+    expect_first_order(bound_of<Sum<Ring, Plain, F32A64>>({0.5, taps}, 0.75), 0.75 * u * data);
+}
+
+// Exact sums: half a unit of each coefficient and sample, and of the output.
+TEST(BoundFormula, OfAFixedWindow) {
+    constexpr std::size_t taps = 30;
+    const Design design{0.5, taps};
+    bench::HostLine<Sum<Ring, Plain, Q31>> line(design);
+    double absolute = 0.0;
+    for (const double weight : weights(0.5, taps - 1)) {
+        absolute += std::fabs(weight);
+    }
+    const double coefficient = std::ldexp(0.5, line.state().scale.table_exponent - 31);
+    const double expected =
+        0.75 * (taps - 1) * coefficient + absolute * 0x1p-32 + std::ldexp(1.0, line.state().scale.output_exponent - 32);
+    EXPECT_NEAR((bound_of<Sum<Ring, Plain, Q31>>(design, 0.75)) / expected, 1.0, 1e-6);
+}
+
+const std::vector<Mode> modes = {{0.001, -3e-5}, {0.02, -2e-4}, {0.25, -4e-3}};
+
+// modes_bound.hpp: an average errs by 6 u + u/d, or compensated by 14 u; its term passes coefficient, product and the
+// additions behind it as a tap does, the slowest last.
+TEST(BoundFormula, OfModes) {
+    const Design design{0.5, 16, modes};
+    constexpr std::size_t near_taps = 10;
+    constexpr std::size_t terms = 13;
+    const auto a = weights(0.5, near_taps - 1);
+    const auto expected = [&](bool compensated) {
+        double sum = 1.0 + (terms - 1);
+        for (std::size_t j = 1; j < near_taps; ++j) {
+            sum += std::fabs(a[j]) * (2.0 + 1.0 + static_cast<double>(terms - j));
+        }
+        for (std::size_t m = 0; m < 3; ++m) {
+            const std::size_t place = terms - 1 - m;
+            const double average = compensated ? 14.0 : 6.0 + 1.0 / modes[m].decay;
+            sum += std::fabs(modes[m].weight / modes[m].decay) *
+                   (2.0 + 1.0 + static_cast<double>(terms - place) + average);
+        }
+        return 0.75 * u * sum;
+    };
+    EXPECT_NEAR((bound_of<Sum<Modes, Plain, F32>>(design, 0.75)) / expected(false), 1.0, 1e-4);  // of 1000 u squared
+    EXPECT_NEAR((bound_of<Sum<Modes, Compensated, F32>>(design, 0.75)) / expected(true), 1.0, 1e-3);
+    // Fixed point: d to 2^-30 of itself, twice; half a unit of the state for each step that it lives; half a unit of
+    // each coefficient, sample and output.
+    bench::HostLine<Sum<Modes, Plain, Q31>> line(design);
+    const double coefficient = std::ldexp(0.5, line.state().scale.table_exponent - 31);
+    double absolute = 1.0;
+    double averages = 0.0;
+    for (std::size_t j = 1; j < near_taps; ++j) {
+        absolute += std::fabs(a[j]);
+    }
+    for (const Mode& mode : modes) {
+        const double gain = std::fabs(mode.weight / mode.decay);
+        absolute += gain;
+        averages += (gain + coefficient) * (2.0 * 0x1p-30 + 0x1p-32 / mode.decay / 0.75);
+    }
+    const double fixed = 0.75 * (averages + 12.0 * coefficient) + absolute * 0x1p-32 +
+                         std::ldexp(1.0, line.state().scale.output_exponent - 32);
+    EXPECT_NEAR((bound_of<Sum<Modes, Plain, Q31>>(design, 0.75)) / fixed, 1.0, 1e-9);
+}
+
+// nested_bound.hpp: a block of level l is a tap of the sum of its weights whose sample passed l additions.
+TEST(BoundFormula, OfBlocks) {
+    constexpr std::size_t near_taps = 5;
+    constexpr std::size_t count = 6;
+    constexpr std::size_t per_level = 2;
+    constexpr std::size_t terms = near_taps + count;
+    const Design design{0.5, terms, {}, {}, {count, per_level}};
+    const auto a = weights(0.5, 100);
+    double sum = 1.0 + (terms - 1);
+    double absolute = 1.0;
+    double means = 0.0;
+
+    bench::HostLine<Sum<Nested, Plain, Q31>> line(design);
+    const double coefficient = std::ldexp(0.5, line.state().scale.table_exponent - 31);
+    for (std::size_t j = 1; j < near_taps; ++j) {
+        sum += std::fabs(a[j]) * (2.0 + 1.0 + static_cast<double>(terms - j));
+        absolute += std::fabs(a[j]);
+    }
+    std::size_t first = near_taps;
+    for (std::size_t b = 0; b < count; ++b) {
+        const std::size_t level = b / per_level + 1;  // of 2, 2, 4, 4, 8, 8 samples
+        double weight = 0.0;
+        for (std::size_t j = first; j < first + (std::size_t{1} << level); ++j) {
+            weight += a[j];
+        }
+        first += std::size_t{1} << level;
+        sum +=
+            std::fabs(weight) * (2.0 + 1.0 + static_cast<double>(terms - near_taps - b) + static_cast<double>(level));
+        absolute += std::fabs(weight);
+        means += (std::fabs(weight) + coefficient) * static_cast<double>(level) * 0x1p-32;
+    }
+    expect_first_order(bound_of<Sum<Nested, Plain, F32>>(design, 0.75), 0.75 * u * sum);
+    const double fixed = 0.75 * (terms - 1) * coefficient + means + absolute * 0x1p-32 +
+                         std::ldexp(1.0, line.state().scale.output_exponent - 32);
+    EXPECT_NEAR((bound_of<Sum<Nested, Plain, Q31>>(design, 0.75)) / fixed, 1.0, 1e-6);
+}
+
+// delta_bound.hpp: the inner sum over increments up to 2 P, each of which lost 4 u P. In fixed point all at half scale.
+TEST(BoundFormula, OfIncrements) {
+    constexpr std::size_t taps = 20;
+    const Design design{0.75, taps};
+    const Design inner{-0.25, taps};
+    double absolute = 0.0;
+    for (const double weight : weights(-0.25, taps - 1)) {
+        absolute += std::fabs(weight);
+    }
+    expect_first_order(bound_of<Sum<MirrorDelta, Plain, F32>>(design, 0.75),
+                       bound_of<Sum<Mirror, Plain, F32>>(inner, 1.5) + 4.0 * u * 0.75 * absolute);
+    const double unit = 0x1p-31;
+    EXPECT_NEAR((bound_of<Sum<MirrorDelta, Plain, Q31>>(design, 0.75)) /
+                    (2.0 * (bound_of<Sum<Mirror, Plain, Q31>>(inner, 0.75 + unit) + unit * absolute)),
+                1.0, 1e-9);
+    // In double below order 0.5 the order itself is rounded.
+    constexpr double d = 0x1p-53;
+    double of_low = 0.0;
+    for (const double weight : weights(-0.75, taps - 1)) {
+        of_low += std::fabs(weight);
+    }
+    const double low = bound_of<Sum<MirrorDelta, Oldest, F64>>({0.25, taps}, 0.75);
+    EXPECT_NEAR((low - bound_of<Sum<Mirror, Oldest, F64>>({-0.75, taps}, 1.5)) /
+                    (4.0 * d * 0.75 * of_low + d * (1.0 + std::log(20.0)) * of_low * 1.5),
+                1.0, 1e-3);
+}
+
+// integral_bound.hpp: the inner sum and its last rounding, and of w_0 r, which reaches N P, five roundings and what the
+// loss itself loses.
+TEST(BoundFormula, OfARunningSum) {
+    const std::vector<Mode> with_sum = {{0.0, 0.03}, {0.02, 2e-4}, {0.25, 4e-3}};
+    const Design design{-0.5, 12, with_sum};
+    const Design inner{-0.5, 10, std::span(with_sum).subspan(1)};
+    double absolute = 0.0;
+    for (const double weight : weights(-0.5, 5)) {
+        absolute += std::fabs(weight);
+    }
+    for (std::size_t m = 1; m < 3; ++m) {
+        absolute += std::fabs(with_sum[m].weight / with_sum[m].decay);
+    }
+    const double n = 3000.0;
+    expect_first_order(bound_of<Sum<Integral, Plain, F32>>(design, 0.75, 3000),
+                       bound_of<Sum<Modes, Plain, F32>>(inner, 0.75) + u * 0.75 * absolute +
+                           0.03 * n * 0.75 * (5.0 * u + n * u * n * u));
+}
+
+// tail_bound.hpp, of order 0.5 and so few samples that the walk is short enough to add up each step's roundings apart:
+// of every later step's error the share |1 - v/i| of the steps between.
+TEST(BoundFormula, OfAGuessedTail) {
+    constexpr std::size_t taps = 10;
+    constexpr std::size_t samples = 14;
+    const auto a = weights(0.5, samples);
+    double in_window = 0.0;
+    for (std::size_t j = 0; j < taps; ++j) {
+        in_window += a[j];
+    }
+    std::vector<double> tails = {0.0};
+    for (std::size_t k = taps; k < samples; ++k) {
+        tails.push_back(tails.back() + a[k]);
+    }
+    const auto made_at = [&](std::size_t k) {  // by the step to a_k
+        const double before = tails[k - taps];
+        return u * (0.5 / static_cast<double>(k) * (4.0 * std::fabs(in_window) + std::fabs(before)) +
+                    6.0 * std::fabs(a[k]));
+    };
+    double held = 0.0;
+    std::vector<double> of_tail;
+    for (std::size_t last = taps; last < samples; ++last) {
+        double carried = 0.0;
+        for (std::size_t k = taps; k <= last; ++k) {
+            double share = 1.0;
+            for (std::size_t i = k + 1; i <= last; ++i) {
+                share *= 1.0 - 0.5 / static_cast<double>(i);
+            }
+            carried += share * made_at(k);
+        }
+        of_tail.push_back(carried);
+        held = std::max(held, carried + 4.0 * u * std::fabs(tails[last - taps + 1]));
+    }
+    EXPECT_NEAR((tail_error<Sum<MirrorHold, Plain, F32>>({0.5, taps}, samples)) / (1.001 * held), 1.0, 1e-5);
+    EXPECT_EQ((tail_error<Sum<MirrorHold, Plain, F32>>({0.5, taps}, taps)), 0.0);
+    // The line: its mean weight H over n steps errs by the mean of what went into it, with four roundings of T - H.
+    double mean = 0.0;
+    double of_mean = 0.0;
+    double line = 0.0;
+    for (std::size_t n = 1; n <= samples - taps; ++n) {
+        const double tail = tails[n - 1];
+        const double before = n > 1 ? of_tail[n - 2] : 0.0;
+        const double entering = before + u * (std::fabs(tail) + std::fabs(mean) + 4.0 * std::fabs(tail - mean));
+        of_mean = of_mean * (1.0 - 1.0 / static_cast<double>(n)) + entering / static_cast<double>(n);
+        mean += (tail - mean) / static_cast<double>(n);
+        const double now = tails[n];
+        line = std::max(line, 2.0 * of_mean + of_tail[n - 1] + 5.0 * u * std::fabs(mean) +
+                                  u * (std::fabs(now) + std::fabs(mean)) + 4.0 * u * std::fabs(now - mean));
+    }
+    EXPECT_NEAR((tail_error<Sum<MirrorLinear, Plain, F32>>({0.5, taps}, samples)) / (1.001 * line), 1.0, 1e-5);
+    // Around them a window whose terms pass one or two additions more.
+    const auto window = [&](double further) {
+        double sum = 1.0 + (taps - 1) + further;
+        for (std::size_t j = 1; j < taps; ++j) {
+            sum += std::fabs(a[j]) * (2.0 + 1.0 + static_cast<double>(taps - j) + further);
+        }
+        return 0.75 * u * sum;
+    };
+    expect_first_order(bound_of<Sum<MirrorHold, Plain, F32>>({0.5, taps}, 0.75, samples),
+                       window(1.0) + 0.75 * 1.001 * held);
+    expect_first_order(bound_of<Sum<MirrorLinear, Plain, F32>>({0.5, taps}, 0.75, samples),
+                       window(2.0) + 0.75 * 1.001 * line);
+}
+
+// The sum of the magnitudes, by its closed form where all behind a_0 have one sign: 1 + (1 - sum of all) for 0 < v < 1.
+TEST(BoundFormula, AbsoluteSumsAreThoseOfTheWeights) {
+    for (const double order : {0.5, 0.9, 1.5, -0.5, -1.5, 2.0, 0.0}) {
+        double sum = 0.0;
+        for (const double weight : weights(order, 49)) {
+            sum += std::fabs(weight);
+        }
+        EXPECT_NEAR(absolute_sum(order, 50), sum, 1e-12 * sum) << order;
+    }
+}
+
+}  // namespace
