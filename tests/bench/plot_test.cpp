@@ -15,6 +15,7 @@
 
 #include "bench/equal_cost.hpp"
 #include "bench/gnuplot.hpp"
+#include "bench/report/curves.hpp"
 #include "qemu/failure.hpp"
 
 namespace {
@@ -217,6 +218,79 @@ TEST_F(Drawing, OfEqualCostHasAPanelForEachOrderAndSignal) {
     EXPECT_GT(text.find("set xlabel \"multiplications a sample\""), text.find("order 0.5: noise"));
     EXPECT_THAT(text, HasSubstr("set yrange " + bench::log_range(1e-10, 0.25)));
     EXPECT_EQ(count_of(text, "set yrange [1e-3:1]"), 2U);
+}
+
+// A panel for each order and cost: every ranked point by its format, and those on the front as steps, the cheapest
+// first.
+TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
+    const auto costed = [](const char* kernel, double error, double ns, double bytes) {
+        Entry made = entry(kernel, error, error, 0.0);
+        made.host_ns = ns;
+        made.bytes = bytes;
+        return made;
+    };
+    Entry wrong = costed("a_f32", 1e-9, 1.0, 1.0);
+    wrong.fault = "wrong";
+    const std::vector<Group> all = {
+        {"0.5", "50", {costed("a_f32", 0.25, 20.0, 400.0), costed("b_q15", 0.5, 30.0, 100.0), wrong}},
+        {"0.5", "100", {costed("a_f32", 0.125, 40.0, 800.0)}},
+        {"0.9", "50", {costed("a_f32", 0.75, 20.0, 400.0), entry("c_f64", 0.5, 0.5, 0.0)}}};
+    const auto costs = bench::report::costs_of(all);
+    std::vector<std::string> names;
+    for (const auto& cost : costs) {
+        names.push_back(cost.name);
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"host_ns", "bytes"}));
+    const auto points = bench::report::curve_points(all, costs);
+    bench::report::plot_costs(stem(), points, costs);
+    const std::string text = sent();
+    EXPECT_THAT(text, HasSubstr("set multiplot layout 2,2 "));
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n2.000000e+01 2.500000e-01\n4.000000e+01 1.250000e-01\nEOD\n"
+                                "$d1 << EOD\n3.000000e+01 5.000000e-01\nEOD\n"
+                                "$front << EOD\n2.000000e+01 2.500000e-01\n4.000000e+01 1.250000e-01\nEOD\n"));
+    EXPECT_THAT(
+        text,
+        HasSubstr(
+            "$front << EOD\n1.000000e+02 5.000000e-01\n4.000000e+02 2.500000e-01\n8.000000e+02 1.250000e-01\nEOD\n"));
+    EXPECT_EQ(count_of(text, "$front << EOD"), 4U);
+    EXPECT_EQ(count_of(text, "1.000000e-09"), 0U);  // what is wrong is not shown, nor what has no cost
+    EXPECT_EQ(count_of(text, "title \"f64\""), 0U);
+    EXPECT_EQ(count_of(text, "title \"f32\""), 4U);
+    EXPECT_EQ(count_of(text, "title \"q15\""), 2U);
+    EXPECT_EQ(count_of(text, "set key at"), 1U);
+    EXPECT_LT(text.find("set key at"), text.find("unset key"));
+    EXPECT_EQ(count_of(text, "set title \"order 0.5\""), 2U);
+    EXPECT_EQ(count_of(text, "set title \"order 0.9\""), 2U);
+    EXPECT_THAT(
+        text, HasSubstr("set xrange " + bench::log_range(20.0, 40.0) + "\nset yrange " + bench::log_range(0.125, 0.5)));
+    for (const auto& cost : costs) {
+        EXPECT_EQ(count_of(text, "set xlabel \"" + bench::gnuplot_text(cost.title) + "\""), 2U);
+    }
+}
+
+// The table of the same points: nothing where nothing is known, the model's band beside its cycles.
+TEST_F(Drawing, IsWrittenAsATableToo) {
+    Entry modelled = entry("a_f32", 0.25, 0.125, 0.0625);
+    modelled.host_ns = 20.0;
+    modelled.bytes = 400.0;
+    modelled.effective_taps = 49.0;
+    modelled.model_cycles["m7-ideal"] = {30.0, 28.0, 33.0};
+    modelled.target_instructions = 60.0;
+    Entry wrong = entry("b,q15", 0.5, {}, 0.5);
+    wrong.fault = "wrong";
+    const std::vector<Group> all = {{"0.5", "50", {modelled, wrong}}, {"0.9", "full", {entry("c_f64", {}, {}, 0.0)}}};
+    const auto costs = bench::report::costs_of(all);
+    bench::report::write_curves(folder_ / "curves.csv", bench::report::curve_points(all, costs), costs,
+                                {{"0.5", {{"50", 0.375}}}});
+    std::ifstream in(folder_ / "curves.csv");
+    EXPECT_EQ(
+        (std::string{std::istreambuf_iterator<char>(in), {}}),
+        "order,kernel,taps,error_max,rounding_error_max,truncation_error_max,truncation_bound,effective_taps,host_ns,"
+        "instructions,model_cycles:m7-ideal,model_cycles_low:m7-ideal,model_cycles_high:m7-ideal,bytes,front:host_ns,"
+        "front:instructions,front:model_cycles:m7-ideal,front:bytes,fault\n"
+        "0.5,a_f32,50,0.25,0.125,0.0625,0.375,49,20,60,30,28,33,400,1,1,1,1,\n"
+        "0.5,\"b,q15\",50,0.5,,0.5,0.375,,,,,,,,0,0,0,0,wrong\n"
+        "0.9,c_f64,full,,,0,,,,,,,,,0,0,0,0,\n");
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 std::string refusal(const std::string& text) {
     try {
@@ -72,7 +73,48 @@ TEST(ModelFile, RefusesWithItsPlace) {
     EXPECT_THAT(refusal(R"({"denominator":[]})"), HasSubstr("expected 1 to 64 terms, found 0"));
     EXPECT_THAT(refusal(R"({"kind":"fopdt","time_constant_s":-1})"), HasSubstr("time_constant_s: expected"));
     EXPECT_THAT(refusal(R"({"kind":"fopdt","denominator":[]})"), HasSubstr("of kind fopdt has no denominator"));
+    EXPECT_THAT(refusal(R"({"kind":"sopdt","numerator":[])" + end), HasSubstr("of kind sopdt has no numerator"));
+    EXPECT_THAT(refusal(R"({"kind":"niopdt","numerator":[])" + end), HasSubstr("of kind niopdt has no numerator"));
+    EXPECT_THAT(refusal(R"({"kind":"fotf","time_constant_s":1)" + end),
+                HasSubstr("of kind fotf has no time_constant_s"));
+    EXPECT_THAT(refusal(R"({"kind":"niopdt","time_constant_s":1)" + end),
+                HasSubstr("of kind niopdt has no time_constant_s"));
+    EXPECT_THAT(refusal(R"({"kind":"fopdt","time_constant_s":0})"), HasSubstr("time_constant_s: expected"));
     EXPECT_THAT(refusal(std::string(100, '[')), HasSubstr("nested"));
+    // Eight levels are read, of notes; nine are not.
+    EXPECT_NO_THROW((void)drive::parse_model(R"({"gain":1,"note":[[[[[[[1]]]]]]])" + end, "m.json"));
+    EXPECT_THAT(refusal(R"({"gain":1,"note":[[[[[[[[[1]]]]]]]]])" + end), HasSubstr("nested"));
+    // The line is that of the fault, and what stands there.
+    EXPECT_THAT(refusal("{\n\n\"gain\": 1 2}"), HasSubstr("m.json:3: expected JSON, found '"));
+}
+
+TEST(ModelFile, IsReadFieldByField) {
+    const auto model = drive::parse_model(
+        R"({"kind":"niopdt","gain":2,"delay_s":0.5,"sample_time_s":0.25,"author":"me","denominator":[{"coefficient":4,"order":1.5},{"coefficient":1,"order":0}]})",
+        "m");
+    EXPECT_EQ(model.kind, drive::Kind::niopdt);
+    EXPECT_EQ(model.gain, 2.0);
+    EXPECT_EQ(model.delay_s, 0.5);
+    EXPECT_EQ(model.sample_time_s, 0.25);
+    EXPECT_EQ(model.denominator, (std::vector<drive::Term>{{4.0, 1.5}, {1.0, 0.0}}));
+    EXPECT_EQ(model.numerator, (std::vector<drive::Term>{{1.0, 0.0}}));
+    const std::string text = drive::to_json(model);
+    for (const char* field : {"\"kind\": \"niopdt\"", "\"gain\": 2.0", "\"delay_s\": 0.5", "\"sample_time_s\": 0.25",
+                              "\"author\": \"me\"", "\"order\": 1.5", "\"coefficient\": 4.0"}) {
+        EXPECT_THAT(text, HasSubstr(field));
+    }
+    EXPECT_THAT(text, Not(HasSubstr("numerator")));
+    const std::string second = drive::to_json(drive::make_sopdt(3.0, 0.5, 0.25));
+    EXPECT_THAT(second, HasSubstr("\"time_constant_s\": 0.5"));
+    EXPECT_THAT(drive::to_json(drive::make_fopdt(3.0, 0.5, 0.25)), HasSubstr("\"time_constant_s\": 0.5"));
+    EXPECT_THAT(second, Not(HasSubstr("sample_time_s")));
+    const auto free = drive::parse_model(
+        R"({"kind":"fotf","numerator":[{"coefficient":3,"order":0.5}],"denominator":[{"coefficient":4,"order":1.5}]})",
+        "m");
+    EXPECT_EQ(free.gain, 1.0);
+    EXPECT_EQ(free.delay_s, 0.0);
+    EXPECT_FALSE(free.sample_time_s);
+    EXPECT_THAT(drive::to_json(free), HasSubstr("\"numerator\""));
 }
 
 }  // namespace

@@ -203,9 +203,65 @@ TEST(Realtime, RefusesWhatItCannotStep) {
     EXPECT_THROW((void)qemu::step_model_here({"ring_plain_f33", nullptr, ones, 100}), std::out_of_range);
 }
 
+// T y' + y = K u at a step of h is (T/h + 1) y_k = T/h y_(k-1) + K u: every number of a design by hand.
+TEST(Realtime, NumbersOfAFirstOrderAreThoseByHand) {
+    const drive::Model model = drive::make_fopdt(2.0, 0.5, 0.25);
+    for (const Writing writing : {Writing::merged, Writing::apart}) {
+        const drive::RealtimeModel made(model, writing, {20}, 0.01);
+        const glsum::ModelDesign& design = made.design();
+        EXPECT_FALSE(design.increments);
+        EXPECT_FALSE(design.half_input);
+        EXPECT_EQ(design.delay, 25U);
+        EXPECT_NEAR(design.input, 2.0 / 51.0, 1e-15);
+        EXPECT_EQ(design.constant, 0.0);
+        ASSERT_EQ(design.tables.size(), 1U);
+        EXPECT_NEAR(design.tables[0].factor, -50.0 / 51.0, 1e-15);
+        EXPECT_TRUE(design.tables[0].ratios.empty());
+        EXPECT_EQ(design.input_full_scale, 2.0);
+        EXPECT_EQ(design.output_full_scale,
+                  4.0);  // an input of 1 never makes more than 2, and a hundredth for rounding
+        EXPECT_EQ(design.stored_full_scale, 4.0);
+        EXPECT_EQ(made.loop_gain(), 0.0);
+        EXPECT_EQ(made.memory().text(), "2");  // the rest are zeros
+    }
+    const drive::RealtimeModel made(model, Writing::delta, {20}, 0.01);
+    const glsum::ModelDesign& design = made.design();
+    EXPECT_TRUE(design.increments);
+    EXPECT_NEAR(design.input, 2.0 / 51.0, 1e-15);
+    EXPECT_NEAR(design.constant, 1.0 / 51.0, 1e-15);
+    EXPECT_TRUE(design.tables.empty());
+    EXPECT_EQ(design.output_full_scale, 4.0);
+    EXPECT_EQ(design.stored_full_scale, 0.125);  // up and down again by 2/51, and a hundredth
+    // A dead time between two steps is rounded up, but not for what is left of a whole one.
+    drive::Model later = model;
+    for (const auto& [delay_s, steps] : {std::pair(0.2501, 26U), std::pair(0.25 + 1e-12, 25U), std::pair(0.0, 0U)}) {
+        later.delay_s = delay_s;
+        EXPECT_EQ(drive::RealtimeModel(later, Writing::delta, {20}, 0.01).design().delay, steps) << delay_s;
+    }
+    later.denominator[1].coefficient = 0.0;  // an integrator has no constant
+    EXPECT_EQ(drive::RealtimeModel(later, Writing::delta, {20}, 0.01).design().constant, 0.0);
+    EXPECT_TRUE(drive::RealtimeModel(model, Writing::bdf2, {20}, 0.01).design().half_input);
+    EXPECT_EQ(drive::realtime_name("ring_oldest_f32", Writing::merged), "ring_oldest_f32");
+    EXPECT_EQ(drive::realtime_name("ring_oldest_f32", Writing::delta), "ringdelta_oldest_f32");
+    EXPECT_EQ(drive::realtime_name("ring_oldest_f32", Writing::apart), "ringapart_oldest_f32");
+    EXPECT_EQ(drive::realtime_name("ring_oldest_f32", Writing::bdf2), "ringbdf2_oldest_f32");
+    // A step takes a multiplication for the input, one for the constant, and for each sum those of its own and one
+    // more.
+    using K = glsum::Stepper<glsum::Sum<glsum::Ring, glsum::Plain, glsum::F32>>;
+    EXPECT_EQ(K::multiplications(design), 2U);
+    EXPECT_EQ(K::multiplications(drive::RealtimeModel(model, Writing::merged, {20}, 0.01).design()), 2U);
+    const drive::RealtimeModel two(plants::niopdt(), Writing::apart, {20}, h);
+    EXPECT_EQ(K::multiplications(two.design()), 1U + 2U * 19U);
+    EXPECT_EQ(K::line_count(25), 26U);
+}
+
 TEST(Realtime, TheLargestLengthLiesOnTheLineThroughTwo) {
     EXPECT_EQ(drive::largest_taps(100, 650, 600, 3650, 216000), 35991U);
     EXPECT_EQ(drive::largest_taps(100, 650, 600, 3650, 10), 0U);
+    EXPECT_EQ(drive::largest_taps(100, 650, 600, 3650, 56), 1U);  // 6 a tap, 50 beside them
+    EXPECT_EQ(drive::largest_taps(100, 650, 600, 3650, 55), 0U);
+    EXPECT_EQ(drive::largest_taps(100, 650, 600, 650, 1000), 0U);
+    EXPECT_EQ(drive::largest_taps(100, 650, 600, 600, 1000), 0U);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #   --bugs FILE  those of another list; each in the libraries and in the tests, which see headers
 #   --rotate N   only N of them, the next N at each commit: in time, all
 #   --only GLOB  only those whose name matches one of the globs
+#   --alone      with --bugs, for a first look: what its tests miss of a file that is compiled alone is missed
 # The copy stays in build/planted; a second run starts faster.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -11,6 +12,7 @@ source=$(cd "$here/../.." && pwd)
 rotate=0
 only=
 list=no
+alone_only=no
 file=$here/bugs.txt
 mark=
 while [ $# -gt 0 ]; do
@@ -18,8 +20,9 @@ while [ $# -gt 0 ]; do
         --rotate) rotate=$2; shift 2 ;;
         --only) only="$only $2"; shift 2 ;;
         --list) list=yes; shift ;;
+        --alone) alone_only=yes; shift ;;
         --bugs) file=$2; mark='!'; shift 2 ;;
-        *) echo "plant.sh: expected --bugs FILE, --rotate N, --only GLOB or --list, found $1" >&2; exit 2 ;;
+        *) echo "plant.sh: expected --bugs FILE, --rotate N, --only GLOB, --alone or --list, found $1" >&2; exit 2 ;;
     esac
 done
 
@@ -198,10 +201,12 @@ caught_alone() {  # FILE TEST...
         program=
         [ "$status" -eq 0 ] || return 0
     done
+    judged=yes
     return 1
 }
 
 spoilt=no
+judged=no
 caught=0
 missed=''
 number=0
@@ -217,8 +222,11 @@ while IFS='|' read -r name file plant <&3; do
     case $how$name in
         stale*) ;;
         missed!*)
+            judged=no
             if caught_alone "$file" $tests; then
                 how=
+            elif [ "$alone_only$judged" = yesyes ]; then
+                how=missed
             else
                 spoilt=yes
                 compile $tests || how='caught (does not compile)'
@@ -231,10 +239,13 @@ while IFS='|' read -r name file plant <&3; do
             [ "$how" != missed ] || compile $tests || how='caught (does not link)'
             ;;
     esac
-    if [ "$how" = missed ]; then
-        status=0
-        run_tests $tests || status=$?
-    fi
+    case $how$judged$alone_only in
+        missedyesyes) status=0 ;;
+        missed*)
+            status=0
+            run_tests $tests || status=$?
+            ;;
+    esac
     if [ "$how" = missed ] || [ -z "$how" ]; then
         [ "$status" -eq 0 ] || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$source/build/planted/tests.log" | sed '1q;d')"
         [ "$how" != "caught by " ] || how='caught by a crash'
