@@ -104,7 +104,6 @@ void Surroundings::access(std::span<const qemu::Access> accesses, Event& event) 
 
 void Surroundings::follow(const Decoded& d, std::uint32_t address, std::uint32_t next, Event& event) {
     event.taken = d.branch != Branch::none && next != address + d.bytes;
-    event.prediction = Prediction::right;
     if (d.branch != Branch::none) {
         if (event.taken) {
             fetched_ = 0xFFFFFFFFU;

@@ -161,7 +161,7 @@ TEST(BoundFormula, OfIncrements) {
                        bound_of<Sum<Mirror, Plain, F32>>(inner, 1.5) + 4.0 * u * 0.75 * absolute);
     const double unit = 0x1p-31;
     EXPECT_NEAR((bound_of<Sum<MirrorDelta, Plain, Q31>>(design, 0.75)) /
-                    (2.0 * (bound_of<Sum<Mirror, Plain, Q31>>(inner, 0.75 + unit) + unit * absolute)),
+                    (2.0 * (bound_of<Sum<Ring, Plain, Q31>>(inner, 0.75 + unit) + unit * absolute)),
                 1.0, 1e-9);
     // In double below order 0.5 the order itself is rounded.
     constexpr double d = 0x1p-53;
@@ -170,7 +170,7 @@ TEST(BoundFormula, OfIncrements) {
         of_low += std::fabs(weight);
     }
     const double low = bound_of<Sum<MirrorDelta, Oldest, F64>>({0.25, taps}, 0.75);
-    EXPECT_NEAR((low - bound_of<Sum<Mirror, Oldest, F64>>({-0.75, taps}, 1.5)) /
+    EXPECT_NEAR((low - bound_of<Sum<Ring, Oldest, F64>>({-0.75, taps}, 1.5)) /
                     (4.0 * d * 0.75 * of_low + d * (1.0 + std::log(20.0)) * of_low * 1.5),
                 1.0, 1e-3);
 }
@@ -267,6 +267,66 @@ TEST(BoundFormula, AbsoluteSumsAreThoseOfTheWeights) {
         }
         EXPECT_NEAR(absolute_sum(order, 50), sum, 1e-12 * sum) << order;
     }
+}
+
+// How many rounded operations the term of a_j passes, by the order in which each technique adds L terms up: of a
+// product of its own one, none where it is fused; then each addition behind it.
+TEST(Roundings, AreThoseOfTheOrderOfTheSum) {
+    constexpr std::size_t taps = 23;
+    for (std::size_t j = 0; j < taps; ++j) {
+        const std::size_t behind = j == 0 ? taps - 1 : taps - j;  // newest first: x_k begins, a_1 is added first
+        const std::size_t product = j == 0 ? 0 : 1;
+        EXPECT_EQ(Plain::sum_roundings<F32>(j, taps), behind + product) << j;
+        EXPECT_EQ(PlainFma::sum_roundings<F32>(j, taps), behind) << j;
+        EXPECT_EQ(Fir::sum_roundings<F32>(j, taps), behind + product) << j;
+        EXPECT_EQ(FirFma::sum_roundings<F32>(j, taps), behind) << j;
+        // Oldest first: those after it, of which x_k is the last; the first addition, to nothing, counts as one.
+        EXPECT_EQ(Oldest::sum_roundings<F32>(j, taps), j == 0 ? 1 : j + 2) << j;
+        // Four chains in turn, then two additions of the four and what is left over, then x_k.
+        EXPECT_EQ(Multi::sum_roundings<F32>(j, taps), j == 0 ? 1 : 1 + 22 / 4 + 2 + 3) << j;
+        // Nested: a product and an addition at each step, from its own to the newest.
+        EXPECT_EQ(Horner::sum_roundings<F32>(j, taps), 2 * j + 1) << j;
+        EXPECT_EQ(HornerFma::sum_roundings<F32>(j, taps), j + 1) << j;
+        EXPECT_EQ(HornerSplit::sum_roundings<F32>(j, taps), 2 * (j / 4 + 1) + 4) << j;
+        EXPECT_EQ(Compensated::sum_roundings<F32>(j, taps), 3U) << j;  // whatever the length, up to thousands
+        // Coefficients that are its factors: one, or of the nested forms each on its way.
+        EXPECT_EQ(Plain::coefficient_roundings(j), product);
+        EXPECT_EQ(Horner::coefficient_roundings(j), j);
+        EXPECT_EQ(HornerSplit::coefficient_roundings(j), j == 0 ? 0 : (j + 3) / 4);
+    }
+    EXPECT_EQ(Compensated::sum_roundings<F32>(1, 4096), 5U);  // second order: L^2 u twice
+    // Four accumulators of as many lanes as fit 64 bytes, then a tree of them all, and x_k.
+    EXPECT_EQ(Simd::sum_roundings<F32>(0, 601), 1U);
+    std::size_t tree = 0;
+    for (std::size_t lanes = 1; lanes < Simd::accumulators * Simd::block<F32>; lanes *= 2) {
+        ++tree;
+    }
+    EXPECT_EQ(Simd::sum_roundings<F32>(7, 601), 1U + 600U / (Simd::accumulators * Simd::block<F32>)+tree + 1U);
+}
+
+// Nested in fixed point: each factor errs by half a unit of the table, the product of the first j stands for a_j; each
+// step loses half a unit of 2^-31, which a_j carries to the output.
+TEST(BoundFormula, OfANestedWindowInFixedPoint) {
+    constexpr std::size_t taps = 12;
+    const Design design{0.5, taps};
+    bench::HostLine<Sum<Ring, Horner, Q31>> line(design);
+    const auto a = weights(0.5, taps - 1);
+    const double unit = std::ldexp(0.5, line.state().scale.table_exponent - 31);
+    double of_weights = 0.0;
+    double of_steps = 0.0;
+    double absolute = 0.0;
+    for (std::size_t j = 0; j < taps; ++j) {
+        absolute += std::fabs(a[j]);
+        of_steps += j + 1 < taps ? std::fabs(a[j]) : 0.0;
+        // d(c_1 c_2 ... c_j) to first order: each factor's half unit times the others.
+        for (std::size_t i = 1; i <= j; ++i) {
+            const double factor = a[i] / a[i - 1];
+            of_weights += unit * std::fabs(a[j] / factor);
+        }
+    }
+    const double expected = 0.75 * of_weights + of_steps * 0x1p-32 + absolute * 0x1p-32 +
+                            std::ldexp(1.0, line.state().scale.output_exponent - 32);
+    EXPECT_NEAR((bound_of<Sum<Ring, Horner, Q31>>(design, 0.75)) / expected, 1.0, 1e-6);
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ compile_alone() {  # FILE
 }
 link_alone() {  # TEST
     ninja -C "$build" -t commands "tests/$1" | tail -n 1 |
-        perl -pe 's/^: && //; s/ && .*//s; s{ -o \S+ }{ -Wl,--allow-multiple-definition -o '"$alone $alone.o"' } or die' >"$alone.sh" &&
+        sed "s/^: && //; s/ && .*//; s| -o [^ ]* | -Wl,--allow-multiple-definition -o $alone $alone.o |" >"$alone.sh" &&
         (cd "$build" && sh "$alone.sh") >"$alone.log" 2>&1
 }
 caught_alone() {  # FILE TEST...

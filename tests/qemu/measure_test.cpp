@@ -38,7 +38,8 @@ std::string refusal(glsum::Exit status, Ask ask) {
     return "";
 }
 
-// Build attributes as an assembler writes them: a name of the processor (tag 5), its architecture (6), profile (7).
+// Build attributes as an assembler writes them: names of the processor (tags 4 and 5), its architecture (6), profile
+// (7).
 std::vector<std::uint8_t> attributes(std::uint8_t architecture, char profile) {
     std::vector<std::uint8_t> bytes{'A', 40, 0, 0, 0, 'a', 'e', 'a', 'b', 'i', 0, 1, 30, 0, 0, 0};
     for (const char c : {'\5', 'M', '7', '\0', '\x20', '\1', 'x', '\0', '\x22', '\1', '\x8a', '\1', '\1'}) {
@@ -47,6 +48,10 @@ std::vector<std::uint8_t> attributes(std::uint8_t architecture, char profile) {
     bytes.insert(bytes.end(), {6, architecture});
     if (profile != 0) {
         bytes.insert(bytes.end(), {7, static_cast<std::uint8_t>(profile)});
+    }
+    // Texts, of tags 4, 5, 67, and 32 behind a number, that would be another architecture if they were none.
+    for (const int tag : {4, 5, 67, 32}) {
+        bytes.insert(bytes.end(), {static_cast<std::uint8_t>(tag), 1, 6, 9, 0});
     }
     return bytes;
 }

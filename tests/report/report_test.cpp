@@ -309,7 +309,15 @@ TEST(Differences, TheLargestRatioComesFirst) {
     b[1]["error_max"] = 0.25e-3;
     b[1]["real_time"] = 7.0;
     b[2]["name"] = "new";
-    const auto found = differences(a, b);
+    a[0]["stack_bytes"] = 0;
+    b[0]["stack_bytes"] = 8;  // of nothing there is no ratio
+    auto found = differences(a, b);
+    ASSERT_EQ(found.size(), 5U);
+    EXPECT_NE(to_csv(found).find("gl/a_b_c/order:0.5/taps:50/m7:count,stack_bytes,0,8,,\n"), std::string::npos);
+    EXPECT_NE(to_csv(found).find("gone,,,,,only in A\n"), std::string::npos);
+    a[0].erase("stack_bytes");
+    b[0].erase("stack_bytes");
+    found = differences(a, b);
     ASSERT_EQ(found.size(), 4U);
     EXPECT_EQ(found[0].note, "only in A");
     EXPECT_EQ(found[1].note, "only in B");
