@@ -202,15 +202,40 @@ std::vector<Share> by_level(const std::vector<Record>& records, const std::vecto
     return shares;
 }
 
+// To what counts, where that is one stretch; elsewhere the rest is 0.
+void cut(Record& record, std::vector<double>& residuals, const std::vector<char>& counts) {
+    const auto from = std::find_if(counts.begin(), counts.end(), [](char count) { return count != 0; });
+    const auto to = std::find(from, counts.end(), 0);
+    const bool one_stretch = to - from >= 32 && std::all_of(to, counts.end(), [](char count) { return count == 0; });
+    if (!one_stretch) {
+        for (std::size_t i = 0; i < counts.size(); ++i) {
+            residuals[i] = counts[i] != 0 ? residuals[i] : 0.0;
+        }
+        return;
+    }
+    for (std::vector<double>* values : {&record.time_s, &record.input, &record.output, &residuals}) {
+        *values = {values->begin() + (from - counts.begin()), values->begin() + (to - counts.begin())};
+    }
+}
+
+// Without its folders.
+std::string file_name(const std::string& name) { return name.substr(name.find_last_of('/') + 1); }
+
 }  // namespace
 
-Where locate(const std::vector<Record>& records, const std::vector<std::vector<double>>& residuals) {
+Where locate(std::vector<Record> records, std::vector<std::vector<double>> residuals,
+             const std::vector<std::vector<char>>& counts) {
+    for (std::size_t r = 0; r < counts.size(); ++r) {
+        cut(records[r], residuals[r], counts[r]);
+    }
     const std::vector<std::vector<double>> squares = squares_of(residuals);
     Where where;
     where.frequency = bands_of(records);
     for (std::size_t r = 0; r < records.size(); ++r) {
         for (Share& share : segments_of(records[r], squares[r])) {
-            share.what = records.size() > 1 ? records[r].name + ": " + share.what : share.what;
+            if (records.size() > 1) {
+                share.what = file_name(records[r].name) + (share.what.empty() ? "" : ": ") + share.what;
+            }
             where.time.push_back(share);
         }
         add_bands(where.frequency, records[r], residuals[r]);

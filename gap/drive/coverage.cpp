@@ -37,46 +37,73 @@ Bounds bounds_of(const Records& records, Signal signal) {
 Bounds both(const Bounds& a, const Bounds& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 
 struct Way {
-    double up = 0.0;
-    double down = 0.0;
+    double total = 0.0;
+    double longest = 0.0;  // without a turn
+    void add(double by) {
+        total += by;
+        longest = std::max(longest, by);
+    }
 };
 
+struct Ways {
+    Way up;
+    Way down;
+};
+
+// Medians of five: a reading that was lost for once is no motion.
+std::vector<double> without_spikes(const std::vector<double>& values) {
+    constexpr std::size_t around = 2;
+    std::vector<double> medians = values;
+    for (std::size_t i = around; i + around < values.size(); ++i) {
+        std::vector<double> near(values.begin() + static_cast<std::ptrdiff_t>(i - around),
+                                 values.begin() + static_cast<std::ptrdiff_t>(i + around + 1));
+        std::nth_element(near.begin(), near.begin() + around, near.end());
+        medians[i] = near[around];
+    }
+    return medians;
+}
+
 // How far the outputs go up and down, between turns of more than what noise makes.
-Way way_of(const Records& records, double least_turn) {
-    Way way;
+Ways ways_of(const Records& records, double least_turn) {
+    Ways ways;
     for (const Record& record : records) {
         double low = record.output.front();
         double high = low;
         int direction = 0;
-        for (const double value : record.output) {
+        for (const double value : without_spikes(record.output)) {
             low = direction > 0 ? low : std::min(low, value);
             high = direction < 0 ? high : std::max(high, value);
             if (direction >= 0 && high - value > least_turn) {
-                way.up += direction > 0 ? high - low : 0.0;
+                ways.up.add(high - low);
                 direction = -1;
                 low = value;
             } else if (direction <= 0 && value - low > least_turn) {
-                way.down += direction < 0 ? high - low : 0.0;
+                ways.down.add(high - low);
                 direction = 1;
                 high = value;
             }
         }
-        (direction > 0 ? way.up : way.down) += direction == 0 ? 0.0 : high - low;
+        if (direction != 0) {
+            (direction > 0 ? ways.up : ways.down).add(high - low);
+        }
     }
-    return way;
+    return ways;
 }
 
 void add_directions(std::vector<std::string>& all, const Records& train, const Records& validate, double span) {
     const double noise = std::max(audit(train).noise, audit(validate).noise);
     const double least_turn = std::max(0.03 * span, 6.0 * noise);
-    const Way known = way_of(train, least_turn);
-    const Way asked = way_of(validate, least_turn);
-    constexpr double there = 0.1;
-    constexpr double lacks = 0.05;
-    if (asked.up >= there * span && known.up < lacks * span) {
+    const Ways known = ways_of(train, least_turn);
+    const Ways asked = ways_of(validate, least_turn);
+    const auto lacks = [span](const Way& of_training, const Way& of_validation) {
+        constexpr double there = 0.1;
+        constexpr double part = 0.25;
+        return of_validation.longest >= there * span && of_training.total < part * of_validation.longest;
+    };
+    if (lacks(known.up, asked.up)) {
         all.emplace_back("rising output");
     }
-    if (asked.down >= there * span && known.down < lacks * span) {
+    if (lacks(known.down, asked.down)) {
         all.emplace_back("falling output");
     }
 }

@@ -18,12 +18,11 @@ namespace {
 
 Where where_of(const Study& validation, const Ranked& none, const std::vector<Record>& records) {
     std::vector<std::vector<double>> residuals = none.residuals;
-    for (std::size_t r = 0; r < residuals.size(); ++r) {
-        for (std::size_t i = 0; i < residuals[r].size(); ++i) {
-            residuals[r][i] = validation.counts[r][i] != 0 && std::isfinite(residuals[r][i]) ? residuals[r][i] : 0.0;
-        }
+    for (auto& record : residuals) {
+        std::replace_if(
+            record.begin(), record.end(), [](double value) { return !std::isfinite(value); }, 0.0);
     }
-    return locate(records, residuals);
+    return locate(records, std::move(residuals), validation.counts);
 }
 
 std::vector<std::string> extrapolated_by(const Question& question, const Study& study, const Study& validation) {

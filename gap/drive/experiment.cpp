@@ -23,7 +23,7 @@ struct Excitation {
 std::vector<Excitation> excitations(double time_constant_s, double record_s) {
     const double hold_s = 5.0 * time_constant_s;
     const double bit_s = 0.3 * time_constant_s;
-    return {
+    std::vector<Excitation> all = {
         {fmt::format("a staircase of 5 levels up and down, {:.3g} s each", hold_s), 10.0 * hold_s,
          [](double share, double) {
              return (std::min(std::floor(share * 10.0), 9.0 - std::floor(share * 10.0)) + 1.0) / 5.0;
@@ -36,7 +36,7 @@ std::vector<Excitation> excitations(double time_constant_s, double record_s) {
          }},
         {fmt::format("a sine swept from {:.3g} to {:.3g} Hz", 0.02 / time_constant_s, 1.0 / time_constant_s),
          60.0 * time_constant_s,
-         [time_constant_s](double share, double) {
+         [](double share, double) {
              const double octaves = std::log(50.0);
              const double turns = 0.02 * 60.0 / octaves * std::expm1(octaves * share);
              return 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * turns);
@@ -49,6 +49,12 @@ std::vector<Excitation> excitations(double time_constant_s, double record_s) {
         {fmt::format("three fifths, held for {:.3g} s", 3.0 * record_s), 3.0 * record_s,
          [](double, double) { return 0.6; }},
     };
+    // What is slower than the model's own time constant, a charge that is drawn or a motor that warms, needs as long.
+    if (0.1 * record_s > 3.0 * hold_s) {
+        all.push_back({fmt::format("a staircase of 5 levels up and down, {:.3g} s each", 0.1 * record_s), record_s,
+                       all.front().level});
+    }
+    return all;
 }
 
 // At rest before the record, nothing happening to it.
@@ -95,6 +101,57 @@ double lowest_input(const Study& study) {
         low = std::min(low, *std::min_element(course.record().input.begin(), course.record().input.end()));
     }
     return low;
+}
+
+// A record that could be taken.
+struct Trial {
+    std::string text;
+    Record record;
+    double released_at = 0.0;  ///< where nothing is put in: from here, in parts of the furthest that it has been
+};
+
+// Without an input it is let go, never from further out than it has been.
+std::vector<Trial> releases(const Study& study) {
+    const Scales& scales = study.scales;
+    std::vector<Trial> trials;
+    for (const auto& [text, part] :
+         {std::pair("from as far out as it has been", 1.0), std::pair("from half as far out", 0.5),
+          std::pair("from a fifth as far out", 0.2)}) {
+        const Excitation nothing{fmt::format("let go {}, for {:.3g} s", text, scales.length_s), scales.length_s,
+                                 [](double, double) { return 0.0; }};
+        trials.push_back({nothing.text, record_of(nothing, scales, 0.0), part});
+    }
+    return trials;
+}
+
+// Of 32 samples and more.
+std::vector<Trial> trials_of(const Study& study) {
+    const Scales& scales = study.scales;
+    std::vector<Trial> trials;
+    if (!(scales.input_max > 0.0)) {
+        trials = releases(study);
+    } else {
+        const double low = lowest_input(study);
+        for (const Excitation& excitation : excitations(scales.time_constant_s, scales.length_s)) {
+            trials.push_back({fmt::format("{} from {:.4g} to {:.4g}", excitation.text, low, scales.input_max),
+                              record_of(excitation, scales, low)});
+        }
+    }
+    std::erase_if(trials, [](const Trial& trial) { return trial.record.size() < 32; });
+    return trials;
+}
+
+// As it begins.
+Candidate begun(const Study& study, const Candidate& fitted, const Trial& trial) {
+    Candidate candidate = resting(study, fitted, trial.record);
+    for (FreeParameter& parameter : candidate.own[0]) {
+        if (trial.released_at > 0.0 && parameter.name == "initial_output") {
+            const double up = study.scales.output_high - parameter.value;
+            const double down = study.scales.output_low - parameter.value;
+            parameter.value += trial.released_at * (up > -down ? up : down);
+        }
+    }
+    return candidate;
 }
 
 // What records tell of the numbers that all share (base, then lasting effects), each in units of its scale and over the
@@ -171,145 +228,163 @@ std::vector<double> deviations_from(const Told& told, const Eigen::MatrixXd& inf
     return deviations;
 }
 
+// What an excitation would tell; nothing where the rig would go far beyond where it has been.
+std::optional<Told> told_after(const Study& study, const Candidate& named, const Whitener& whitener,
+                               const Trial& trial) {
+    const Record& record = trial.record;
+    Study then{study.base, study.scales, {}, all_count({record}), study.noise, study.least_deviation, 0};
+    if (study.horizon > 0) {
+        const double horizon_s = static_cast<double>(study.horizon) * study.scales.interval_s;
+        then.horizon =
+            std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(horizon_s / record.usual_interval_s)));
+    }
+    then.courses.emplace_back(record, 1);
+    const Candidate start = begun(then, named, trial);
+    const double beyond = 0.5 * study.scales.output_span;
+    for (const double z : simulate(scenario_of(then, start, 0), then.courses[0])) {
+        if (!(z > study.scales.output_low - beyond && z < study.scales.output_high + beyond)) {
+            return std::nullopt;
+        }
+    }
+    return told_by(then, start, whitener);
+}
+
+// By how much a number's interval shrinks.
+struct Narrower {
+    const FreeParameter* number;
+    double factor;
+    double before;  ///< standard deviations
+    double after;
+};
+
+std::string to_text(std::vector<Narrower> all) {
+    std::stable_sort(all.begin(), all.end(), [](const Narrower& a, const Narrower& b) { return a.factor > b.factor; });
+    constexpr double of_95_percent = 1.96;
+    constexpr double visible = 1.1;
+    std::vector<std::string> words;
+    for (const Narrower& one : all) {
+        words.push_back(one.factor < visible
+                            ? fmt::format("no narrower for {}", one.number->name)
+                            : fmt::format("{:.3g} times narrower for {} (within {:.2g} instead of {:.2g})", one.factor,
+                                          one.number->name, of_95_percent * one.after, of_95_percent * one.before));
+    }
+    return fmt::format("{}", fmt::join(words, ", "));
+}
+
 const char* const other_record = "a record at other levels and speeds, as a test of the size found here";
+const char* const same_record =
+    "the same record once more: what comes again at the same place is no event from outside";
 
 }  // namespace
 
 Proposal part(const Study& study, const std::vector<const Candidate*>& alternatives, double noise) {
     for (const Candidate* alternative : alternatives) {
         if (alternative->event_parameters() > 0) {
-            return {"the same record once more: what comes again at the same place is no event from outside", 0.0};
+            return {same_record, 0.0};
         }
     }
     constexpr std::size_t most_alternatives = 5;
     Proposal best{"", -1.0};
     std::string hardest;
-    const double low = lowest_input(study);
-    const double record_s = study.scales.length_s;
-    for (const Excitation& excitation : excitations(study.scales.time_constant_s, record_s)) {
-        Record record = record_of(excitation, study.scales, low);
-        if (record.size() < 32) {
-            continue;
-        }
-        Study trial{study.base, study.scales, {}, all_count({record}), study.noise, study.least_deviation, 0};
-        trial.courses.emplace_back(record, 1);
-        const Candidate truth = resting(trial, *alternatives.front(), record);
-        record.output = simulate(scenario_of(trial, truth, 0), trial.courses[0]);
+    for (const Trial& trial : trials_of(study)) {
+        Record record = trial.record;
+        Study then{study.base, study.scales, {}, all_count({record}), study.noise, study.least_deviation, 0};
+        then.courses.emplace_back(record, 1);
+        const Candidate truth = begun(then, *alternatives.front(), trial);
+        record.output = simulate(scenario_of(then, truth, 0), then.courses[0]);
         if (!std::all_of(record.output.begin(), record.output.end(), [](double z) { return std::isfinite(z); })) {
             continue;
         }
         double nearest = std::numeric_limits<double>::infinity();
         std::string which;
         for (std::size_t i = 1; i < std::min(alternatives.size(), most_alternatives); ++i) {
-            Candidate start = resting(trial, *alternatives[i], record);
-            const Candidate refitted = fit(trial, alternatives[i]->effects, start, nullptr, {6, 1, 12});
-            const double apart = rms_of(trial, all_residuals(trial, refitted)) / noise;
+            const Candidate start = begun(then, *alternatives[i], trial);
+            const Candidate refitted = fit(then, alternatives[i]->effects, start, nullptr, {6, 1, 12});
+            const double apart = rms_of(then, all_residuals(then, refitted)) / noise;
             if (apart < nearest) {
                 nearest = apart;
                 which = alternatives[i]->name();
             }
         }
         if (nearest > best.apart) {
-            best = {excitation.text, nearest};
+            best = {trial.text, nearest};
             hardest = which;
         }
     }
     constexpr double visible = 0.3;
     if (best.apart < visible) {
         return {fmt::format(
-                    "no input parts them: of five excitations simulated, the best ({}) leaves {} within {:.2g} of the "
+                    "no input parts them: of the excitations simulated, the best ({}) leaves {} within {:.2g} of the "
                     "noise of {} once refitted. Log a signal between command and reading (motor speed, current, "
                     "supply), or measure one part alone",
                     best.text, hardest, std::max(0.0, best.apart), alternatives.front()->name()),
                 best.apart};
     }
-    return {
-        fmt::format("{} from {:.4g} to {:.4g}: simulated, {} once refitted to {} still misses it by {:.2g} times the "
-                    "noise, and the others by more",
-                    best.text, low, study.scales.input_max, hardest, alternatives.front()->name(), best.apart),
-        best.apart};
+    return {fmt::format("{}: simulated, {} once refitted to {} still misses it by {:.2g} times the "
+                        "noise, and the others by more",
+                        best.text, hardest, alternatives.front()->name(), best.apart),
+            best.apart};
 }
 
 std::string sharpen(const Study& study, const Candidate& named, const Whitener& whitener) {
+    if (named.event_parameters() > 0) {
+        return same_record;
+    }
     Candidate fitted = named;
-    std::vector<std::size_t> mine;  // of the free numbers: those of the lasting effects
     const std::vector<FreeParameter*> free = free_numbers(fitted, false);
+    std::vector<std::size_t> mine;  // those of the lasting effects
     for (std::size_t p = 0; p < free.size() - free_numbers(fitted, true).size(); ++p) {
         if (free[p]->name.find('.') != std::string::npos) {
             mine.push_back(p);
         }
-    }
-    if (named.event_parameters() > 0) {
-        return "the same record once more: what comes again at the same place is no event from outside";
     }
     const std::optional<Told> now = mine.empty() ? std::nullopt : told_by(study, named, whitener);
     if (!now) {
         return other_record;
     }
     const std::vector<double> before = deviations_from(*now, now->information, named);
-    double best = 1.0;
-    std::string text;
-    const double low = lowest_input(study);
-    for (const Excitation& excitation : excitations(study.scales.time_constant_s, study.scales.length_s)) {
-        const Record record = record_of(excitation, study.scales, low);
-        if (record.size() < 32) {
-            continue;
-        }
-        Study trial{study.base, study.scales, {}, all_count({record}), study.noise, study.least_deviation, 0};
-        if (study.horizon > 0) {
-            const double horizon_s = static_cast<double>(study.horizon) * study.scales.interval_s;
-            trial.horizon =
-                std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(horizon_s / record.usual_interval_s)));
-        }
-        trial.courses.emplace_back(record, 1);
-        const std::optional<Told> then = told_by(trial, resting(trial, named, record), whitener);
+    constexpr double worth_it = 1.2;
+    double best = worth_it;
+    std::string text = other_record;
+    for (const Trial& trial : trials_of(study)) {
+        const std::optional<Told> then = told_after(study, named, whitener, trial);
         if (!then) {
             continue;
         }
         const std::vector<double> after = deviations_from(*now, now->information + then->information, named);
         double factor = 1.0;
-        std::vector<std::string> each;
+        std::vector<Narrower> all;
         for (const std::size_t p : mine) {
             const double ratio = after[p] > 0.0 ? before[p] / after[p] : 1.0;
             factor *= std::pow(ratio, 1.0 / static_cast<double>(mine.size()));
-            constexpr double of_95_percent = 1.96;
-            each.push_back(fmt::format("{:.1f} times narrower for {} (within {:.2g} instead of {:.2g})", ratio,
-                                       free[p]->name, of_95_percent * after[p] * free[p]->scale,
-                                       of_95_percent * before[p] * free[p]->scale));
+            all.push_back({free[p], ratio, before[p] * free[p]->scale, after[p] * free[p]->scale});
         }
         if (factor > best) {
             best = factor;
-            text = fmt::format(
-                "{} from {:.4g} to {:.4g}, with the records that there are: {}; by the slopes of what is "
-                "simulated there",
-                excitation.text, low, study.scales.input_max, fmt::join(each, ", "));
+            text = fmt::format("{}, beside what there is: {}; by the slopes of what is simulated", trial.text,
+                               to_text(all));
         }
     }
-    constexpr double worth_it = 1.2;
-    return best < worth_it ? other_record : text;
+    return text;
 }
 
 std::string next_experiment(const Finding& finding) {
-    const std::string lacking = fmt::format("{}", fmt::join(finding.extrapolated, ", "));
+    const std::string lacking = fmt::format("train on records that have these, too, as validation has: {}",
+                                            fmt::join(finding.extrapolated, "; "));
     switch (finding.outcome) {
         case Outcome::no_gap:
             return "none for this gap; another operating profile would tell whether the model holds there";
         case Outcome::attributed: {
             const std::string sharper = sharpen(finding.study, *finding.named.front(), finding.whitener);
-            return lacking.empty() ? sharper
-                                   : fmt::format("{}; and train on {}, too, where validation went and training did not",
-                                                 sharper, lacking);
+            return finding.extrapolated.empty() ? sharper : lacking + ". Then " + sharper;
         }
         case Outcome::ambiguous:
             return part(finding.study, finding.named, finding.noise).text;
         case Outcome::unknown:
             break;
     }
-    if (!lacking.empty()) {
-        return fmt::format(
-            "train on {}, too: validation goes there and training never did, so that whatever is fitted "
-            "is a guess there",
-            lacking);
+    if (!finding.extrapolated.empty()) {
+        return lacking + ". Training never went there, so that whatever is fitted is a guess there";
     }
     return finding.input_levels <= 3
                ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of them: the "

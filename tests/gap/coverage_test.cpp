@@ -10,6 +10,8 @@
 #include <random>
 
 #include "gap/drive/experiment.hpp"
+#include "gap/drive/start.hpp"
+#include "gap/verdict.hpp"
 #include "stand_case.hpp"
 
 namespace {
@@ -18,6 +20,7 @@ using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 using Function = std::function<double(double)>;
@@ -53,6 +56,13 @@ TEST(Coverage, TellsADirectionThatTrainingNeverWent) {
                 ElementsAre("falling output"));
     EXPECT_THAT(gap::extrapolated({record_of(20.0, held, cools)}, {record_of(20.0, held, heats)}),
                 ElementsAre("rising output"));
+    // A reading that was lost is no fall; a third of the way down is one.
+    gap::Record lost = record_of(20.0, held, heats);
+    lost.output[300] = 0.0;
+    EXPECT_THAT(gap::extrapolated({lost}, {record_of(20.0, held, cools)}), Contains("falling output"));
+    const auto dips = [&](double t) { return heats(t) - (t > 15.0 ? 0.4 : 0.0); };
+    EXPECT_THAT(gap::extrapolated({record_of(20.0, held, dips)}, {record_of(20.0, held, cools)}),
+                Not(Contains("falling output")));
 }
 
 TEST(Coverage, TellsLevelsBeyondThoseOfTrainingAndBetweenThem) {
@@ -101,8 +111,18 @@ TEST(NextExperiment, OfAnAttributionNarrowsWhatWasNamed) {
     const gap::Answer answer = gap_test::ask({{"input_dead_zone.width", 0.015}});
     EXPECT_THAT(answer.next_experiment, HasSubstr("input_dead_zone.width"));
     EXPECT_THAT(answer.next_experiment, HasSubstr("times"));
-    const double factor = std::stod(answer.next_experiment.substr(answer.next_experiment.find(": ") + 2));
-    EXPECT_GT(factor, 1.0) << answer.next_experiment;
+    const std::string before = "beside what there is: ";
+    const std::size_t at = answer.next_experiment.find(before);
+    ASSERT_NE(at, std::string::npos) << answer.next_experiment;
+    const double factor = std::stod(answer.next_experiment.substr(at + before.size()));
+    EXPECT_GT(factor, 1.2) << answer.next_experiment;
+    // What the terminal says of it: the bits' levels, of which the dead zone takes most from the lower one.
+    const std::string text = gap::to_text(answer);
+    EXPECT_THAT(text, HasSubstr("where the residual (measured - simulated) of the base lies"));
+    EXPECT_THAT(text, HasSubstr("  input at 0.1 "));
+    EXPECT_THAT(text, testing::ContainsRegex("  output [-0-9.]+ to [0-9.]+ +[0-9.]+ %"));
+    EXPECT_THAT(text, testing::ContainsRegex("variance explained: [0-9.]+ % by the simulation, (99.9|100.0) % by"));
+    EXPECT_THAT(text, HasSubstr("next: " + answer.next_experiment));
 }
 
 TEST(NextExperiment, OfAnUnknownIsToTrainOnWhatWasExtrapolated) {
@@ -114,6 +134,40 @@ TEST(NextExperiment, OfAnUnknownIsToTrainOnWhatWasExtrapolated) {
     ASSERT_EQ(answer.decision.outcome, gap::Outcome::unknown) << answer.next_experiment;
     EXPECT_THAT(answer.next_experiment, StartsWith("train on "));
     EXPECT_THAT(answer.next_experiment, HasSubstr("input above 0.05"));
+    EXPECT_THAT(gap::to_text(answer), HasSubstr("extrapolated, as training has none of it: "));
+    EXPECT_THAT(gap::to_json(answer), HasSubstr("\"extrapolated\": [\n    \"" + answer.extrapolated.front()));
+}
+
+// A pendulum that is let go: the angle per unit of its sine is known best from as far out as it has been, and nothing
+// is put in.
+TEST(NextExperiment, OfAFreeMotionIsToLetGoAgain) {
+    drive::Model model;
+    model.denominator = {{1.0, 2.0}, {0.3, 1.0}, {9.0, 0.0}};
+    gap::Record record = record_of(
+        12.0, [](double) { return 0.0; }, [](double t) { return std::exp(-0.15 * t) * std::cos(3.0 * t); });
+    const gap::Effect& gravity = gap::effect_named("gravity_nonlinearity");
+    const gap::Audit found = gap::audit({record});
+    gap::Study study{{gap::form_of(model), true},
+                     gap::scales_of(model, {record}, found),
+                     {},
+                     gap::all_count({record}),
+                     found.noise,
+                     1e-3,
+                     0};
+    study.scales.input_max = 0.0;
+    study.courses.emplace_back(record, 1);
+    gap::Candidate named;
+    named.effects = {&gravity};
+    named.base = gap::base_of(study);
+    named.lasting = {gap::parameters_of(gravity, study.scales, 1)};
+    named.own = {gap::state_of(study, record)};
+    named.own[0][0].value = 0.0;  // where it comes to rest
+    record.output = gap::simulate(gap::scenario_of(study, named, 0), study.courses[0]);
+    gap::Whitener whitener;
+    whitener.deviation = whitener.stationary_deviation = 0.002;
+    const std::string text = gap::sharpen(study, named, whitener);
+    EXPECT_THAT(text, StartsWith("let go from as far out as it has been"));
+    EXPECT_THAT(text, HasSubstr("narrower for gravity_nonlinearity.angle_per_unit"));
 }
 
 }  // namespace

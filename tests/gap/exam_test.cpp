@@ -9,6 +9,7 @@
 
 #include "gap/exam/ask.hpp"
 #include "gap/exam/score.hpp"
+#include "gap/verdict.hpp"
 #include "qemu/failure.hpp"
 #include "stand_case.hpp"
 
@@ -287,6 +288,12 @@ TEST(Exam, AnswersWhatIsAsked) {
                     (void)exam::to_question(late, {{record}, {}, gap::model_of(gap_test::linear_form())}, 1);
                 }),
                 HasSubstr("stand: split_s 19.9: expected 32 samples or more on both sides"));
+}
+
+TEST(Exam, TellsTheAlternativesOfAnAmbiguityApart) {
+    const gap::Answer answer = gap_test::ask({{"actuator_lag.tau_s", 0.12}}, 9);
+    ASSERT_EQ(answer.decision.outcome, gap::Outcome::ambiguous) << gap::to_text(answer);
+    EXPECT_EQ(exam::parse_reply(gap::to_json(answer), "v.json").named.size(), answer.decision.effects.size());
 }
 
 std::string read(const std::filesystem::path& path) {

@@ -134,7 +134,7 @@ TEST(Locate, PartsEvenlyWhereTheInputNeverMovesOrAlwaysDoes) {
 TEST(Locate, NamesTheRecordOfEachPart) {
     gap::Record first = record_of(500, staircase);
     gap::Record second = record_of(900, staircase);
-    first.name = "first.csv";
+    first.name = "/home/her/first.csv";
     second.name = "second.csv";
     const gap::Where where = gap::locate({first, second}, {residuals_of(first, [](double) { return 1.0; }),
                                                            residuals_of(second, [](double) { return 0.0; })});
@@ -163,6 +163,25 @@ TEST(Locate, TakesFewLevelsForThemselvesAndManyByFifths) {
     const gap::Where of_many = gap::locate({many}, {residuals_of(many, [](double t) { return t >= 19.0; })});
     ASSERT_EQ(of_many.input_level.size(), 5U);
     EXPECT_NEAR(of_many.input_level.back().share, 1.0, 1e-12);
+}
+
+TEST(Locate, LeavesOutWhatDoesNotCount) {
+    const gap::Record record = record_of(2000, staircase);
+    const std::vector<double> residuals = residuals_of(record, [](double t) { return t < 8.0 ? 5.0 : 1.0; });
+    std::vector<char> counts(2000, 0);
+    std::fill(counts.begin() + 800, counts.end(), char{1});
+    const gap::Where split = gap::locate({record}, {residuals}, {counts});
+    EXPECT_EQ(split.time.front().from, 8.0);
+    EXPECT_EQ(split.input_level.size(), 3U);
+    EXPECT_NEAR(sum_of(split.time), 1.0, 1e-12);
+    EXPECT_NEAR(share_at(split.time, 9.0) + share_at(split.time, 11.0), 1.0 / 3.0, 0.01);
+
+    std::vector<char> blocks(2000, 0);  // two stretches
+    std::fill(blocks.begin(), blocks.begin() + 100, char{1});
+    std::fill(blocks.begin() + 1900, blocks.end(), char{1});
+    const gap::Where where = gap::locate({record}, {residuals}, {blocks});
+    EXPECT_NEAR(where.input_level.front().share, 25.0 / 26.0, 1e-9);
+    EXPECT_NEAR(where.input_level.back().share, 1.0 / 26.0, 1e-9);
 }
 
 TEST(Locate, SharesOutWhereThereIsNoGap) {
