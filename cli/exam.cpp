@@ -1,6 +1,7 @@
 #include "cli/exam.hpp"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <map>
 
@@ -39,6 +40,13 @@ exam::Given read_given(const exam::Asked& asked, const path& data) {
         given.model = read_model(data / asked.base);
     }
     return given;
+}
+
+// Of this thread; a question is answered on one.
+double cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 // The file that holds the answer, below the question's folder.
@@ -80,10 +88,13 @@ void run_exam(const path& manifest, const path& data, const path& out, unsigned 
         std::filesystem::create_directories(out / question.name, error);
     }
     std::vector<std::string> files(asked.size());
+    std::vector<double> cpu_s(asked.size());
     {
         bench::Progress progress("questions", asked.size());
         bench::parallel_for(asked.size(), jobs, [&](std::size_t i) {
+            const double began_s = cpu_seconds();
             files[i] = answer(asked[i], data.empty() ? manifest.parent_path() : data, out / asked[i].name);
+            cpu_s[i] = cpu_seconds() - began_s;
             progress.advance();
         });
     }
@@ -91,7 +102,8 @@ void run_exam(const path& manifest, const path& data, const path& out, unsigned 
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const std::string file = asked[i].name + "/" + files[i];
         const exam::Reply reply = read_reply(out / file);
-        fmt::print("{}  {}{}\n", asked[i].name, reply.verdict, reply.reason.empty() ? "" : ": " + reply.reason);
+        fmt::print("{}  {}{}  ({:.1f} CPU s)\n", asked[i].name, reply.verdict,
+                   reply.reason.empty() ? "" : ": " + reply.reason, cpu_s[i]);
         hashes += bench::sha256_line(bench::sha256_of(out / file), file);
     }
     bench::write_file(out / hashes_file, hashes);
