@@ -110,6 +110,13 @@ struct Trial {
     double released_at = 0.0;  ///< where nothing is put in: from here, in parts of the furthest that it has been
 };
 
+bool is_free(const Study& study) {
+    return std::all_of(study.courses.begin(), study.courses.end(), [](const Course& course) {
+        const std::vector<double>& input = course.record().input;
+        return std::all_of(input.begin(), input.end(), [](double u) { return u == 0.0; });
+    });
+}
+
 // Without an input it is let go, never from further out than it has been.
 std::vector<Trial> releases(const Study& study) {
     const Scales& scales = study.scales;
@@ -128,7 +135,7 @@ std::vector<Trial> releases(const Study& study) {
 std::vector<Trial> trials_of(const Study& study) {
     const Scales& scales = study.scales;
     std::vector<Trial> trials;
-    if (!(scales.input_max > 0.0)) {
+    if (is_free(study)) {
         trials = releases(study);
     } else {
         const double low = lowest_input(study);
@@ -373,7 +380,10 @@ std::string next_experiment(const Finding& finding) {
                                             fmt::join(finding.extrapolated, "; "));
     switch (finding.outcome) {
         case Outcome::no_gap:
-            return "none for this gap; another operating profile would tell whether the model holds there";
+            return finding.extrapolated.empty()
+                       ? "none for this gap; another operating profile would tell whether the model holds there"
+                       : fmt::format("none for this gap, though validation alone has these: {}",
+                                     fmt::join(finding.extrapolated, "; "));
         case Outcome::attributed: {
             const std::string sharper = sharpen(finding.study, *finding.named.front(), finding.whitener);
             return finding.extrapolated.empty() ? sharper : lacking + ". Then " + sharper;

@@ -154,7 +154,6 @@ TEST(NextExperiment, OfAFreeMotionIsToLetGoAgain) {
                      found.noise,
                      1e-3,
                      0};
-    study.scales.input_max = 0.0;
     study.courses.emplace_back(record, 1);
     gap::Candidate named;
     named.effects = {&gravity};
