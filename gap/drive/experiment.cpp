@@ -80,8 +80,9 @@ Candidate resting(const Study& study, const Candidate& fitted, const Record& rec
     return rest;
 }
 
-Record record_of(const Excitation& excitation, const Scales& scales, double low) {
+Record record_of(const Excitation& excitation, const Study& study, double low) {
     constexpr double most_samples = 3000.0;
+    const Scales& scales = study.scales;
     Record record;
     record.name = excitation.text;
     record.usual_interval_s = std::max(scales.interval_s, excitation.length_s / most_samples);
@@ -92,6 +93,10 @@ Record record_of(const Excitation& excitation, const Scales& scales, double low)
         record.input.push_back(low + (scales.input_max - low) * excitation.level(t / excitation.length_s, t));
     }
     record.output.assign(count, 0.0);
+    // Further inputs rest where they were when the first record began: one thing is moved at a time.
+    for (const std::vector<double>& levels : study.courses.front().record().more_inputs) {
+        record.more_inputs.emplace_back(count, levels.front());
+    }
     return record;
 }
 
