@@ -8,7 +8,9 @@
 
 #include "gap/drive/audit.hpp"
 #include "gap/drive/clued_start.hpp"
+#include "gap/drive/experiment.hpp"
 #include "gap/drive/fit.hpp"
+#include "gap/drive/ranking.hpp"
 #include "gap/drive/start.hpp"
 
 namespace {
@@ -166,6 +168,21 @@ TEST(GapIdentifiable, WhatASecondInputDoes) {
     Rig rig{arm(), moved(0.0)};
     rig.record.more_inputs = {moved(-3.0, 11).input};
     expect_found(rig, "second_input", {-0.15, 0.7}, {{"gain", -0.15}, {"tau_s", 0.7}});
+}
+
+// What is proposed moves the first input alone, and needs a record that has the second.
+TEST(GapIdentifiable, AProposalLeavesTheSecondInputWhereItWas) {
+    Rig rig{arm(), moved(0.0)};
+    rig.record.more_inputs = {std::vector<double>(rig.record.size(), 0.5)};
+    gap::Scenario truth;
+    truth.model = rig.model;
+    gap::effect_named("second_input").add_to(truth, Values{0.3, 0.5});
+    measure(rig, truth);
+    const gap::Study study = study_of(rig);
+    const gap::Candidate second = gap::fit(study, {&gap::effect_named("second_input")}, {}, nullptr);
+    const gap::Candidate offset = gap::fit(study, {&gap::effect_named("sensor_offset")}, {}, nullptr);
+    EXPECT_FALSE(gap::part(study, {&second, &offset}, rig.noise).text.empty());
+    EXPECT_FALSE(gap::sharpen(study, second, gap::whitener_of(study, second)).empty());
 }
 
 // A released arm: nobody drives it, and its friction is told by what moves it instead.
