@@ -114,7 +114,7 @@ TEST(GapSimulation, OnACoarseGridReadsTheSame) {
     gap::Scenario plain;
     plain.model = plant_12();
     const gap::Course fine = gap::make_course(record, plain, 1e-4);
-    const gap::Course sketch = gap::make_sketch(fine, plain, 1e-2);
+    const gap::Course sketch = gap::make_sketch(fine, record, 1, plain, 1e-2);
     EXPECT_LT(2 * sketch.grid().count, fine.grid().count);
     const std::vector<double> wanted = gap::simulate(plain, fine);
     EXPECT_LT(rms(gap::simulate(plain, sketch), wanted), 1e-12);
@@ -122,7 +122,7 @@ TEST(GapSimulation, OnACoarseGridReadsTheSame) {
     other.model.denominator[1].coefficient *= 1.1;
     EXPECT_LT(rms(gap::simulate(other, sketch), gap::simulate(other, fine)), 2e-3);
     // Nothing coarser is near enough.
-    EXPECT_EQ(gap::make_sketch(fine, plain, 0.0).grid().count, gap::Course(record, 1).grid().count);
+    EXPECT_EQ(gap::make_sketch(fine, record, 1, plain, 0.0).grid().count, gap::Course(record, 1).grid().count);
 }
 
 TEST(GapSimulation, KeepsDeployedReadingsOfEachModelApart) {
