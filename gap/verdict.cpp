@@ -47,11 +47,7 @@ Fitted fitted_of(const FreeParameter& parameter) {
     if (parameter.fixed && parameter.deviation == 0.0) {
         return {parameter.value, parameter.value, parameter.value};
     }
-    if (!std::isfinite(parameter.deviation)) {
-        return {parameter.value, parameter.lower, parameter.upper};  // nothing tells
-    }
-    return {parameter.value, std::max(parameter.lower, parameter.value - 1.96 * parameter.deviation),
-            std::min(parameter.upper, parameter.value + 1.96 * parameter.deviation)};
+    return {parameter.value, std::min(parameter.low, parameter.value), std::max(parameter.high, parameter.value)};
 }
 
 Json to_json(const ContractValue& value) {
@@ -88,6 +84,12 @@ void fill(const Ranked& ranked, const Effect& effect, Json& parameters, Json& in
             }
         }
     }
+}
+
+// Of the base's squared gap, what stays.
+double unexplained_share(const Answer& answer, const Ranked& ranked) {
+    const double base = answer.decision.base_gap;
+    return base > 0.0 ? std::clamp(ranked.gap_after * ranked.gap_after / (base * base), 0.0, 1.0) : 0.0;
 }
 
 // One entry for each effect of a candidate. \param alternative  which of an ambiguity it is; entries of one belong
@@ -143,6 +145,39 @@ std::string where_text(const Where& where) {
                               100.0 * where.falling, 100.0 * where.still);
 }
 
+// The base with the numbers that it has beside what was found, and each record's own.
+Json base_json(const Answer& answer) {
+    const Candidate& chosen = answer.chosen().trained;
+    Json parameters = Json::object();
+    Json interval = Json::object();
+    for (const FreeParameter& parameter : chosen.base) {
+        parameters[parameter.name] = parameter.value;
+        const Fitted fitted = fitted_of(parameter);
+        interval[parameter.name] = {fitted.low, fitted.high};
+    }
+    Json base{{"form", answer.base_name.empty() ? "given" : answer.base_name},
+              {"model", drive::to_text(answer.model_of(chosen))},
+              {"parameters", parameters},
+              {"interval", interval},
+              {"linear_share", answer.linear_share}};
+    for (const Described& one : answer.descriptions) {
+        base["descriptions"].push_back({{"form", one.name}, {"gap_aside", one.aside}, {"gap", one.validation}});
+    }
+    return base;
+}
+
+Json suspect_json(const Answer& answer, const Ranked& suspect) {
+    Json effects = Json::array();
+    for (const Effect* effect : suspect.trained.effects) {
+        Json parameters;
+        Json interval;
+        fill(suspect, *effect, parameters, interval);
+        effects.push_back({{"effect", effect->name}, {"parameters", parameters}, {"interval", interval}});
+    }
+    return {
+        {"effects", effects}, {"gap_after", suspect.gap_after}, {"unexplained", unexplained_share(answer, suspect)}};
+}
+
 // How much of the measured output's variance is explained where a gap is left.
 double explained_percent(double gap) { return 100.0 * std::max(0.0, 1.0 - gap * gap); }
 
@@ -188,6 +223,10 @@ std::string to_json(const Answer& answer) {
         {"direction",
          {{"rising", answer.where.rising}, {"falling", answer.where.falling}, {"still", answer.where.still}}}};
     verdict["extrapolated"] = answer.extrapolated;
+    verdict["base"] = base_json(answer);
+    if (decision.suspect) {
+        verdict["suspect"] = suspect_json(answer, answer.ranking[*decision.suspect]);
+    }
     verdict["next_experiment"] = answer.next_experiment;
     verdict["confidence"] = decision.confidence;
     verdict["split"] = answer.split;
@@ -236,6 +275,17 @@ std::string to_text(const Answer& answer) {
     text += fmt::format(" (confidence {:.2f})\n\n", decision.confidence);
     text += fmt::format("gap, rms over the output's deviation, {}: {:.4f} before, {:.4f} after, {:.4f} at best\n",
                         answer.metric, decision.base_gap, answer.chosen().gap_after, decision.noise_floor);
+    if (!answer.base_name.empty()) {
+        text += fmt::format("base: {}, {}; the best linear description explains {:.1f} % of the variance\n",
+                            answer.base_name, drive::to_text(answer.model_of(answer.chosen().trained)),
+                            100.0 * answer.linear_share);
+    }
+    if (decision.suspect) {
+        const Ranked& suspect = answer.ranking[*decision.suspect];
+        text += fmt::format(
+            "suspect: {} brings the gap from {:.4f} to {:.4f}; {:.0f} % of its square stay unexplained\n",
+            suspect.trained.name(), decision.base_gap, suspect.gap_after, 100.0 * unexplained_share(answer, suspect));
+    }
     text += fmt::format("variance explained: {:.1f} % by the simulation, {:.1f} % by the best candidate\n",
                         explained_percent(decision.base_gap), explained_percent(answer.chosen().gap_after));
     if (answer.split) {

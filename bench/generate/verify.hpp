@@ -29,15 +29,16 @@ struct Verified {
     /// Of few taps, two branches that are foreseen in the one place and not in the other, 8 cycles and a fetch each.
     static constexpr double place_cycles = 20.0;
 
-    /// Beside its calls of some 140 instructions a tap: GCC 14 saves up to six registers more a sample.
+    /// Beside its calls of some 140 instructions a tap: GCC 14 saves up to six registers more a sample, of few taps too.
     static constexpr double saved_share = 0.001;
+    static constexpr double saved_instructions = 8.0;
 
     /// But for that, instructions count to the last one, and cycles too.
     [[nodiscard]] bool good() const {
         const bool in_software = kernel.ends_with("64");
         const double place = in_software ? std::max(place_share * kernel_cycles, place_cycles) : 0.0;
-        return first_wrong == 0 &&
-               header_instructions <= (in_software ? 1.0 + saved_share : 1.0) * kernel_instructions &&
+        const double saved = in_software ? std::max(saved_share * kernel_instructions, saved_instructions) : 0.0;
+        return first_wrong == 0 && header_instructions <= kernel_instructions + saved &&
                header_cycles <= kernel_cycles + place;
     }
 };

@@ -31,6 +31,11 @@ constexpr double slow_share = 0.1;
 constexpr double slow_share_of_a_form = 0.5;
 // A fitted form's own misfit: within so much of the rms, or half the noise, it is none of the drive's effects.
 constexpr double misfit_share = 0.11;
+// Beside a fitted form a first effect takes so much of the gap's rms: less is another form's share.
+constexpr double first_share_of_a_form = 0.25;
+// What takes so much of the closable squared gap of a fitted form is its cause, though the rest can be foreseen: of
+// something else, which is said in per cent.
+constexpr double main_share = 0.8;
 // A burst so many times louder than what is usual, of a gap of which at least so much is left.
 constexpr double burst_ratio = 50.0;
 constexpr double burst_share = 0.04;
@@ -136,7 +141,8 @@ public:
         // Three effects that still leave what can be foreseen are an expansion of something else, not its causes.
         const bool expansion = ranking_[chosen].trained.effects.size() >= 3;
         const bool misfit = study_.base.refit && chosen == none && after - left < misfit_share * after;
-        if (foreseeable && !misfit && (unexplained > tolerated || expansion) &&
+        const bool is_main = study_.base.refit && chosen != none && !expansion && 1.0 - unexplained > main_share;
+        if (foreseeable && !misfit && !is_main && (unexplained > tolerated || expansion) &&
             after - left > 0.02 * decision_.base_gap) {
             decision_.outcome = Outcome::unknown;
             decision_.confidence = std::clamp(0.5 + 0.5 * unexplained, 0.5, 0.95);
@@ -148,6 +154,9 @@ public:
             decision_.confidence = 0.95 - 0.3 * std::min(1.0, near / clear_advantage);
         } else {
             attribute(chosen, none);
+            if (is_main && unexplained > tolerated) {
+                decision_.confidence = std::min(decision_.confidence, 0.85);
+            }
         }
         if (decision_.outcome == Outcome::no_gap) {
             name_the_quantum(after);
@@ -260,7 +269,7 @@ private:
         // A third that is small makes up for what the first two are not quite.
         const std::size_t so_far = ranking_[chosen].trained.effects.size();
         const double of_closable = material_share * (decision_.base_gap - least);
-        const double material = so_far == 0   ? (study_.base.refit ? misfit_share : 0.03) * before
+        const double material = so_far == 0   ? (study_.base.refit ? first_share_of_a_form : 0.03) * before
                                 : so_far == 1 ? std::min(of_closable, 0.25 * before)
                                               : of_closable;
         return is_clear(advantage(ranking_[wider], ranking_[chosen])) && before - after > material;

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "gap/drive/base/jointly.hpp"
+#include "gap/drive/base/signs.hpp"
 #include "gap/drive/coverage.hpp"
 #include "gap/drive/determined.hpp"
 #include "gap/drive/experiment.hpp"
@@ -123,22 +124,26 @@ double price_of(const Answer& answer, int base_numbers, double floor) {
            each * (base_numbers + static_cast<double>(named.effect_parameters()));
 }
 
-// The base that does best by itself, and the best ones of fewer and of more numbers: beside an effect a simpler one may
-// do as well, and what seems an effect may be a lag that a richer one has.
+// The base that does best by itself, the best ones of fewer and of more numbers, and the best that integrates where it
+// does not, or the other way round: beside an effect a simpler one may do as well, and what seems an effect may be a
+// lag that a richer one has.
 std::vector<const Described*> worth_asking(const std::vector<Described>& found) {
     const Described& front = found.front();
     std::vector<const Described*> asked = {&front};
     constexpr double within = 2.0;
     const auto add_first = [&](auto suits) {
         for (const Described& one : found) {  // the best first
-            if (suits(one) && rests(one.form) == rests(front.form) && one.validation < within * front.validation) {
+            const bool known = std::find(asked.begin(), asked.end(), &one) != asked.end();
+            if (!known && suits(one) && one.validation < within * front.validation) {
                 asked.push_back(&one);
                 return;
             }
         }
     };
-    add_first([&](const Described& one) { return one.numbers < front.numbers; });
-    add_first([&](const Described& one) { return one.numbers > front.numbers; });
+    const auto alike = [&](const Described& one) { return (one.integrators > 0) == (front.integrators > 0); };
+    add_first([&](const Described& one) { return alike(one) && one.numbers < front.numbers; });
+    add_first([&](const Described& one) { return alike(one) && one.numbers > front.numbers; });
+    add_first([&](const Described& one) { return !alike(one) && one.integrators < 2; });
     return asked;
 }
 
@@ -168,6 +173,10 @@ void ask_jointly(Answer& answer, const Question& question) {
     answer.decision.effects.clear();
     answer.decision.suspect.reset();
     answer.decision.confidence = std::min(answer.decision.confidence, 0.9);
+    answer.next_experiment =
+        answer.extrapolated.empty()
+            ? "none for this gap; a longer training record would tell the base's numbers by itself"
+            : fmt::format("train on what validation alone has, too: {}", fmt::join(answer.extrapolated, "; "));
     answer.notes.push_back(fmt::format(
         "fitted to the validation, too, the base leaves {:.4f} without any effect: training alone does not tell "
         "its numbers",
@@ -177,6 +186,18 @@ void ask_jointly(Answer& answer, const Question& question) {
 Answer answer_with_found_base(Question question, const std::function<void(const std::string&)>& say) {
     std::vector<Described> found = find_base(question, say);
     question.refit = true;
+    // No linear description turns its output's sign: where readings may have lost theirs, one is looked for that
+    // follows them with it, and the loss is an effect like others.
+    constexpr double poor = 0.5;
+    if (found.front().validation > poor && may_have_lost_signs(question.train)) {
+        Question restored = question;
+        restored.train = with_signs(question.train);
+        restored.validate = with_signs(question.validate);
+        std::vector<Described> better = find_base(restored, say);
+        if (better.front().validation < 0.5 * found.front().validation) {
+            found = std::move(better);
+        }
+    }
     if (question.metric_free) {
         question.metric = rests(found.front().form) ? Metric::simulation : Metric::prediction;
     }

@@ -36,6 +36,7 @@ struct Scales {
     double turn;             ///< readings jump by so much, as they do at the end of a turn; 0: they never do
     bool maybe_speed;        ///< the highest order is about 1: the output may be a speed
     double further_max;      ///< of |u| of the records' second input; 0: one has none
+    bool swings = false;     ///< its second order has complex poles, as no flow has
     bool driven = true;      ///< something is put in; free motions otherwise
 };
 
@@ -100,7 +101,9 @@ struct Effect {
     std::set<Domain> domains = all_domains();  ///< in which it can occur
     bool uneven_noise = false;                 ///< it makes noise uneven by nature
     bool of_fitted_base = false;               ///< a base that is fitted has this already
-    bool linear = false;        ///< linear, and the same at all times: a base of another form takes it up
+    bool linear = false;  ///< linear, and the same at all times: a base of another form takes it up
+    bool hides_base =
+        false;  ///< readings under it mislead a base that is fitted without it: both begin at the form's values
     bool only_spreads = false;  ///< moves no reading: found by likelihood, not by the sum of squares
     bool rounds = false;        ///< a reading stands for a range of values, within which nothing is missed
     std::vector<Written> (*to_contract)(const Effect& effect, std::span<const Fitted> fitted) = numbers_to_contract;

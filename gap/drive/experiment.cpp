@@ -131,7 +131,7 @@ std::vector<Trial> releases(const Study& study) {
           std::pair("from a fifth as far out", 0.2)}) {
         const Excitation nothing{fmt::format("let go {}, for {:.3g} s", text, scales.length_s), scales.length_s,
                                  [](double, double) { return 0.0; }};
-        trials.push_back({nothing.text, record_of(nothing, scales, 0.0), part});
+        trials.push_back({nothing.text, record_of(nothing, study, 0.0), part});
     }
     return trials;
 }
@@ -146,7 +146,7 @@ std::vector<Trial> trials_of(const Study& study) {
         const double low = lowest_input(study);
         for (const Excitation& excitation : excitations(scales.time_constant_s, scales.length_s)) {
             trials.push_back({fmt::format("{} from {:.4g} to {:.4g}", excitation.text, low, scales.input_max),
-                              record_of(excitation, scales, low)});
+                              record_of(excitation, study, low)});
         }
     }
     std::erase_if(trials, [](const Trial& trial) { return trial.record.size() < 32; });

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "drive/solve.hpp"
+#include "gap/drive/clued_start.hpp"
 
 namespace gap {
 namespace {
@@ -332,17 +333,32 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             count = std::max(count, starts_of(*effect, study.scales));
         }
     }
+    // One start more, where an effect can tell from what is left without it.
+    const bool clued = std::any_of(effects.begin(), effects.end(), [&](const Effect* effect) {
+        return effect->start != nullptr && lasting_of(start, effect) == nullptr;
+    });
+    count += clued ? 1 : 0;
     const bool in_stages = count > 1 || std::isfinite(effort.hopeless);
     std::vector<Candidate> attempts;
     for (std::size_t s = 0; s < count; ++s) {
         Candidate attempt;
         attempt.effects = effects;
-        attempt.base = start.base.empty() ? base_of(study) : start.base;
+        const bool afresh =
+            start.base.empty() || std::any_of(effects.begin(), effects.end(), [&](const Effect* effect) {
+                return effect->hides_base && !start.has(effect->name);
+            });
+        attempt.base = afresh ? base_of(study) : start.base;
         for (const Effect* effect : effects) {
             if (effect->kind == Kind::lasting) {
                 // What another candidate knows of the same effect is a better start than any.
                 const auto* known = lasting_of(start, effect);
-                attempt.lasting.push_back(known != nullptr ? *known : parameters_of(*effect, study.scales, s));
+                std::vector<FreeParameter> told;
+                if (known == nullptr && clued && s + 1 == count && !start.own.empty()) {
+                    told = clued_start(study, start, *effect);
+                }
+                attempt.lasting.push_back(known != nullptr ? *known
+                                          : told.empty()   ? parameters_of(*effect, study.scales, s)
+                                                           : std::move(told));
             }
         }
         for (std::size_t r = 0; r < study.courses.size(); ++r) {

@@ -22,6 +22,7 @@ struct Question {
     unsigned jobs = 1;
     std::optional<Domain> domain = {};     ///< what the plant is: effects that cannot be there are left out
     std::string base_name = {};            ///< of a fitted form
+    bool open_form = false;                ///< the form is nobody's claim: a linear effect would be another form
     bool find = false;                     ///< the base is looked for: `form` is none yet
     bool metric_free = false;              ///< predictions where the base that is found rests nowhere
     std::optional<double> horizon_s = {};  ///< of predictions; a fiftieth of the record unless it is given

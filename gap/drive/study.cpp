@@ -87,6 +87,17 @@ double turn_of(const std::vector<Record>& records, double output_span) {
     return *middle;
 }
 
+// Complex poles of 1 + a_1 s + a_2 s^2 + ..., as far as two orders tell.
+bool swings(const drive::Model& model) {
+    double a[3] = {};
+    for (const drive::Term& term : model.denominator) {
+        if (term.order == std::floor(term.order) && term.order <= 2.0) {
+            a[static_cast<std::size_t>(term.order)] = term.coefficient;
+        }
+    }
+    return a[1] * a[1] < 4.0 * a[0] * a[2] * 0.98;  // equal lags do not
+}
+
 }  // namespace
 
 Scales scales_of(const drive::Model& model, const std::vector<Record>& records, const Audit& found) {
@@ -125,6 +136,7 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     scales.input_levels = found.levels;
     scales.deployed_step_s = deployed_step_of(model, scales);
     scales.driven = is_driven(records);
+    scales.swings = swings(model);
     constexpr double first_order = 1.2;
     scales.maybe_speed = drive::highest_order(model.denominator) <= first_order;
     scales.turn = turn_of(records, scales.output_span);

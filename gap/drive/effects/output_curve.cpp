@@ -15,7 +15,8 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
     const double reference = std::max(std::fabs(scales.output_high), std::fabs(scales.output_low));
     // Which one it is is not known: free, it lets the slope at 0 be any. Of an outflow that is another model's force.
     const EffectParameter about{"reference", "y", 0.3 * reference, 3.0 * reference, reference, {reference}, false, 2};
-    if (!scales.steady) {
+    // What swings is no flow that drains.
+    if (!scales.steady || scales.swings) {
         return {
             {"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25}}, about, {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0}, true}};
     }

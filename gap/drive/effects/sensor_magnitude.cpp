@@ -41,6 +41,7 @@ const Effect& sensor_magnitude() {
         .add_to = add,
         .place = Place::sensor,
         .numbers = {{"there", Number::Given::never, 1.0}},
+        .hides_base = true,
     };
     return effect;
 }
