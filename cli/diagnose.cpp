@@ -146,7 +146,6 @@ void run(const Options& options) {
     }
     question.metric_free = options.metric.empty();
     question.horizon_s = options.horizon_s;
-    question.base_name = fitted ? options.model.substr(4) : options.refit ? "the model, refitted" : "";
     check_split(question);
     refuse_training_as_validation(question);
     const gap::Answer answer =

@@ -256,7 +256,8 @@ private:
             return;
         }
         for (std::size_t i = 0; i < ranking_.size() && !decision_.suspect; ++i) {
-            if (i != none && ranking_[i].gap_after < ranking_[none].gap_after && objection(i).empty()) {
+            constexpr double at_least = 0.95;
+            if (i != none && ranking_[i].gap_after < at_least * ranking_[none].gap_after && objection(i).empty()) {
                 decision_.suspect = i;
             }
         }

@@ -130,20 +130,25 @@ double price_of(const Answer& answer, int base_numbers, double floor) {
 std::vector<const Described*> worth_asking(const std::vector<Described>& found) {
     const Described& front = found.front();
     std::vector<const Described*> asked = {&front};
-    constexpr double within = 2.0;
     const auto add_first = [&](auto suits) {
         for (const Described& one : found) {  // the best first
             const bool known = std::find(asked.begin(), asked.end(), &one) != asked.end();
-            if (!known && suits(one) && one.validation < within * front.validation) {
+            if (!known && suits(one)) {
                 asked.push_back(&one);
                 return;
             }
         }
     };
     const auto alike = [&](const Described& one) { return (one.integrators > 0) == (front.integrators > 0); };
-    add_first([&](const Described& one) { return alike(one) && one.numbers < front.numbers; });
-    add_first([&](const Described& one) { return alike(one) && one.numbers > front.numbers; });
-    add_first([&](const Described& one) { return !alike(one) && one.integrators < 2; });
+    add_first([&](const Described& one) {
+        return alike(one) && one.numbers < front.numbers && one.validation < 2.0 * front.validation;
+    });
+    add_first([&](const Described& one) {
+        return alike(one) && one.numbers > front.numbers && one.validation < 1.3 * front.validation;
+    });
+    add_first([&](const Described& one) {
+        return !alike(one) && one.integrators < 2 && one.validation < 1.3 * front.validation;
+    });
     return asked;
 }
 

@@ -160,8 +160,8 @@ Eigen::VectorXd deviations_of(const Eigen::MatrixXd& slopes, const Eigen::Vector
         for (Eigen::Index k = 0; k < size; ++k) {
             in_untold += told(k) == 0.0 ? std::pow(parts.eigenvectors()(i, k), 2) : 0.0;
         }
-        constexpr double hardly = 1e-4;
-        if (in_untold < hardly) {
+        constexpr double alone = 0.9;
+        if (in_untold < alone) {
             spread(moving[static_cast<std::size_t>(i)]) =
                 std::sqrt(std::max(variance * inverse(i, i), pulled(i))) / length(moving[static_cast<std::size_t>(i)]);
         }

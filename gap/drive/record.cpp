@@ -48,8 +48,6 @@ Record to_record(drive::Log log) {
     std::nth_element(intervals.begin(), intervals.begin() + static_cast<std::ptrdiff_t>(intervals.size() / 2),
                      intervals.end());
     record.usual_interval_s = intervals[intervals.size() / 2];
-    record.more_inputs = std::move(log.more_inputs);
-    record.simulated = std::move(log.simulated);
     return record;
 }
 

@@ -17,7 +17,10 @@ using Effects = std::vector<const Effect*>;
 constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
 constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
 constexpr std::size_t more_leads = 5;    // where none of them leaves noise alone
-constexpr std::size_t finalists = 8;     // pairs, and triples, that are fitted to the end
+constexpr std::size_t finalists_beside_a_form = 5;
+constexpr double hopeless_beside_a_form = 0.97;
+constexpr double too_far = 4.0;       // from the best single's cost
+constexpr std::size_t finalists = 8;  // pairs, and triples, that are fitted to the end
 constexpr Effort quick{3, 1, 6};
 // Real rigs have several causes at once; beside a model that is given more than three are an expansion of something
 // else.
@@ -43,14 +46,15 @@ public:
         for (const Effect* effect : of_.ground.list) {
             alone.push_back({effect});
         }
-        std::vector<Candidate> singles = fitted(alone, {&sketched}, nullptr, {6, 2, 25, hopeless * sketched.cost});
+        std::vector<Candidate> singles = fitted(alone, {&sketched}, nullptr, first_effort(sketched.cost));
         std::stable_sort(singles.begin(), singles.end(), by_cost);
         found_.whitener =
             whitener_of(of_.ground.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
         none_ = fit(of_.ground.study, {}, none_, fits_by());
         bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
             // Spread is not in the sum of squares: jitter stays in the race whatever its place.
-            const bool near = i < shortlisted || singles[i].has("sampling_jitter");
+            const bool far = of_.ground.study.base.refit && singles[i].cost > too_far * singles.front().cost;
+            const bool near = (i < shortlisted && !far) || singles[i].has("sampling_jitter");
             singles[i] = fit(of_.ground.study, singles[i].effects, singles[i], fits_by(),
                              {0, 1, near ? Effort{}.iterations : 0});
             fit_jitter(of_.ground.study, singles[i], found_.whitener);
@@ -89,6 +93,16 @@ public:
     }
 
 private:
+    // Beside a fitted base each fit has more numbers, and a coarse one is enough to be judged by: the finest is fitted
+    // last.
+    [[nodiscard]] Effort first_effort(double without) const {
+        return of_.ground.study.base.refit ? Effort{4, 1, 9, hopeless_beside_a_form * without}
+                                           : Effort{6, 2, 25, hopeless * without};
+    }
+    [[nodiscard]] std::size_t finalists_of() const {
+        return of_.ground.study.base.refit ? finalists_beside_a_form : finalists;
+    }
+
     // Jitter moves no reading, so it changes no other effect's fit: it is asked for once, beside the best of each size.
     [[nodiscard]] std::vector<Candidate> with_jitter() const {
         const auto jitter = std::find_if(of_.ground.list.begin(), of_.ground.list.end(),
@@ -192,7 +206,7 @@ private:
         of_.say(fmt::format("fitting {} {}", all.size(), what));
         std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
-        wide.resize(std::min(wide.size(), finalists));
+        wide.resize(std::min(wide.size(), finalists_of()));
         bench::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
             wide[i] = fit(of_.ground.study, wide[i].effects, wide[i], fits_by());
         });

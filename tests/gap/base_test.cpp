@@ -1,0 +1,172 @@
+// The base that records have by themselves: plants integrated here in small steps, with a little noise.
+#include "gap/drive/base/find.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "gap/drive/base/filtered.hpp"
+#include "gap/drive/base/jointly.hpp"
+#include "gap/drive/base/signs.hpp"
+#include "gap/drive/base/structure.hpp"
+
+namespace {
+
+constexpr double interval_s = 0.05;
+
+// y'' = acceleration(u late, y, y'), read every 50 ms.
+using Acceleration = std::function<double(double u, double y, double speed)>;
+
+struct Run {
+    std::function<double(double time_s)> input;
+    double length_s = 60.0;
+    double delay_s = 0.0;
+    double y = 0.0;
+    double speed = 0.0;
+    double noise = 1e-3;
+    unsigned seed = 1;
+};
+
+gap::Record run(const Acceleration& acceleration, const Run& of) {
+    constexpr int substeps = 50;
+    constexpr double step_s = interval_s / substeps;
+    gap::Record record;
+    record.name = "run";
+    record.usual_interval_s = interval_s;
+    std::mt19937_64 engine(of.seed);
+    std::normal_distribution<double> noise(0.0, of.noise);
+    double y = of.y;
+    double speed = of.speed;
+    for (int k = 0; k * interval_s < of.length_s; ++k) {
+        const double from_s = k * interval_s;
+        record.time_s.push_back(from_s);
+        record.input.push_back(of.input(from_s));
+        record.output.push_back(y + noise(engine));
+        for (int i = 0; i < substeps; ++i) {
+            const double late_s = from_s + (i + 0.5) * step_s - of.delay_s;
+            // Held from its stamp to the next; nothing before the record.
+            const double u = late_s < 0.0 ? 0.0 : of.input(std::floor(late_s / interval_s + 1e-9) * interval_s);
+            const double middle = speed + 0.5 * step_s * acceleration(u, y, speed);
+            y += step_s * middle;
+            speed += step_s * acceleration(u, y - 0.5 * step_s * middle, middle);
+        }
+    }
+    return record;
+}
+
+double levels(double time_s) {
+    constexpr double held[] = {0.0, 1.0, 0.3, 0.8, -0.5, 0.6, -1.0, 0.2, 0.9, -0.3, 0.5, 0.0};
+    return held[static_cast<int>(time_s / 5.0) % 12];
+}
+double other_levels(double time_s) { return levels(7.0 + 1.7 * time_s) - 0.2; }
+
+gap::Question question_of(gap::Record train, gap::Record validate) {
+    gap::Question question{
+        gap::form_to_find(), true, {std::move(train)}, {std::move(validate)}, {}, gap::Metric::simulation, {}, 2};
+    question.find = true;
+    return question;
+}
+
+std::vector<gap::Described> found(const Acceleration& plant, Run train, Run validate) {
+    train.input = train.input ? train.input : levels;
+    validate.input = validate.input ? validate.input : other_levels;
+    validate.seed = 2;
+    return gap::find_base(question_of(run(plant, train), run(plant, validate)), [](const std::string&) {});
+}
+
+double value_of(drive::Form form, const std::string& name) { return form.parameter(name).value; }
+
+TEST(Base, OfTwoLagsIsFoundWithItsDeadTime) {
+    // 2 / ((1 + 0.5 s)(1 + 1.5 s)) = 2 / (1 + 2 s + 0.75 s^2)
+    const auto plant = [](double u, double y, double speed) { return (2.0 * u - y - 2.0 * speed) / 0.75; };
+    const auto all = found(plant, {.delay_s = 0.4}, {.delay_s = 0.4});
+    ASSERT_EQ(all.front().name, "second_order");
+    EXPECT_NEAR(value_of(all.front().form, "gain"), 2.0, 0.01);
+    EXPECT_NEAR(value_of(all.front().form, "a1"), 2.0, 0.03);
+    EXPECT_NEAR(value_of(all.front().form, "a2"), 0.75, 0.03);
+    EXPECT_NEAR(value_of(all.front().form, "delay_s"), 0.4, 0.02);
+    EXPECT_LT(all.front().validation, 0.003);
+}
+
+TEST(Base, OfAnOscillatorIsFound) {
+    // wn = 4 rad/s, d = 0.05: 1 / (1 + 0.025 s + 0.0625 s^2)
+    const auto plant = [](double u, double y, double speed) { return 16.0 * (u - y) - 0.4 * speed; };
+    const auto all = found(plant, {}, {});
+    ASSERT_EQ(all.front().name, "second_order");
+    EXPECT_NEAR(value_of(all.front().form, "a2"), 0.0625, 5e-4);
+    EXPECT_NEAR(value_of(all.front().form, "a1"), 0.025, 2e-3);
+}
+
+TEST(Base, ThatIntegratesIsToldFromOneThatRests) {
+    const auto plant = [](double u, double, double speed) { return (0.5 * u - speed) / 0.8; };
+    const auto all = found(plant, {}, {});
+    ASSERT_EQ(all.front().name, "integrator_lag");
+    EXPECT_NEAR(value_of(all.front().form, "gain"), 0.5, 0.01);
+    EXPECT_NEAR(value_of(all.front().form, "a1"), 0.8, 0.05);
+}
+
+TEST(Base, OfOneLagIsNoRicherOne) {
+    // A second lag of 10 ms, far below the interval.
+    const auto plant = [](double u, double y, double speed) { return (u - y - 2.01 * speed) / 0.02; };
+    EXPECT_EQ(found(plant, {.noise = 0.01}, {.noise = 0.01}).front().name, "first_order");
+}
+
+TEST(Base, OfAFreeMotionIsItsSwing) {
+    const auto plant = [](double, double y, double speed) { return -9.0 * y - 0.2 * speed; };
+    const auto nothing = [](double) { return 0.0; };
+    const auto all =
+        found(plant, {.input = nothing, .length_s = 20.0, .y = 1.0}, {.input = nothing, .length_s = 20.0, .y = -0.6});
+    ASSERT_EQ(all.front().name, "second_order");
+    EXPECT_NEAR(value_of(all.front().form, "a2"), 1.0 / 9.0, 2e-3);
+    EXPECT_NEAR(value_of(all.front().form, "a1"), 0.2 / 9.0, 2e-3);
+    EXPECT_LT(all.front().validation, 0.02);
+}
+
+TEST(Base, IsRefusedByName) {
+    EXPECT_EQ(gap::structure_named("second_ordre"), nullptr);
+    EXPECT_EQ(gap::structure_named("third_order_zero")->numbers(), 5);
+}
+
+TEST(FilteredEstimates, OfACleanRecordAreItsCoefficients) {
+    const auto plant = [](double u, double y, double speed) { return (2.0 * u - y - 2.0 * speed) / 0.75; };
+    const gap::Record record = run(plant, {.input = levels, .noise = 0.0});
+    double nearest = 1.0;
+    for (const gap::Coefficients& one :
+         gap::filtered_estimates(*gap::structure_named("second_order"), {record}, true)) {
+        nearest = std::min(nearest, std::fabs(one.gain - 2.0) + std::fabs(one.denominator[0] - 2.0) +
+                                        std::fabs(one.denominator[1] - 0.75));
+    }
+    EXPECT_LT(nearest, 0.02);
+}
+
+TEST(Signs, OfReadingsThatLostThemAreTheInputs) {
+    const auto plant = [](double u, double y, double speed) { return (u - y - 0.6 * speed) / 0.05; };
+    const gap::Record truth = run(plant, {.input = levels, .noise = 0.0});
+    gap::Record lost = truth;
+    for (double& z : lost.output) {
+        z = std::fabs(z);
+    }
+    EXPECT_TRUE(gap::may_have_lost_signs({lost}));
+    EXPECT_FALSE(gap::may_have_lost_signs({truth}));
+    const gap::Record restored = gap::with_signs({lost}).front();
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        wrong += std::fabs(restored.output[i] - truth.output[i]) > 0.02 ? 1 : 0;
+    }
+    EXPECT_LT(wrong, truth.size() / 50);
+}
+
+// A record that ends before the plant has settled tells a slope: what it is on the way to, the validation alone says.
+TEST(JointGap, GoesWhereTrainingAloneDoesNotTellTheBase) {
+    const auto plant = [](double u, double y, double speed) { return (u - y - 60.0 * speed) / 1e-1; };
+    const auto on = [](double t) { return t > 1.0 ? 1.0 : 0.0; };
+    const auto off = [](double t) { return t > 1.0 && t < 200.0 ? 1.0 : 0.0; };
+    gap::Question question = question_of(run(plant, {.input = on, .length_s = 8.0, .noise = 5e-3}),
+                                         run(plant, {.input = off, .length_s = 400.0, .noise = 5e-3, .seed = 2}));
+    question.form = gap::start_of(*gap::structure_named("first_order"), question.train);
+    EXPECT_LT(gap::joint_gap(question), 0.03);
+}
+
+}  // namespace
