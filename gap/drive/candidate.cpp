@@ -203,6 +203,7 @@ Scenario scenario_of(const Study& study, const Candidate& candidate, std::size_t
     Scenario scenario;
     scenario.model = study.base.form.to_model(values);
     const FreeParameter* own = candidate.own[record].data();
+    scenario.operating_output = study.base.operating_output;
     if (study.base.refit) {
         (study.scales.steady ? scenario.operating_output : scenario.forces.bias) = (own++)->value;
         // The first reading is where it rests, whatever the operating point is.

@@ -24,14 +24,29 @@ std::vector<const Effect*> list_of(const Question& question, const Scales& scale
     return list;
 }
 
+// The user's own simulation is the base to the last digit; the model says what an effect would change of it.
+void agree_with(Course& course, const Scenario& plain, const std::vector<double>& simulated) {
+    const std::vector<double> reading = simulate(plain, course);
+    std::vector<double> correction = course.correction();
+    for (std::size_t i = 0; i < correction.size(); ++i) {
+        correction[i] += simulated[i] - reading[i];
+    }
+    course.correct(std::move(correction));
+}
+
 Study make_study(const Question& question, const std::vector<Record>& records, std::vector<std::vector<char>> counts,
                  const Scales& scales, const Audit& found) {
     const double least = std::max(0.29 * found.quantum, 2e-4 * scales.output_span);
     Study study{{question.form, question.refit}, scales, {}, std::move(counts), found.noise, least, 0};
     Scenario plain;
     plain.model = model_of(question.form);
+    plain.operating_output = question.operating_output;
+    study.base.operating_output = question.operating_output;
     for (const Record& record : records) {
         study.courses.push_back(make_course(record, plain, 0.3 * std::max(found.noise, least)));
+        if (!record.simulated.empty()) {
+            agree_with(study.courses.back(), plain, record.simulated);
+        }
     }
     if (question.metric == Metric::prediction) {
         const double ahead_s = question.horizon_s.value_or(0.02 * scales.length_s);

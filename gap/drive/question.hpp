@@ -20,6 +20,7 @@ struct Question {
     Metric metric = Metric::simulation;
     std::vector<std::string> without;  ///< effects that are taken off the list
     unsigned jobs = 1;
+    double operating_output = 0.0;         ///< of a given model: the point that its output is about
     std::optional<Domain> domain = {};     ///< what the plant is: effects that cannot be there are left out
     std::string base_name = {};            ///< of a fitted form
     bool open_form = false;                ///< the form is nobody's claim: a linear effect would be another form

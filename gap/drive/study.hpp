@@ -16,6 +16,7 @@ namespace gap {
 struct Base {
     drive::Form form;  ///< of the model, with its start values
     bool refit = false;
+    double operating_output = 0.0;  ///< of a model that is not refitted
 };
 
 struct Study {

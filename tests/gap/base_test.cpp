@@ -20,7 +20,7 @@ constexpr double interval_s = 0.05;
 using Acceleration = std::function<double(double u, double y, double speed)>;
 
 struct Run {
-    std::function<double(double time_s)> input;
+    std::function<double(double time_s)> input = {};
     double length_s = 60.0;
     double delay_s = 0.0;
     double y = 0.0;

@@ -22,8 +22,23 @@ bool may_have_lost_signs(const std::vector<Record>& records) {
     return above && below && low > -noise_share * (high - low);
 }
 
+namespace {
+
+// Where the values are least before they rise by so much again.
+template <class At>
+At first_turn(At begin, At end, double rise) {
+    At least = begin;
+    for (At at = begin; at != end && *at <= *least + rise; ++at) {
+        least = *at < *least ? at : least;
+    }
+    return least;
+}
+
+}  // namespace
+
 std::vector<Record> with_signs(std::vector<Record> records) {
     for (Record& record : records) {
+        const double highest = *std::max_element(record.output.begin(), record.output.end());
         double sign = 1.0;
         double driven = 0.0;  // the last sign of the input that is none of 0
         std::size_t from = 0;
@@ -33,15 +48,12 @@ std::vector<Record> with_signs(std::vector<Record> records) {
             if (i < record.size() && now == driven) {
                 continue;
             }
-            // What lies before this change of the input: the sign of the last one, from where the readings are least
-            // on.
-            const auto begin = record.output.begin();
-            const auto least =
-                std::min_element(begin + static_cast<std::ptrdiff_t>(from), begin + static_cast<std::ptrdiff_t>(i));
-            for (auto at = begin + static_cast<std::ptrdiff_t>(from); at != begin + static_cast<std::ptrdiff_t>(i);
-                 ++at) {
-                const bool turned = driven != 0.0 && at >= least;
-                *at *= turned ? driven : sign;
+            // What lies before this change of the input: the sign of the last one, from where the readings first turn.
+            const auto begin = record.output.begin() + static_cast<std::ptrdiff_t>(from);
+            const auto end = record.output.begin() + static_cast<std::ptrdiff_t>(i);
+            const auto turn = first_turn(begin, end, 0.05 * highest);
+            for (auto at = begin; at != end; ++at) {
+                *at *= driven != 0.0 && at >= turn ? driven : sign;
             }
             sign = driven != 0.0 ? driven : now;
             driven = now;
