@@ -91,8 +91,10 @@ TEST(ResultFile, OtherFilesAreRefusedWithAReason) {
     EXPECT_THAT(refusal("{\"benchmarks\": {}}"), HasSubstr("found other JSON"));
     EXPECT_THAT(refusal("3"), HasSubstr("found other JSON"));
     EXPECT_THAT(refusal("{\"benchmarks\": [], \"benchmarks\": []}"), HasSubstr("benchmarks is there twice"));
-    EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [3]}"), HasSubstr("row 1"));
-    EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [[]]}"), HasSubstr("row 1"));
+    EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [3]}"),
+                HasSubstr("row 1 of benchmarks: expected an object with a name, found 3"));
+    EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [[]]}"),
+                HasSubstr("row 1 of benchmarks: expected an object with a name, found []"));
     EXPECT_THAT(refusal("{\"context\": {}, \"benchmarks\": [{\"name\": \"a\", \"x\": [1]}]}"),
                 HasSubstr("(a): x: expected"));
     EXPECT_THAT(refusal("{\"context\": {\"a\": " + std::string(100000, '[')), HasSubstr("nested"));

@@ -1,8 +1,8 @@
 #!/bin/sh
-# run.sh --seed S --count N [--area A] [--alone]: draws N one-line changes of the product's code (draw.pl), makes them one at a time in the
-# copy that planted/plant.sh builds, and says which the unit tests notice. A: kernels, bench, qemu, gap or drive; all of them in
-# turn unless it is given. --alone: as plant.sh has it, quicker and a bit too strict. The last line: "killed K of M", where M leaves out what does not compile and what alters nothing.
-# Exit 0 however many survive.
+# run.sh --seed S --count N [--area A] [--alone]: draws N one-line changes of the product's code (draw.pl), makes them one at a
+# time in the copy that planted/plant.sh builds, and says which the unit tests notice. A: kernels, bench, qemu, gap or drive; all
+# of them in turn unless it is given. --alone: quicker and a bit too strict, as plant.sh has it. The last line: "killed K of M",
+# where M leaves out what does not compile and what alters nothing. Exit 0 however many survive.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
