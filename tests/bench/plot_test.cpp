@@ -252,6 +252,8 @@ TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
         text,
         HasSubstr(
             "$front << EOD\n1.000000e+02 5.000000e-01\n4.000000e+02 2.500000e-01\n8.000000e+02 1.250000e-01\nEOD\n"));
+    EXPECT_THAT(text, HasSubstr("4.000000e+01 1.250000e-01\nEOD\nset title \"order 0.5\""));
+    EXPECT_THAT(text, HasSubstr("$front << EOD\n2.000000e+01 7.500000e-01\nEOD\nset title \"order 0.9\""));
     EXPECT_EQ(count_of(text, "$front << EOD"), 4U);
     EXPECT_EQ(count_of(text, "1.000000e-09"), 0U);  // what is wrong is not shown, nor what has no cost
     EXPECT_EQ(count_of(text, "title \"f64\""), 0U);

@@ -81,7 +81,7 @@ tests_of() {
         kernels/model/*) echo drive_tests ;;
         kernels/*) echo kernel_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;
-        bench/generate/*) echo make_headers ;;
+        bench/generate/*) echo choose_tests make_headers ;;
         bench/report/*) echo bench_tests browser_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
         drive/*) echo drive_tests ;;
