@@ -98,6 +98,9 @@ TEST(Stability, RefusesADegreeThatIsTooLarge) {
     EXPECT_THROW((void)drive::judge_stability(plants::niopdt(), 0.0), glsum::Failure);
     EXPECT_THROW((void)drive::judge_stability(plants::niopdt(), -0.01), glsum::Failure);
     EXPECT_THROW((void)drive::judge_stability(with({{1, 1.0}, {1, 0.9}}), 0.5), glsum::Failure);
+    // Of more than 600 the roots would lose their digits.
+    EXPECT_EQ(drive::to_commensurate(with({{1, 6.0}, {1, 0}}), 0.01).denominator.size(), 601U);
+    EXPECT_THROW((void)drive::to_commensurate(with({{1, 6.01}, {1, 0}}), 0.01), glsum::Failure);
 }
 
 TEST(Commensurate, FindsTheCommonOrderWhereThereIsOne) {
