@@ -154,8 +154,8 @@ public:
             decision_.confidence = 0.95 - 0.3 * std::min(1.0, near / clear_advantage);
         } else {
             attribute(chosen, none);
-            if (is_main && unexplained > tolerated) {
-                decision_.confidence = std::min(decision_.confidence, 0.85);
+            if (study_.base.refit) {
+                doubt_beside_a_form(is_main && unexplained > tolerated);
             }
         }
         if (decision_.outcome == Outcome::no_gap) {
@@ -184,6 +184,21 @@ private:
             }
         }
         return std::nullopt;
+    }
+
+    // Beside a fitted form what is left, if it is no noise, is a cause that is not named or the form's own misfit, and either
+    // may have bent what is named. Events, located where they are judged, explain what others do.
+    void doubt_beside_a_form(bool foreseeable) {
+        constexpr double not_all = 0.75;
+        constexpr double an_event = 0.8;
+        const Ranked& named = ranking_[decision_.chosen];
+        const bool no_noise = over_noise(validation_, named.gap_after * output_deviation(validation_)) > usual_ratio;
+        if (foreseeable || no_noise) {
+            decision_.confidence = std::min(decision_.confidence, not_all);
+        }
+        if (has_events(named.trained)) {
+            decision_.confidence = std::min(decision_.confidence, an_event);
+        }
     }
 
     // Why a candidate cannot be named, whatever its likelihood: training leaves it open, or every record needs an event
@@ -439,7 +454,7 @@ private:
             const auto& input = course.record().input;
             return std::any_of(input.begin(), input.end(), [&](double u) { return u != input.front(); });
         });
-        if (!moves) {
+        if (!moves && study_.scales.driven) {
             decision_.notes.emplace_back(
                 "the input never moves within the training records: all that is known is one step at "
                 "their start");

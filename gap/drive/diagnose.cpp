@@ -8,6 +8,7 @@
 
 #include "gap/drive/base/jointly.hpp"
 #include "gap/drive/base/signs.hpp"
+#include "gap/drive/base/structure.hpp"
 #include "gap/drive/coverage.hpp"
 #include "gap/drive/determined.hpp"
 #include "gap/drive/experiment.hpp"
@@ -140,15 +141,13 @@ std::vector<const Described*> worth_asking(const std::vector<Described>& found) 
         }
     };
     const auto alike = [&](const Described& one) { return (one.integrators > 0) == (front.integrators > 0); };
-    add_first([&](const Described& one) {
-        return alike(one) && one.numbers < front.numbers && one.validation < 2.0 * front.validation;
-    });
-    add_first([&](const Described& one) {
-        return alike(one) && one.numbers > front.numbers && one.validation < 1.3 * front.validation;
-    });
-    add_first([&](const Described& one) {
-        return !alike(one) && one.integrators < 2 && one.validation < 1.3 * front.validation;
-    });
+    // Where it was fitted and where it was not.
+    const auto within = [&](const Described& one, double times) {
+        return one.aside < times * front.aside && one.validation < times * front.validation;
+    };
+    add_first([&](const Described& one) { return alike(one) && one.numbers < front.numbers && within(one, 2.0); });
+    add_first([&](const Described& one) { return alike(one) && one.numbers > front.numbers && within(one, 1.2); });
+    add_first([&](const Described& one) { return !alike(one) && one.integrators < 2 && within(one, 1.3); });
     return asked;
 }
 
@@ -188,6 +187,44 @@ void ask_jointly(Answer& answer, const Question& question) {
         jointly));
 }
 
+// Signs that the input says are a start; those of a base that was fitted to them are better, and so on, while they
+// change.
+Question with_signs_of_a_base(Question question) {
+    question.train = with_signs(std::move(question.train));
+    question.validate = with_signs(std::move(question.validate));
+    question.refit = true;
+    const Structure& structure = *structure_named("third_order");
+    constexpr int rounds = 12;
+    for (int round = 0; round < rounds; ++round) {
+        question.form = start_of(structure, question.train);
+        const Ground ground = prepare(question);
+        const Candidate fitted = fit(ground.study, {}, ground.base, nullptr);
+        bool changed = false;
+        const auto take = [&](std::vector<Record>& records, const Study& study, const Candidate& candidate) {
+            for (std::size_t r = 0; r < records.size(); ++r) {
+                const std::vector<double> left = residuals_of(study, candidate, r);
+                for (std::size_t i = 0; i < left.size(); ++i) {
+                    double& z = records[r].output[i];
+                    const double now = std::copysign(z, z - left[i]);
+                    changed = changed || now != z;
+                    z = now;
+                }
+            }
+        };
+        Question next = question;
+        take(next.train, ground.study, fitted);
+        if (!question.validate.empty()) {
+            take(next.validate, ground.validation, carried_over(ground.validation, fitted, nullptr));
+        }
+        question.train = std::move(next.train);
+        question.validate = std::move(next.validate);
+        if (!changed) {
+            break;
+        }
+    }
+    return question;
+}
+
 Answer answer_with_found_base(Question question, const std::function<void(const std::string&)>& say) {
     std::vector<Described> found = find_base(question, say);
     question.refit = true;
@@ -195,16 +232,11 @@ Answer answer_with_found_base(Question question, const std::function<void(const 
     // follows them with it, and the loss is an effect like others.
     constexpr double poor = 0.5;
     if (found.front().validation > poor && may_have_lost_signs(question.train)) {
-        Question restored = question;
-        restored.train = with_signs(question.train);
-        restored.validate = with_signs(question.validate);
-        std::vector<Described> better = find_base(restored, say);
+        say("looking for signs that the sensor may have lost");
+        std::vector<Described> better = find_base(with_signs_of_a_base(question), say);
         if (better.front().validation < 0.5 * found.front().validation) {
             found = std::move(better);
         }
-    }
-    if (question.metric_free) {
-        question.metric = rests(found.front().form) ? Metric::simulation : Metric::prediction;
     }
     const double floor = 1e-4;
     std::vector<Tried> tried;

@@ -365,6 +365,12 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             attempt.own.push_back(own_of(study, r, effects, start));
         }
         guess_events(study, attempt);
+        // What bends a swing changes its period: alone, before the base may follow, it would only be driven back to none.
+        if (study.base.refit && study.scales.swings && !effects.empty()) {
+            Candidate at_once = attempt;
+            descend(study, at_once, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
+            attempts.push_back(std::move(at_once));
+        }
         approach(study, attempt, whitener);
         descend(study, attempt, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
         attempts.push_back(std::move(attempt));

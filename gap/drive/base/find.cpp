@@ -168,7 +168,7 @@ std::vector<Described> find_base(const Question& question, const std::function<v
                         question.train.front().name));
     }
     const double floor = above_noise * audit(alone.train).noise / deviation_of(alone.train);
-    const auto size_of = [&](double gap) { return std::log(std::clamp(gap, std::max(floor, 1e-6), 1.0)); };
+    const auto size_of = [&](double gap) { return std::log(std::max({gap, floor, 1e-6})); };
     const auto price = [&](const Described& one) {
         return 0.5 * (size_of(one.aside) + size_of(one.validation)) + worth_a_number * one.numbers +
                (one.integrators > 0 ? worth_an_integrator : 0.0);
