@@ -140,6 +140,7 @@ void run(const Options& options) {
         gap::take_base(question, options.model);
     } else if (options.refit) {
         question.base_name = "the model, refitted";
+        question.given_form = true;
     }
     if (!options.domain.empty()) {
         question.domain = gap::domain_named(options.domain);

@@ -302,7 +302,7 @@ Answer answer_beside_simulation(Question question, const std::function<void(cons
     } else {
         question.base_name = "the simulation, with the given model";
     }
-    question.find = question.refit = question.open_form = false;
+    question.find = question.refit = false;
     Answer answer = answer_to(question, say);
     answer.base_name = question.base_name;
     constexpr double poorly = 0.1;

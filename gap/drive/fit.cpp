@@ -343,11 +343,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
     for (std::size_t s = 0; s < count; ++s) {
         Candidate attempt;
         attempt.effects = effects;
-        const bool afresh =
-            start.base.empty() || std::any_of(effects.begin(), effects.end(), [&](const Effect* effect) {
-                return effect->hides_base && !start.has(effect->name);
-            });
-        attempt.base = afresh ? base_of(study) : start.base;
+        attempt.base = start.base.empty() ? base_of(study) : start.base;
         for (const Effect* effect : effects) {
             if (effect->kind == Kind::lasting) {
                 // What another candidate knows of the same effect is a better start than any.
@@ -365,7 +361,16 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             attempt.own.push_back(own_of(study, r, effects, start));
         }
         guess_events(study, attempt);
-        // What bends a swing changes its period: alone, before the base may follow, it would only be driven back to none.
+        // A base that was fitted to readings which hide it leads nowhere near the form's own values.
+        if (std::any_of(effects.begin(), effects.end(),
+                        [&](const Effect* effect) { return effect->hides_base && !start.has(effect->name); })) {
+            Candidate afresh = attempt;
+            afresh.base = base_of(study);
+            descend(study, afresh, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
+            attempts.push_back(std::move(afresh));
+        }
+        // What bends a swing changes its period: alone, before the base may follow, it would only be driven back to
+        // none.
         if (study.base.refit && study.scales.swings && !effects.empty()) {
             Candidate at_once = attempt;
             descend(study, at_once, false, whitener, in_stages ? effort.first_iterations : effort.iterations);

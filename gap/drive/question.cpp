@@ -17,7 +17,7 @@ std::vector<const Effect*> list_of(const Question& question, const Scales& scale
         const bool elsewhere = question.domain && !effect->domains.contains(*question.domain);
         const bool of_input = effect->place == Place::command || effect->place == Place::actuator;
         if (!off && !elsewhere && !(of_input && !scales.driven) && !(question.refit && effect->of_fitted_base) &&
-            !(question.open_form && effect->linear) && applies(*effect, scales)) {
+            !(question.refit && !question.given_form && effect->linear) && applies(*effect, scales)) {
             list.push_back(effect);
         }
     }

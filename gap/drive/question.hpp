@@ -23,7 +23,7 @@ struct Question {
     double operating_output = 0.0;         ///< of a given model: the point that its output is about
     std::optional<Domain> domain = {};     ///< what the plant is: effects that cannot be there are left out
     std::string base_name = {};            ///< of a fitted form
-    bool open_form = false;                ///< the form is nobody's claim: a linear effect would be another form
+    bool given_form = false;               ///< of a model that is refitted: a linear effect is no other form of it
     bool find = false;                     ///< the base is looked for: `form` is none yet
     bool metric_free = false;              ///< predictions where the base that is found rests nowhere
     std::optional<double> horizon_s = {};  ///< of predictions; a fiftieth of the record unless it is given

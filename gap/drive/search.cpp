@@ -70,6 +70,10 @@ public:
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();
+            if (fits_by() != nullptr && has_sized(2)) {
+                take(again(2));
+                renew_whitener();
+            }
             if (worth_more(found_.ranking.front()) && has_sized(2)) {
                 take(exchanged());
                 renew_whitener();
@@ -168,6 +172,22 @@ private:
             halves.push_back(fit(of_.ground.sketch, {effect}, pair, fits_by(), {0, 1, 0}));
         }
         return with_one_more({&halves[0], &halves[1]}, "exchanges");
+    }
+
+    // The best of a size once more: what was whitened by a single effect's residuals was fitted to those of the single.
+    std::vector<Candidate> again(std::size_t size) const {
+        constexpr std::size_t most = 3;
+        std::vector<const Candidate*> best;
+        for (const Ranked& ranked : found_.ranking) {
+            if (ranked.trained.effects.size() == size && best.size() < most) {
+                best.push_back(&ranked.trained);
+            }
+        }
+        std::vector<Candidate> fitted(best.size());
+        bench::parallel_for(best.size(), of_.jobs, [&](std::size_t i) {
+            fitted[i] = fit(of_.ground.study, best[i]->effects, *best[i], fits_by());
+        });
+        return fitted;
     }
 
     // The best of a size without one of its effects: what the last one brought about was perhaps only a better start,

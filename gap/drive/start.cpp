@@ -88,7 +88,6 @@ drive::Form search_form(const std::string& form, const std::vector<Record>& reco
 
 void take_base(Question& question, const std::string& words) {
     question.refit = true;
-    question.open_form = true;
     if (words == "fit") {
         question.find = true;
         question.form = form_to_find();

@@ -42,6 +42,7 @@ Question to_question(const Asked& asked, Given given, unsigned jobs) {
                       .metric = asked.metric.value_or(Metric::simulation),
                       .without = {},
                       .jobs = jobs};
+    question.given_form = !asked.is_fitted();
     question.metric_free = !asked.metric;
     if (!asked.domain.empty()) {
         question.domain = domain_named(asked.domain);
