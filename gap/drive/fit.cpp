@@ -323,6 +323,33 @@ const std::vector<FreeParameter>* lasting_of(const Candidate& candidate, const E
     return nullptr;
 }
 
+// A candidate's effects at the values at which they are not there, but for those that the start has, on the start's
+// base.
+Candidate without_new_effects(const Study& study, const Candidate& of, const Candidate& start) {
+    Candidate absent = of;
+    absent.base = start.base;
+    std::size_t lasting = 0;
+    for (const Effect* effect : absent.effects) {
+        if (effect->kind != Kind::lasting) {
+            continue;
+        }
+        std::vector<FreeParameter>& numbers = absent.lasting[lasting++];
+        if (const auto* known = lasting_of(start, effect)) {
+            numbers = *known;
+            continue;
+        }
+        const std::vector<EffectParameter> named = effect->parameters(study.scales);
+        for (std::size_t i = 0; i < numbers.size(); ++i) {
+            numbers[i].value =
+                numbers[i].fixed ? numbers[i].value : std::clamp(named[i].none, numbers[i].lower, numbers[i].upper);
+        }
+    }
+    for (std::size_t r = 0; r < absent.own.size(); ++r) {
+        absent.own[r] = own_of(study, r, absent.effects, start);
+    }
+    return absent;
+}
+
 }  // namespace
 
 Candidate fit(const Study& study, const std::vector<const Effect*>& effects, const Candidate& start,
@@ -390,7 +417,14 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             }
         }
     }
-    return *std::min_element(attempts.begin(), attempts.end(), by_cost);
+    const Candidate& best = *std::min_element(attempts.begin(), attempts.end(), by_cost);
+    if (study.base.refit && !effects.empty() && start.own.size() == study.courses.size()) {
+        // Any effect may be absent: then it goes as far as what it was begun from.
+        Candidate absent = without_new_effects(study, best, start);
+        absent.cost = cost_of(study, absent, whitener);
+        return absent.cost < best.cost ? absent : best;
+    }
+    return best;
 }
 
 Candidate carried_over(const Study& study, const Candidate& fitted, const Whitener* whitener) {
