@@ -14,6 +14,8 @@ constexpr double quantile = 1.96;  // of a normal deviation: 95 %
 constexpr double likely = 2.0;     // units of likelihood: 95 %
 constexpr int tries = 16;          // of a range, on each side
 
+constexpr double anywhere = 4.0;  // deviations: of noise, too, the best of all times is some
+
 double half_squares(const Study& study, const Candidate& candidate, const Whitener* whitener) {
     double sum = 0.0;
     for (std::size_t r = 0; r < study.courses.size(); ++r) {
@@ -129,7 +131,8 @@ bool needs_event(const Study& study, const std::vector<FreeParameter>& own, cons
         const auto mine = std::find_if(own.begin(), own.end(), [&](const FreeParameter& free) {
             return free.name == effect.name + "." + parameter.name;
         });
-        return parameter.name.starts_with("size") && mine != own.end() && !holds(*mine, parameter.none);
+        return parameter.name.starts_with("size") && mine != own.end() &&
+               std::fabs(mine->value - parameter.none) > anywhere * mine->deviation;
     });
 }
 

@@ -1,0 +1,89 @@
+// What training tells of numbers, on logs of the virtual stand.
+#include "gap/drive/determined.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "gap/drive/fit.hpp"
+#include "gap/drive/question.hpp"
+#include "stand_case.hpp"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Fitted to training alone, with its intervals.
+gap::Candidate trained(const gap::Ground& ground, const std::string& effect) {
+    gap::Candidate candidate = gap::fit(ground.study, {&gap::effect_named(effect)}, ground.base, nullptr);
+    gap::add_intervals(ground.study, candidate, nullptr);
+    return candidate;
+}
+
+TEST(Untold, IsNothingOfAnEffectThatIsThere) {
+    const gap::Question question =
+        gap_test::question_of({{"input_saturation.limit", 0.08}}, {.seed = 71}, {.seed = 72});
+    const gap::Ground ground = gap::prepare(question);
+    const gap::Candidate candidate = trained(ground, "input_saturation");
+    EXPECT_EQ(gap::untold_of(ground.study, candidate), "");
+    const gap::FreeParameter& limit = candidate.lasting.front().front();
+    EXPECT_LE(limit.low, limit.value);
+    EXPECT_GE(limit.high, limit.value);
+    EXPECT_LT(limit.high - limit.low, 0.01);
+    EXPECT_NEAR(limit.value, 0.08, 0.002);
+}
+
+TEST(Untold, IsTheSizeOfAnEffectThatIsNot) {
+    const gap::Question question = gap_test::question_of({}, {.seed = 73}, {.seed = 74});
+    const gap::Ground ground = gap::prepare(question);
+    for (const char* effect : {"coulomb_friction", "gain_drift", "backlash", "sensor_drift"}) {
+        EXPECT_THAT(gap::untold_of(ground.study, trained(ground, effect)),
+                    StartsWith("training leaves " + std::string(effect)));
+    }
+}
+
+// A step that only rises tells nothing of a lag downwards: whatever validation makes of it is a guess.
+TEST(Untold, IsALagInADirectionThatTrainingLacks) {
+    const gap::Question question =
+        gap_test::question_of({}, {.experiment = "step", .seed = 75}, {.experiment = "pulse", .seed = 76});
+    const gap::Ground ground = gap::prepare(question);
+    gap::Candidate candidate = trained(ground, "input_dead_zone");
+    candidate = gap::fit(ground.study, {&gap::effect_named("direction_asymmetry")}, ground.base, nullptr);
+    candidate.lasting.front()[1].value = 0.3;  // the lag downwards, as if validation had told it
+    gap::add_intervals(ground.study, candidate, nullptr);
+    EXPECT_THAT(gap::untold_of(ground.study, candidate), HasSubstr("is no effect"));
+}
+
+// Between two levels of a staircase a threshold may lie anywhere: it moves no reading, and is known to the levels.
+TEST(Intervals, OfAThresholdReachToTheLevelsBesideIt) {
+    const gap::Question question = gap_test::question_of({{"start_up_threshold.threshold", 0.05}}, {.seed = 77},
+                                                         {.experiment = "prbs", .low_duty = 0.02, .seed = 78});
+    const gap::Ground ground = gap::prepare(question);
+    gap::Candidate candidate = trained(ground, "start_up_threshold");
+    EXPECT_EQ(gap::untold_of(ground.study, candidate), "");
+    const gap::FreeParameter& threshold = candidate.lasting.front().front();
+    std::set<double> levels;
+    for (const gap::Course& course : ground.study.courses) {
+        levels.insert(course.record().input.begin(), course.record().input.end());
+    }
+    const auto above = levels.upper_bound(0.05);
+    ASSERT_NE(above, levels.begin());
+    EXPECT_GT(threshold.low, *std::prev(above) - 0.01);
+    EXPECT_LT(threshold.high, *above + 0.01);
+    EXPECT_GT(threshold.high - threshold.low, 0.0);
+}
+
+TEST(Events, AreNeededOnlyWhereTheyHappened) {
+    const gap_test::Sizes sizes = {
+        {"load_disturbance.size", 0.02}, {"load_disturbance.from_s", 7.0}, {"load_disturbance.to_s", 9.0}};
+    gap::Question question = gap_test::question_of(sizes, {.seed = 79}, {.seed = 80});
+    question.train.push_back(gap_test::log_of({}, {.seed = 81}));
+    const gap::Ground ground = gap::prepare(question);
+    const gap::Candidate candidate = trained(ground, "load_disturbance");
+    EXPECT_TRUE(gap::needs_event(ground.study, candidate.own[0], gap::effect_named("load_disturbance")));
+    EXPECT_FALSE(gap::needs_event(ground.study, candidate.own[1], gap::effect_named("load_disturbance")));
+}
+
+}  // namespace
