@@ -186,8 +186,8 @@ private:
         return std::nullopt;
     }
 
-    // Beside a fitted form what is left, if it is no noise, is a cause that is not named or the form's own misfit, and either
-    // may have bent what is named. Events, located where they are judged, explain what others do.
+    // Beside a fitted form what is left, if it is no noise, is a cause that is not named or the form's own misfit, and
+    // either may have bent what is named. Events, located where they are judged, explain what others do.
     void doubt_beside_a_form(bool foreseeable) {
         constexpr double not_all = 0.75;
         constexpr double an_event = 0.8;
@@ -213,20 +213,31 @@ private:
             Candidate trained = ranking_[i].trained;
             add_intervals(study_, trained, study_.base.refit ? nullptr : &whitener_);
             what = untold_of(study_, trained);
+            if (what.empty() && study_.base.refit && has_events(trained)) {
+                what = objection_to_events(trained, ranking_[i].candidate);
+            }
         }
         return objections_.emplace(i, std::move(what)).first->second;
     }
 
-    /// \param trained  with its intervals
-    [[nodiscard]] std::string event_everywhere(const Candidate& trained, Candidate judged) const {
+    // Of events beside a fitted form. \param trained  with its intervals
+    [[nodiscard]] std::string objection_to_events(const Candidate& trained, Candidate judged) const {
         add_intervals(validation_, judged, nullptr);
         for (const Effect* effect : trained.effects) {
-            const auto in_all = [&](const Study& study, const Candidate& candidate) {
-                return std::all_of(candidate.own.begin(), candidate.own.end(),
-                                   [&](const auto& own) { return needs_event(study, own, *effect); });
+            if (effect->kind != Kind::event) {
+                continue;
+            }
+            const auto needs = [&](const Study& study, const Candidate& candidate) {
+                return std::count_if(candidate.own.begin(), candidate.own.end(),
+                                     [&](const auto& own) { return needs_event(study, own, *effect); });
             };
-            if (effect->kind == Kind::event && !same_records_ && in_all(study_, trained) &&
-                in_all(validation_, judged)) {
+            const auto fitted = needs(study_, trained);
+            const auto validated = needs(validation_, judged);
+            if (validated == 0) {
+                return fmt::format("validation does not tell {} from none", effect->name);
+            }
+            if (!same_records_ &&
+                fitted + validated == static_cast<std::ptrdiff_t>(trained.own.size() + judged.own.size())) {
                 return fmt::format("every record needs a {} of its own", effect->name);
             }
         }
@@ -304,6 +315,11 @@ private:
             const Interval over = advantage(ranking_[chosen], ranking_[i]);
             const bool near = over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage);
             if (near && !objection(i).empty()) {
+                continue;
+            }
+            // An event is located where it is judged; what kept its numbers and goes as far says more.
+            if (near && study_.base.refit && has_events(other) && !has_events(ranking_[chosen].trained)) {
+                nearest = std::min(nearest, parting_advantage);
                 continue;
             }
             if (near) {
