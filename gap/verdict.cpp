@@ -145,6 +145,20 @@ std::string where_text(const Where& where) {
                               100.0 * where.falling, 100.0 * where.still);
 }
 
+// Four digits of each number, for people.
+drive::Model rounded(drive::Model model) {
+    const auto round = [](double& value) { value = std::stod(fmt::format("{:.4g}", value)); };
+    round(model.gain);
+    round(model.delay_s);
+    for (auto* terms : {&model.numerator, &model.denominator}) {
+        for (drive::Term& term : *terms) {
+            round(term.coefficient);
+            round(term.order);
+        }
+    }
+    return model;
+}
+
 // The base with the numbers that it has beside what was found, and each record's own.
 Json base_json(const Answer& answer) {
     const Candidate& chosen = answer.chosen().trained;
@@ -277,7 +291,7 @@ std::string to_text(const Answer& answer) {
                         answer.metric, decision.base_gap, answer.chosen().gap_after, decision.noise_floor);
     if (!answer.base_name.empty()) {
         text += fmt::format("base: {}, {}; the best linear description explains {:.1f} % of the variance\n",
-                            answer.base_name, drive::to_text(answer.model_of(answer.chosen().trained)),
+                            answer.base_name, drive::to_text(rounded(answer.model_of(answer.chosen().trained))),
                             100.0 * answer.linear_share);
     }
     if (decision.suspect) {

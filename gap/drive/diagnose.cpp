@@ -163,7 +163,8 @@ std::vector<std::string> causes_of(const Answer& answer) {
     return names;
 }
 
-// What a fitted base does as well when it sees the validation, too, is none of the drive's effects.
+// What the best base does as well when it sees the validation, too, is none of the drive's effects. Of a form that was
+// asked for it may be the form's own misfit, as well in one record as in two.
 void ask_jointly(Answer& answer, const Question& question) {
     if (answer.decision.outcome == Outcome::no_gap) {
         return;
@@ -344,9 +345,6 @@ Answer diagnose(Question question, const std::function<void(const std::string&)>
     }
     Answer answer = answer_to(question, say);
     answer.base_name = question.base_name;
-    if (question.refit) {
-        ask_jointly(answer, question);
-    }
     return answer;
 }
 
