@@ -1,6 +1,7 @@
 #include "gap/page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -159,6 +160,13 @@ std::string to_html(const Answer& answer) {
         "<p>confidence {3:.2f}; gap ({4}) {5:.4f} before, {6:.4f} after, {7:.4f} at best</p>\n",
         name_of(decision.outcome), escaped(named), style, decision.confidence, escaped(answer.metric),
         decision.base_gap, chosen.gap_after, decision.noise_floor);
+    for (const std::string& line : {base_line(answer), suspect_line(answer)}) {
+        html += line.empty() ? "" : fmt::format("<p>{}.</p>\n", escaped(line));
+    }
+    if (!answer.extrapolated.empty()) {
+        html += fmt::format("<p class=\"dim\">Extrapolated, as training has none of it: {}.</p>\n",
+                            escaped(fmt::format("{}", fmt::join(answer.extrapolated, ", "))));
+    }
     if (answer.split) {
         html += "<p class=\"dim\">No validation log: parts of the training log were kept aside for it.</p>\n";
     }

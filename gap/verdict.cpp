@@ -174,6 +174,15 @@ Json base_json(const Answer& answer) {
               {"parameters", parameters},
               {"interval", interval},
               {"linear_share", answer.linear_share}};
+    // Each record's operating point, state and events, which are its own.
+    const std::vector<std::vector<FreeParameter>>& own = answer.chosen().candidate.own;
+    for (std::size_t r = 0; r < own.size() && r < answer.records.size() && !own[r].empty(); ++r) {
+        Json numbers = Json::object();
+        for (const FreeParameter& parameter : own[r]) {
+            numbers[parameter.name] = parameter.value;
+        }
+        base["records"].push_back({{"record", answer.records[r].name}, {"numbers", numbers}});
+    }
     for (const Described& one : answer.descriptions) {
         base["descriptions"].push_back({{"form", one.name}, {"gap_aside", one.aside}, {"gap", one.validation}});
     }
@@ -280,6 +289,31 @@ std::vector<std::string> events_of(const Answer& answer) {
     return names;
 }
 
+std::string base_line(const Answer& answer) {
+    if (answer.base_name.empty()) {
+        return "";
+    }
+    std::string line =
+        fmt::format("base: {}, {}; the best linear description explains {:.1f} % of the variance", answer.base_name,
+                    drive::to_text(rounded(answer.model_of(answer.chosen().trained))), 100.0 * answer.linear_share);
+    const std::vector<std::vector<FreeParameter>>& own = answer.chosen().candidate.own;
+    for (std::size_t r = 0; r < own.size() && !own[r].empty(); ++r) {
+        line += fmt::format("{} {} {:.4g}", r == 0 ? "; of the records judged:" : ",", own[r].front().name,
+                            own[r].front().value);
+    }
+    return line;
+}
+
+std::string suspect_line(const Answer& answer) {
+    if (!answer.decision.suspect) {
+        return "";
+    }
+    const Ranked& suspect = answer.ranking[*answer.decision.suspect];
+    return fmt::format("suspect: {} brings the gap from {:.4f} to {:.4f}; {:.0f} % of its square stay unexplained",
+                       suspect.trained.name(), answer.decision.base_gap, suspect.gap_after,
+                       100.0 * unexplained_share(answer, suspect));
+}
+
 std::string to_text(const Answer& answer) {
     const Decision& decision = answer.decision;
     std::string text = fmt::format("verdict: {}", name_of(decision.outcome));
@@ -289,16 +323,8 @@ std::string to_text(const Answer& answer) {
     text += fmt::format(" (confidence {:.2f})\n\n", decision.confidence);
     text += fmt::format("gap, rms over the output's deviation, {}: {:.4f} before, {:.4f} after, {:.4f} at best\n",
                         answer.metric, decision.base_gap, answer.chosen().gap_after, decision.noise_floor);
-    if (!answer.base_name.empty()) {
-        text += fmt::format("base: {}, {}; the best linear description explains {:.1f} % of the variance\n",
-                            answer.base_name, drive::to_text(rounded(answer.model_of(answer.chosen().trained))),
-                            100.0 * answer.linear_share);
-    }
-    if (decision.suspect) {
-        const Ranked& suspect = answer.ranking[*decision.suspect];
-        text += fmt::format(
-            "suspect: {} brings the gap from {:.4f} to {:.4f}; {:.0f} % of its square stay unexplained\n",
-            suspect.trained.name(), decision.base_gap, suspect.gap_after, 100.0 * unexplained_share(answer, suspect));
+    for (const std::string& line : {base_line(answer), suspect_line(answer)}) {
+        text += line.empty() ? "" : line + "\n";
     }
     text += fmt::format("variance explained: {:.1f} % by the simulation, {:.1f} % by the best candidate\n",
                         explained_percent(decision.base_gap), explained_percent(answer.chosen().gap_after));

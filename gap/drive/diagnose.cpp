@@ -170,8 +170,9 @@ void ask_jointly(Answer& answer, const Question& question) {
         return;
     }
     constexpr double as_well = 1.15;
+    constexpr double nearly_all = 0.25;  // more than that left, and something is missing
     const double jointly = joint_gap(question);
-    if (jointly > as_well * answer.chosen().gap_after || jointly > 0.7 * answer.none().gap_after) {
+    if (jointly > as_well * answer.chosen().gap_after || jointly > nearly_all * answer.none().gap_after) {
         return;
     }
     answer.decision.outcome = Outcome::no_gap;

@@ -1,16 +1,21 @@
 // The base that records have by themselves: plants integrated here in small steps, with a little noise.
 #include "gap/drive/base/find.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "gap/drive/base/filtered.hpp"
 #include "gap/drive/base/jointly.hpp"
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/base/structure.hpp"
+#include "gap/drive/diagnose.hpp"
+#include "gap/page.hpp"
+#include "gap/verdict.hpp"
 
 namespace {
 
@@ -122,6 +127,25 @@ TEST(Base, OfAFreeMotionIsItsSwing) {
     EXPECT_NEAR(value_of(all.front().form, "a2"), 1.0 / 9.0, 2e-3);
     EXPECT_NEAR(value_of(all.front().form, "a1"), 0.2 / 9.0, 2e-3);
     EXPECT_LT(all.front().validation, 0.02);
+}
+
+// What files and people are told of it.
+TEST(Base, StandsInTheVerdictWithItsNumbers) {
+    const auto plant = [](double u, double y, double speed) { return (2.0 * u - y - 2.0 * speed) / 0.75; };
+    gap::Question question = question_of(run(plant, {.input = levels}), run(plant, {.input = other_levels, .seed = 2}));
+    const gap::Answer answer = gap::diagnose(question, [](const std::string&) {});
+    EXPECT_EQ(answer.decision.outcome, gap::Outcome::no_gap);
+    const nlohmann::json base = nlohmann::json::parse(gap::to_json(answer)).at("base");
+    EXPECT_EQ(base.at("form"), "second_order");
+    EXPECT_NEAR(base.at("parameters").at("gain").get<double>(), 2.0, 0.01);
+    EXPECT_LT(base.at("interval").at("gain")[0].get<double>(), 2.0);
+    EXPECT_GT(base.at("interval").at("gain")[1].get<double>(), 2.0);
+    EXPECT_GT(base.at("linear_share").get<double>(), 0.9999);
+    EXPECT_LE(base.at("linear_share").get<double>(), 1.0);
+    EXPECT_NEAR(base.at("records")[0].at("numbers").at("offset").get<double>(), 0.0, 0.01);
+    EXPECT_THAT(gap::to_text(answer),
+                testing::HasSubstr("the best linear description explains 100.0 % of the variance"));
+    EXPECT_THAT(gap::to_html(answer), testing::HasSubstr("base: second_order"));
 }
 
 TEST(Base, IsRefusedByName) {
