@@ -11,8 +11,7 @@ const Effect& cubic_stiffness();
 namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
-    // A speed has no spring.
-    if (!scales.steady || scales.maybe_speed) {
+    if (!scales.steady) {
         return {};
     }
     // Of a spring that gives way: down to where it has nearly no stiffness left.

@@ -11,8 +11,7 @@ const Effect& gravity_nonlinearity();
 namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
-    // A speed has no spring.
-    if (!scales.steady || scales.maybe_speed) {
+    if (!scales.steady) {
         return {};
     }
     // A swing of nearly half a turn, farther than which a weight does not fall back.
