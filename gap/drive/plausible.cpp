@@ -92,6 +92,11 @@ void check_plausible(const Study& study) {
     }
     const drive::Model model = model_of(study.base.form);
     for (const Course& course : study.courses) {
+        if (!study.scales.driven && course.record().simulated.empty()) {
+            refuse(course.record(),
+                   "the input is 0 throughout: from rest a given model stays there; --refit or --model fit find where a "
+                   "free motion begins");
+        }
         check_times(course.record(), model);
         check_units(course, model);
     }

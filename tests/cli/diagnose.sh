@@ -50,7 +50,7 @@ expect 0 "no validation record" diagnose drive --model "$folder/linear.json" --l
 expect 2 "found the training log itself" diagnose drive --model "$folder/linear.json" --log "$folder/train.csv" --validate "$folder/train.csv"
 expect 0 "fitting" diagnose drive --model fit:sopdt --log "$folder/clean.csv" --validate "$folder/cleaner.csv"
 
-expect 2 "expected fit:fopdt, fit:sopdt, fit:niopdt or fit:integrator" diagnose drive --model fit:pid --log "$folder/clean.csv"
+expect 2 "fit:pid: expected one of fopdt, sopdt" diagnose drive --model fit:pid --log "$folder/clean.csv"
 expect 2 "cannot read" diagnose drive --model "$folder/none.json" --log "$folder/clean.csv"
 expect 2 "no effect wear" diagnose drive --model "$folder/linear.json" --log "$folder/clean.csv" --without wear
 awk -F, 'NR < 3 {print; next} {printf "%s,%s,%.6f\n", $1, $2, 1000 * $3}' "$folder/clean.csv" | sed 's/angle_rad/output/' >"$folder/milli.csv"
