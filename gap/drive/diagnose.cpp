@@ -146,8 +146,15 @@ std::vector<const Described*> worth_asking(const std::vector<Described>& found) 
         return one.aside < times * front.aside && one.validation < times * front.validation;
     };
     add_first([&](const Described& one) { return alike(one) && one.numbers < front.numbers && within(one, 2.0); });
-    add_first([&](const Described& one) { return alike(one) && one.numbers > front.numbers && within(one, 1.2); });
-    add_first([&](const Described& one) { return !alike(one) && one.integrators < 2 && within(one, 1.3); });
+    // A richer one that says nothing more would only say it again.
+    const auto further = [&](const Described& one) {
+        constexpr double more = 0.97;
+        return one.aside < more * front.aside || one.validation < more * front.validation;
+    };
+    add_first([&](const Described& one) {
+        return alike(one) && one.numbers > front.numbers && within(one, 1.2) && further(one);
+    });
+    add_first([&](const Described& one) { return !alike(one) && one.integrators < 2 && within(one, 1.6); });
     return asked;
 }
 
@@ -198,7 +205,7 @@ Question with_signs_of_a_base(Question question) {
     const Structure& structure = *structure_named("third_order");
     constexpr int rounds = 12;
     for (int round = 0; round < rounds; ++round) {
-        question.form = start_of(structure, question.train);
+        question.form = starts_of(structure, question.train).whole;
         const Ground ground = prepare(question);
         const Candidate fitted = fit(ground.study, {}, ground.base, nullptr);
         bool changed = false;

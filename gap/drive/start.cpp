@@ -32,7 +32,7 @@ drive::Model unit_model(const std::string& form, double time_constant_s, double 
 
 drive::Form search_form(const std::string& form, const std::vector<Record>& records) {
     if (const Structure* structure = structure_named(form)) {
-        return start_of(*structure, records);
+        return starts_of(*structure, records).whole;
     }
     if (form != "fopdt" && form != "sopdt" && form != "niopdt" && form != "integrator") {
         std::vector<std::string> known = {"fopdt", "sopdt", "niopdt", "integrator"};

@@ -189,7 +189,7 @@ TEST(JointGap, GoesWhereTrainingAloneDoesNotTellTheBase) {
     const auto off = [](double t) { return t > 1.0 && t < 200.0 ? 1.0 : 0.0; };
     gap::Question question = question_of(run(plant, {.input = on, .length_s = 8.0, .noise = 5e-3}),
                                          run(plant, {.input = off, .length_s = 400.0, .noise = 5e-3, .seed = 2}));
-    question.form = gap::start_of(*gap::structure_named("first_order"), question.train);
+    question.form = gap::starts_of(*gap::structure_named("first_order"), question.train).whole;
     EXPECT_LT(gap::joint_gap(question), 0.03);
 }
 

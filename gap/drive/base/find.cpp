@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
+#include <set>
 
 #include "bench/parallel.hpp"
 #include "gap/drive/base/filtered.hpp"
@@ -21,6 +23,10 @@ constexpr double most_nodes = 1500.0;  // of a record while starts are compared
 constexpr double worth_a_number = 0.08;
 // A record that has not settled looks like an integrator's: it must be clearly better.
 constexpr double worth_an_integrator = 0.3;
+// How long ago what was read is no longer quick, over a record's length.
+constexpr double quick_share = 0.03;
+// One that leaves so much of what is quick in the other's stead is looked at, too.
+constexpr double worth_a_quick_one = 0.97;
 // Less than this over the noise is noise: descriptions that go so far go equally far.
 constexpr double above_noise = 1.2;
 
@@ -83,59 +89,118 @@ Question of_training(const Question& question) {
     return alone;
 }
 
-std::optional<Described> describe(const Structure& structure, Question alone, Question asked) {
-    try {
-        alone.form = start_of(structure, alone.train);
-    } catch (const glsum::Failure&) {
-        return std::nullopt;  // nothing of this structure; others go on
-    }
+Described described(const Structure& structure, Question alone, Question asked) {
     const Ground part = prepare(alone);
     const Candidate of_part = fit(part.study, {}, part.base, nullptr);
     asked.form = with_values(alone.form, of_part);
     const Ground whole = prepare(asked);
     const Candidate fitted = fit(whole.study, {}, whole.base, nullptr);
     const Candidate judged = whole.same_records ? fitted : carried_over(whole.validation, fitted, nullptr);
-    Described found{structure.name,
-                    structure.meaning,
-                    with_values(asked.form, fitted),
-                    gap_of(part.validation, of_part),
-                    gap_of(whole.validation, judged),
-                    structure.numbers(),
-                    structure.integrators};
-    return std::isfinite(found.aside) && std::isfinite(found.validation) ? std::optional(found) : std::nullopt;
+    return {structure.name,
+            structure.meaning,
+            with_values(asked.form, fitted),
+            gap_of(part.validation, of_part),
+            gap_of(whole.validation, judged),
+            structure.numbers(),
+            structure.integrators};
+}
+
+// Lags and dead time stay within so many times what they are.
+drive::Form held_near(drive::Form form, double times) {
+    double lags_s = 0.0;
+    for (const drive::Parameter& parameter : form.parameters()) {
+        lags_s = parameter.name == "a1" ? parameter.value : lags_s;
+    }
+    for (drive::Parameter& parameter : form.parameters()) {
+        const bool number = !parameter.fixed && parameter.name != "gain";
+        if (number && parameter.name == "delay_s") {
+            const double more_s = (times - 1.0) * (parameter.value + lags_s);
+            parameter.lower = std::max(0.0, parameter.value - more_s);
+            parameter.upper = parameter.value + more_s;
+        } else if (number && parameter.value > 0.0) {
+            parameter.lower = parameter.value / times;
+            parameter.upper = parameter.value * times;
+        }
+    }
+    return form;
+}
+
+// As fitted to what is quick, and kept near it: whole residuals would make it slow again.
+drive::Form quick_form(Question alone, double quick_s) {
+    constexpr double about = 4.0;
+    constexpr double near = 1.3;
+    alone.form = held_near(alone.form, about);
+    const Ground part = prepare(alone);
+    Whitener differences;
+    differences.coefficients = {std::exp(-part.study.scales.interval_s / quick_s)};
+    differences.deviation = std::max(part.study.noise, part.study.least_deviation);
+    differences.stationary_deviation = output_deviation(part.study);
+    return held_near(with_values(alone.form, fit(part.study, {}, part.base, &differences)), near);
+}
+
+// From each start; none: there is nothing of this structure, and others go on.
+std::vector<Described> describe(const Structure& structure, Question alone, const Question& asked) {
+    std::vector<Described> found;
+    const auto take = [&](const drive::Form& form) {
+        alone.form = form;
+        Described one = described(structure, alone, asked);
+        if (std::isfinite(one.aside) && std::isfinite(one.validation)) {
+            found.push_back(std::move(one));
+        }
+    };
+    try {
+        const Starts starts = starts_of(structure, alone.train);
+        take(starts.whole);
+        if (starts.quick) {
+            alone.form = *starts.quick;
+            take(quick_form(alone, starts.quick_s));
+        }
+    } catch (const glsum::Failure&) {
+    }
+    return found;
 }
 
 }  // namespace
 
 drive::Form form_to_find() { return {drive::Kind::fopdt, drive::make_fopdt(1.0, 1.0, 0.0)}; }
 
-drive::Form start_of(const Structure& structure, const std::vector<Record>& records) {
+Starts starts_of(const Structure& structure, const std::vector<Record>& records) {
     const bool driven = is_driven(records);
     double length_s = 0.0;
     for (const Record& record : records) {
         length_s = std::max(length_s, record.time_s.back() - record.time_s.front());
     }
+    const double quick_s = quick_share * length_s;
     std::vector<Coefficients> starts = filtered_estimates(structure, records, driven);
     const std::vector<Coefficients> even = even_lags(structure, records.front().usual_interval_s, length_s, driven);
     starts.insert(starts.end(), even.begin(), even.end());
     const std::vector<Course> courses = rough_courses(records);
-    double least = std::numeric_limits<double>::infinity();
-    Coefficients best;
+    Leftovers whole;  // of the start that leaves least, and
+    Leftovers quick;  // of the one that leaves least of what is quick
+    std::optional<drive::Form> best;
+    std::optional<drive::Form> quick_best;
     for (Coefficients& start : starts) {
         start.gain = 1.0;
-        const drive::Form form = form_of(structure, start, driven);
-        if (const Leftover left = leftover_of(model_of(form), courses, driven); left.squares < least) {
-            least = left.squares;
-            best = start;
-            best.gain = left.gain;
+        const Leftovers left = leftovers_of(model_of(form_of(structure, start, driven)), courses, driven, quick_s);
+        if (left.whole.squares < whole.whole.squares) {
+            whole = left;
+            start.gain = left.whole.gain;
+            best = form_of(structure, start, driven);
+        }
+        if (left.quick.squares < quick.quick.squares) {
+            quick = left;
+            start.gain = left.quick.gain;
+            quick_best = form_of(structure, start, driven);
         }
     }
-    if (!std::isfinite(least)) {
+    if (!best) {
         throw glsum::Failure(glsum::Exit::bad_input,
                              fmt::format("{}: no {} ({}) explains anything of it: do input and output belong together?",
                                          records.front().name, structure.name, structure.meaning));
     }
-    return form_of(structure, best, driven);
+    const bool lags_alone = structure.integrators == 0 && structure.zeros == 0 && structure.order <= 2;
+    const bool parts = lags_alone && quick.quick.squares < worth_a_quick_one * whole.quick.squares;
+    return {*best, parts ? quick_best : std::nullopt, quick_s};
 }
 
 std::vector<Described> find_base(const Question& question, const std::function<void(const std::string&)>& say) {
@@ -147,7 +212,7 @@ std::vector<Described> find_base(const Question& question, const std::function<v
         }
     }
     say(fmt::format("looking for the base: {} linear descriptions", tried.size()));
-    std::vector<std::optional<Described>> found(tried.size());
+    std::vector<std::vector<Described>> found(tried.size());
     const Question alone = of_training(question);
     Question asked = question;
     asked.refit = true;
@@ -155,10 +220,8 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     bench::parallel_for(tried.size(), question.jobs,
                         [&](std::size_t i) { found[i] = describe(*tried[i], alone, asked); });
     std::vector<Described> all;
-    for (std::optional<Described>& one : found) {
-        if (one) {
-            all.push_back(std::move(*one));
-        }
+    for (std::vector<Described>& of_structure : found) {
+        std::move(of_structure.begin(), of_structure.end(), std::back_inserter(all));
     }
     if (all.empty()) {
         throw glsum::Failure(
@@ -175,6 +238,9 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     };
     std::stable_sort(all.begin(), all.end(),
                      [&](const Described& a, const Described& b) { return price(a) < price(b); });
+    // Of each structure the better one.
+    std::set<std::string> seen;
+    std::erase_if(all, [&](const Described& one) { return !seen.insert(one.name).second; });
     return all;
 }
 

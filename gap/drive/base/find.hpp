@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,14 @@ struct Described {
 /// In the place of a form that is still to be found.
 [[nodiscard]] drive::Form form_to_find();
 
-/// A start of a structure: of some filters, dead times and even lags the one whose simulation, with gain, offset and
-/// initial state by least squares, leaves least. \throws glsum::Failure (bad input): nothing explains anything
-[[nodiscard]] drive::Form start_of(const Structure& structure, const std::vector<Record>& records);
+/// Of some filters, dead times and even lags.
+struct Starts {
+    drive::Form whole;  ///< whose simulation, with gain, offset and initial state by least squares, leaves least
+    std::optional<drive::Form> quick;  ///< that leaves clearly less of what is quick, where there is one
+    double quick_s;                    ///< what is older is not quick
+};
+/// \throws glsum::Failure (bad input): nothing explains anything
+[[nodiscard]] Starts starts_of(const Structure& structure, const std::vector<Record>& records);
 
 /// All structures that can be fitted, by how far they go, the base first: the one of fewest numbers that no richer one
 /// beats by more than `worth_a_number` for each number more, where neither was fitted.

@@ -4,8 +4,41 @@
 #include <cmath>
 
 namespace gap {
+namespace {
 
-Leftover leftover_of(const drive::Model& model, const std::vector<Course>& courses, bool driven) {
+// Each record's columns less what they were lately, weighted by how long ago: a high-pass.
+void keep_quick(Eigen::MatrixXd& matrix, const std::vector<Course>& courses, double quick_s) {
+    Eigen::Index row = 0;
+    for (const Course& course : courses) {
+        const std::vector<double>& time_s = course.record().time_s;
+        Eigen::RowVectorXd lately = matrix.row(row);
+        matrix.row(row).setZero();
+        for (std::size_t i = 1; i < time_s.size(); ++i) {
+            const double left = std::exp(-(time_s[i] - time_s[i - 1]) / quick_s);
+            auto now = matrix.row(row + static_cast<Eigen::Index>(i));
+            lately = left * lately + (1.0 - left) * now;
+            now -= lately;
+        }
+        row += static_cast<Eigen::Index>(time_s.size());
+    }
+}
+
+Leftover solve(const Eigen::MatrixXd& matrix, bool driven) {
+    if (!matrix.allFinite()) {
+        return {};
+    }
+    const auto unknown = matrix.leftCols(matrix.cols() - 1);
+    const auto right = matrix.rightCols(1);
+    const Eigen::VectorXd solution = unknown.colPivHouseholderQr().solve(right);
+    const double squares = (unknown * solution - right).squaredNorm();
+    if (!std::isfinite(squares) || (driven && solution(0) == 0.0)) {
+        return {};
+    }
+    return {squares, driven ? solution(0) : 1.0};
+}
+
+// A column for each unknown, and the readings in the last.
+Eigen::MatrixXd columns_of(const drive::Model& model, const std::vector<Course>& courses, bool driven) {
     Eigen::Index rows = 0;
     for (const Course& course : courses) {
         rows += static_cast<Eigen::Index>(course.record().size());
@@ -27,8 +60,8 @@ Leftover leftover_of(const drive::Model& model, const std::vector<Course>& cours
     }
     const Eigen::Index shared = driven ? 1 : 0;
     const auto of_each = static_cast<Eigen::Index>(own.size()) + (steady ? 1 : 0);
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows, shared + of_each * static_cast<Eigen::Index>(courses.size()));
-    Eigen::VectorXd right(rows);
+    Eigen::MatrixXd matrix =
+        Eigen::MatrixXd::Zero(rows, shared + of_each * static_cast<Eigen::Index>(courses.size()) + 1);
     Eigen::Index row = 0;
     Eigen::Index column = shared;
     for (const Course& course : courses) {
@@ -48,18 +81,24 @@ Leftover leftover_of(const drive::Model& model, const std::vector<Course>& cours
         if (steady) {
             matrix.block(row, column++, size, 1).setOnes();
         }
-        right.segment(row, size) = Eigen::Map<const Eigen::VectorXd>(course.record().output.data(), size);
+        matrix.col(matrix.cols() - 1).segment(row, size) =
+            Eigen::Map<const Eigen::VectorXd>(course.record().output.data(), size);
         row += size;
     }
-    if (!matrix.allFinite()) {
-        return {};
-    }
-    const Eigen::VectorXd solution = matrix.colPivHouseholderQr().solve(right);
-    const double squares = (matrix * solution - right).squaredNorm();
-    if (!std::isfinite(squares) || (driven && solution(0) == 0.0)) {
-        return {};
-    }
-    return {squares, driven ? solution(0) : 1.0};
+    return matrix;
+}
+
+}  // namespace
+
+Leftover leftover_of(const drive::Model& model, const std::vector<Course>& courses, bool driven) {
+    return solve(columns_of(model, courses, driven), driven);
+}
+
+Leftovers leftovers_of(const drive::Model& model, const std::vector<Course>& courses, bool driven, double quick_s) {
+    Eigen::MatrixXd matrix = columns_of(model, courses, driven);
+    const Leftover whole = solve(matrix, driven);
+    keep_quick(matrix, courses, quick_s);
+    return {whole, solve(matrix, driven)};
 }
 
 }  // namespace gap

@@ -1,0 +1,134 @@
+// What these data cannot part.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "gap/drive/decide/rule.hpp"
+
+namespace gap {
+namespace {
+
+// Below it two explanations are not told apart; twice that where some blocks of samples say the opposite.
+constexpr double parting_advantage = 6.0;
+constexpr std::size_t most_alternatives = 3;
+constexpr double of_alternatives = 0.9;  // what their confidences add up to
+
+bool generalises(const Candidate& general, const Candidate& special) {
+    // Where the data hold a number of the wider one fast, it is not wider.
+    if (general.effects.size() != special.effects.size() ||
+        general.effect_parameters() <= special.effect_parameters()) {
+        return false;
+    }
+    bool more = false;
+    for (const Effect* effect : special.effects) {
+        const bool same = general.has(effect->name);
+        const bool wider = std::any_of(general.effects.begin(), general.effects.end(), [&](const Effect* mine) {
+            return std::find(mine->generalises.begin(), mine->generalises.end(), effect->name) !=
+                   mine->generalises.end();
+        });
+        if (!same && !wider) {
+            return false;
+        }
+        more = more || wider;
+    }
+    return more;
+}
+
+// Beside a fitted form whose best candidate leaves more than noise all of them miss something: the likelihoods of
+// misfits tell nothing, and what goes about as far is as near to the truth.
+bool goes_as_far(const Evidence& evidence, std::size_t i, std::size_t chosen) {
+    constexpr double about = 1.2;
+    constexpr double of_the_way = 0.5;
+    const double after = evidence.gap(chosen);
+    const double theirs = evidence.gap(i);
+    return evidence.beside_form() && evidence.is_no_noise(after) && theirs < about * after &&
+           theirs < after + of_the_way * (evidence.gap(evidence.none()) - after);
+}
+
+// In [0.5, 0.97], by how far the nearest rival is.
+double confidence_by(double advantage) { return 0.5 + 0.47 * (1.0 - std::exp(-std::max(0.0, advantage) / 8.0)); }
+
+void part(const Evidence& evidence, Decision& decision) {
+    if (decision.outcome != Outcome::attributed) {
+        return;
+    }
+    const std::size_t chosen = decision.chosen;
+    const Candidate& mine = evidence.ranking[chosen].trained;
+    double nearest = advantage(evidence.ranking[chosen], evidence.ranking[evidence.none()]).mean;
+    for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
+        const Candidate& other = evidence.ranking[i].trained;
+        if (i == chosen || other.effects.size() != mine.effects.size() || generalises(other, mine)) {
+            continue;
+        }
+        const Interval over = advantage(evidence.ranking[chosen], evidence.ranking[i]);
+        const bool near = over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage) ||
+                          goes_as_far(evidence, i, chosen);
+        if (!near) {
+            nearest = std::min(nearest, over.mean);
+        } else if (!evidence.objection(i).empty()) {
+            continue;
+        } else if (evidence.beside_form() && has_events(other) && !has_events(mine)) {
+            // An event is located where it is judged; what kept its numbers and goes as far says more.
+            nearest = std::min(nearest, parting_advantage);
+        } else if (generalises(mine, other) && decision.effects.front() == chosen) {
+            decision.effects.front() = decision.chosen = i;  // the simpler one says as much
+        } else {
+            decision.effects.push_back(i);
+        }
+    }
+    if (decision.effects.size() == 1) {
+        decision.confidence = confidence_by(nearest);
+        return;
+    }
+    decision.outcome = Outcome::ambiguous;
+    decision.confidence = of_alternatives / static_cast<double>(std::min<std::size_t>(decision.effects.size(), 6));
+}
+
+void keep_few(const Evidence& evidence, Decision& decision) {
+    if (decision.effects.size() <= most_alternatives) {
+        return;
+    }
+    if (evidence.beside_form()) {
+        std::string names;
+        for (const std::size_t i : decision.effects) {
+            names += (names.empty() ? "" : ", ") + evidence.ranking[i].trained.name();
+        }
+        decision.notes.push_back(
+            fmt::format("{} causes explain these records equally well: {}", decision.effects.size(), names));
+        constexpr std::size_t too_many = 6;
+        if (decision.effects.size() >= too_many) {
+            decision.refuse(0.7);
+            return;
+        }
+        std::stable_sort(decision.effects.begin(), decision.effects.end(),
+                         [&](std::size_t a, std::size_t b) { return evidence.gap(a) < evidence.gap(b); });
+        decision.chosen = decision.effects.front();
+    } else {
+        // Any effect that equals a gain change is the gain's alternative, which is kept.
+        const auto gain = std::find_if(decision.effects.begin(), decision.effects.end(), [&](std::size_t i) {
+            return evidence.ranking[i].trained.name() == "gain_error";
+        });
+        if (gain != decision.effects.end() &&
+            gain - decision.effects.begin() >= static_cast<std::ptrdiff_t>(most_alternatives)) {
+            std::iter_swap(gain, decision.effects.begin() + most_alternatives - 1);
+        }
+    }
+    decision.effects.resize(most_alternatives);
+    decision.confidence = of_alternatives / static_cast<double>(most_alternatives);
+}
+
+}  // namespace
+
+const Rule rule_of_what_cannot_be_parted{
+    "what_cannot_be_parted",
+    "Others of as many effects that these records do not tell from the chosen one are alternatives. Of two that say as "
+    "much the simpler one is named. How sure a single one is depends on its nearest rival.",
+    part};
+
+const Rule rule_of_few_alternatives{
+    "few_alternatives", "More than three say nothing: of somewhat more the best three are named, of many none.",
+    keep_few};
+
+}  // namespace gap

@@ -1,0 +1,96 @@
+// Which candidate, before it is asked what else there is.
+#include <algorithm>
+#include <cmath>
+
+#include "gap/drive/decide/rule.hpp"
+
+namespace gap {
+namespace {
+
+constexpr std::size_t most_effects = 4;
+// Of the gap's rms: less is too little to be anyone's trouble.
+constexpr double first_share = 0.03;
+// Beside a fitted form a first effect takes so much: less is another form's share.
+constexpr double first_share_beside_a_form = 0.25;
+// A further one takes so much of what can be closed, a second one that much of what is left instead: beside a gap as
+// large as the output itself it may be small and still take most.
+constexpr double further_share = 0.04;
+constexpr double second_share = 0.25;
+
+bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
+    const double before = evidence.gap(chosen);
+    const double taken = before - evidence.gap(wider);
+    const std::size_t so_far = evidence.ranking[chosen].trained.effects.size();
+    const double of_first = evidence.beside_form() ? first_share_beside_a_form : first_share;
+    const double material = so_far == 0   ? of_first * before
+                            : so_far == 1 ? std::min(further_share * closable, second_share * before)
+                                          : further_share * closable;
+    return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material;
+}
+
+void choose(const Evidence& evidence, Decision& decision) {
+    const std::size_t none = evidence.none();
+    decision.base_gap = evidence.gap(none);
+    decision.chosen = none;
+    decision.noise_floor = decision.base_gap;
+    for (const Ranked& ranked : evidence.ranking) {
+        // Of those that are as likely as any: others may follow noise.
+        if (ranked.score() > evidence.ranking.front().score() - clear_advantage) {
+            decision.noise_floor = std::min(decision.noise_floor, ranked.gap_after);
+        }
+    }
+    const double closable = decision.base_gap - decision.noise_floor;
+    for (std::size_t size = 1; size <= most_effects; ++size) {
+        const auto wider = evidence.best_of(size);
+        // The best with one effect less may have been too small a step to be taken; it must be beaten all the same.
+        if (const auto narrower = evidence.best_of(size - 1);
+            wider && is_better(evidence, *wider, decision.chosen, closable) &&
+            (!narrower || is_clear(advantage(evidence.ranking[*wider], evidence.ranking[*narrower])))) {
+            decision.chosen = *wider;
+        }
+    }
+    if (decision.chosen != none) {
+        decision.outcome = Outcome::attributed;
+        decision.effects = {decision.chosen};
+        return;
+    }
+    decision.outcome = Outcome::no_gap;
+    // How near the best effect came to being named.
+    constexpr double sure = 0.95;
+    constexpr double less = 0.3;
+    const auto best = evidence.best_of(1);
+    const double near = best ? std::max(0.0, advantage(evidence.ranking[*best], evidence.ranking[none]).mean) : 0.0;
+    decision.confidence = sure - less * std::min(1.0, near / clear_advantage);
+}
+
+void name_the_step(const Evidence& evidence, Decision& decision) {
+    const auto candidate = std::find_if(evidence.ranking.begin(), evidence.ranking.end(), [](const Ranked& ranked) {
+        return ranked.trained.name() == "encoder_quantisation";
+    });
+    const double step = evidence.study.scales.quantum / output_deviation(evidence.validation);
+    constexpr double most = 0.5;  // of the squared gap: a uniform error's square is a twelfth of the step's
+    if (decision.outcome != Outcome::no_gap || candidate == evidence.ranking.end() ||
+        step * step / 12.0 < most * evidence.gap(decision.chosen) * evidence.gap(decision.chosen)) {
+        return;
+    }
+    decision.chosen = static_cast<std::size_t>(candidate - evidence.ranking.begin());
+    decision.effects = {decision.chosen};
+    decision.outcome = Outcome::attributed;
+    decision.noise_floor = std::min(decision.noise_floor, candidate->gap_after);
+    decision.confidence = 0.9;
+}
+
+}  // namespace
+
+const Rule rule_of_clear_advantage{
+    "clear_advantage",
+    "Effects are taken one by one while each is clearly more likely on what was not fitted, whichever block of samples "
+    "is asked, and takes a material share of the gap. What training leaves open is not taken.",
+    choose};
+
+const Rule rule_of_rounded_readings{
+    "rounded_readings",
+    "That readings are multiples of a step is a fact of the log: it is named where it is most of what is left.",
+    name_the_step};
+
+}  // namespace gap

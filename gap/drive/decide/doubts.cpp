@@ -1,0 +1,122 @@
+// What speaks against an answer.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+#include "gap/drive/decide/rule.hpp"
+#include "gap/drive/outside.hpp"
+
+namespace gap {
+namespace {
+
+void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
+    if (!evidence.beside_form() || decision.effects.empty()) {
+        return;
+    }
+    constexpr double not_all = 0.75;
+    constexpr double an_event = 0.8;
+    if (foreseeable(evidence, decision).is_too_much || evidence.is_no_noise(evidence.gap(decision.chosen))) {
+        decision.at_most(not_all);
+    }
+    if (has_events(evidence.ranking[decision.chosen].trained)) {
+        decision.at_most(an_event);
+    }
+}
+
+// What a drive does itself, record after record, is no event from outside: it is the alternative without one, if there
+// is any, or something that is not listed.
+void doubt_events(const Evidence& evidence, Decision& decision) {
+    if (decision.effects.empty()) {
+        return;
+    }
+    const auto doubt_of = [&](std::size_t i) {
+        return doubt_of_events(evidence.study, evidence.ranking[i].trained, evidence.validation,
+                               evidence.ranking[i].candidate);
+    };
+    std::string doubt = doubt_of(decision.chosen);
+    const bool of_chosen = !doubt.empty();
+    std::erase_if(decision.effects, [&](std::size_t i) {
+        const bool events = has_events(evidence.ranking[i].trained);
+        const std::string own = of_chosen || !events ? "" : doubt_of(i);
+        doubt = doubt.empty() ? own : doubt;
+        return !own.empty() || (of_chosen && events);
+    });
+    if (doubt.empty()) {
+        return;
+    }
+    decision.at_most(0.7);
+    if (decision.effects.empty()) {
+        decision.outcome = Outcome::unknown;
+        decision.notes.push_back(
+            fmt::format("{}: an event from outside does not, and nothing else listed explains it", doubt));
+        return;
+    }
+    decision.chosen = decision.effects.front();
+    decision.outcome = decision.effects.size() == 1 ? Outcome::attributed : Outcome::ambiguous;
+    decision.notes.push_back(fmt::format("{}: an event from outside does not", doubt));
+}
+
+void doubt_what_does_not_belong(const Evidence& evidence, Decision& decision) {
+    constexpr double large = 0.6;
+    constexpr double half = 0.5;
+    if (decision.base_gap > large && evidence.gap(decision.chosen) > half) {
+        decision.notes.emplace_back("no candidate explains even half of the output: do model and log belong together?");
+        decision.refuse(0.3);
+    }
+}
+
+void doubt_one_step(const Evidence& evidence, Decision& decision) {
+    const auto& courses = evidence.study.courses;
+    const bool moves = std::any_of(courses.begin(), courses.end(), [](const Course& course) {
+        const auto& input = course.record().input;
+        return std::any_of(input.begin(), input.end(), [&](double u) { return u != input.front(); });
+    });
+    if (!moves && evidence.study.scales.driven) {
+        decision.notes.emplace_back(
+            "the input never moves within the training records: all that is known is one step at their start");
+        decision.at_most(0.5);
+    }
+}
+
+void name_a_suspect(const Evidence& evidence, Decision& decision) {
+    const std::size_t none = evidence.none();
+    if (decision.outcome != Outcome::unknown) {
+        return;
+    }
+    if (decision.chosen != none) {
+        decision.suspect = decision.chosen;
+        return;
+    }
+    constexpr double at_most = 0.95;  // of the base's gap
+    for (std::size_t i = 0; i < evidence.ranking.size() && !decision.suspect; ++i) {
+        if (i != none && evidence.gap(i) < at_most * evidence.gap(none) && evidence.objection(i).empty()) {
+            decision.suspect = i;
+        }
+    }
+}
+
+}  // namespace
+
+const Rule rule_of_fitted_forms{
+    "fitted_forms",
+    "Beside a fitted form what is left, if it is no noise, is a cause that is not named or the form's own misfit, and "
+    "either may have bent what is named. Events, located where they are judged, explain what others do.",
+    doubt_beside_a_form};
+
+const Rule rule_of_events_from_outside{
+    "events_from_outside",
+    "What begins with the input, record after record, or lasts throughout is the drive's own, no event from outside.",
+    doubt_events};
+
+const Rule rule_of_logs_of_another_drive{
+    "logs_of_another_drive", "Where nothing explains half of the output, model and log may not belong together.",
+    doubt_what_does_not_belong};
+
+const Rule rule_of_inputs_that_never_move{"inputs_that_never_move",
+                                          "One level tells no curve of the input from another.", doubt_one_step};
+
+const Rule rule_of_suspects{
+    "suspects", "Of an unknown the candidate that leads and whose numbers training tells is said.", name_a_suspect};
+
+}  // namespace gap

@@ -1,0 +1,55 @@
+// What rules decide by: the ranking and what can be asked of it.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "gap/drive/ranking.hpp"
+#include "gap/flexible.hpp"
+
+namespace gap {
+
+class Evidence {
+public:
+    /// All of them outlive this. \param ranking  the best first, `none` among them
+    /// \param whitener  of the ranking's likelihoods \param same_records  validation is a part of the fitted ones
+    Evidence(const std::vector<Ranked>& ranking, const Whitener& whitener, const Study& study, const Study& validation,
+             bool same_records);
+
+    const std::vector<Ranked>& ranking;
+    const Study& study;
+    const Study& validation;
+    const bool same_records;
+
+    [[nodiscard]] std::size_t none() const;
+    /// The best of a size that can be named.
+    [[nodiscard]] std::optional<std::size_t> best_of(std::size_t size) const;
+    /// Why a candidate cannot be named, whatever its likelihood: training leaves it open, or its events are no events.
+    /// Empty: it can.
+    [[nodiscard]] const std::string& objection(std::size_t i) const;
+    [[nodiscard]] double gap(std::size_t i) const { return ranking[i].gap_after; }
+    [[nodiscard]] bool beside_form() const { return study.base.refit; }
+    /// A gap over what differs from sample to sample.
+    [[nodiscard]] double over_noise(double gap) const;
+    /// Whether a gap is more than a sensor's noise: that is seldom so coloured.
+    [[nodiscard]] bool is_no_noise(double gap) const { return over_noise(gap) > usual_ratio; }
+    /// What a model without physics still takes off a candidate's residuals on the validation.
+    [[nodiscard]] const Flexible& remainder(std::size_t i) const;
+
+    static constexpr double usual_ratio = 7.0;
+
+private:
+    [[nodiscard]] std::string objection_to_events(const Candidate& trained, Candidate judged) const;
+
+    const Whitener& whitener_;
+    mutable std::map<std::size_t, std::string> objections_;
+    mutable std::map<std::size_t, Flexible> remainders_;
+};
+
+[[nodiscard]] bool has_events(const Candidate& candidate);
+/// A likelihood ratio that chance does not reach among some hundred candidates.
+constexpr double clear_advantage = 8.0;
+[[nodiscard]] bool is_clear(const Interval& over);
+
+}  // namespace gap
