@@ -1,14 +1,22 @@
 #!/bin/sh
-# withheld.sh [EFFECT...]: each effect of the virtual stand, diagnosed with that effect taken off the list. What comes out is to be
-# `unknown`, or a near equivalent whose remaining gap says that it is not all. A table; no argument: all of them.
+# named.sh [--withheld] [EFFECT...]: each effect of the virtual stand, diagnosed beside the stand's linear model. With --withheld its name is
+# taken off the list first: what comes out is then to be `unknown`, or a near equivalent whose remaining gap says that it is not all.
+# A table; no EFFECT: all of them, and without --withheld some pairs. 20 s at 50 Hz with white noise of 0.003 rad; a staircase to learn
+# from, random bits to judge by.
 # GLSUM: the program (build/host/cli/glsum).
 set -eu
 cd "$(dirname "$0")/.."
 glsum=$(realpath "${GLSUM:-build/host/cli/glsum}")
+withheld=
+if [ "${1:-}" = --withheld ]; then
+    withheld=yes
+    shift
+fi
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 sizes='
+none
 gain_error gain_error.gain=0.9
 time_scale_error time_scale_error.scale=1.15
 dead_time_error dead_time_error.extra_s=0.06
@@ -38,6 +46,9 @@ input_curve input_curve.curvature=0.6 input_curve.reference=0.1
 direction_dependent_friction direction_dependent_friction.force_up=0.01
 output_curve output_curve.curvature=0.15
 encoder_quantisation encoder_quantisation.step=0.05
+supply_sag.resistance supply_sag.resistance=2
+backlash+gain_error backlash.gap=0.05 gain_error.gain=0.93
+input_saturation+gravity_nonlinearity input_saturation.limit=0.08 gravity_nonlinearity.angle_per_unit=1
 '
 
 stand() {
@@ -45,9 +56,10 @@ stand() {
 }
 stand --experiment staircase --seed 1 --out "$folder/plain.csv" --model "$folder/m.json"
 
-printf '%-28s %-60s %7s %7s %7s\n' withheld verdict before after 'at best'
+printf '%-37s %-75s %7s %7s %7s\n' effect verdict before after 'at best'
 printf '%s\n' "$sizes" | while read -r effect settings; do
     [ -n "$effect" ] || continue
+    case $withheld$effect in yesnone | yes*[.+]*) continue ;; esac
     if [ $# -gt 0 ]; then
         case " $* " in *" $effect "*) ;; *) continue ;; esac
     fi
@@ -59,10 +71,11 @@ printf '%s\n' "$sizes" | while read -r effect settings; do
     stand $options --experiment staircase --seed 2 --out "$folder/t.csv"
     # shellcheck disable=SC2086
     stand $options --experiment prbs --low-duty 0.02 --bit-s 0.5 --seed 3 --out "$folder/v.csv"
-    "$glsum" diagnose drive --model "$folder/m.json" --log "$folder/t.csv" --validate "$folder/v.csv" --without "$effect" \
+    # shellcheck disable=SC2086
+    "$glsum" diagnose drive --model "$folder/m.json" --log "$folder/t.csv" --validate "$folder/v.csv" ${withheld:+--without $effect} \
         >"$folder/said" 2>/dev/null
-    verdict=$(sed -n 's/^verdict: //p' "$folder/said" | cut -c 1-60)
+    verdict=$(sed -n 's/^verdict: //p' "$folder/said" | cut -c 1-75)
     gaps=$(sed -n 's/^gap, .*: \([0-9.]*\) before, \([0-9.]*\) after, \([0-9.]*\) at best$/\1 \2 \3/p' "$folder/said")
     # shellcheck disable=SC2086
-    printf '%-28s %-60s %7s %7s %7s\n' "$effect" "$verdict" $gaps
+    printf '%-37s %-75s %7s %7s %7s\n' "$effect" "$verdict" $gaps
 done
