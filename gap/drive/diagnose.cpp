@@ -177,9 +177,15 @@ void ask_jointly(Answer& answer, const Question& question) {
         return;
     }
     constexpr double as_well = 1.15;
-    constexpr double nearly_all = 0.25;  // more than that left, and something is missing
+    // More than that left, and something is missing; a plant that was only seen on its way up may come down otherwise.
+    constexpr double nearly_all = 0.1;
+    constexpr double most = 0.25;
+    const bool one_way = std::any_of(answer.extrapolated.begin(), answer.extrapolated.end(), [](const auto& what) {
+        return what == "falling output" || what == "rising output";
+    });
     const double jointly = joint_gap(question);
-    if (jointly > as_well * answer.chosen().gap_after || jointly > nearly_all * answer.none().gap_after) {
+    if (jointly > as_well * answer.chosen().gap_after ||
+        jointly > (one_way ? most : nearly_all) * answer.none().gap_after) {
         return;
     }
     answer.decision.outcome = Outcome::no_gap;

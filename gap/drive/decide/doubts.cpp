@@ -14,10 +14,14 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
     if (!evidence.beside_form() || decision.effects.empty()) {
         return;
     }
-    constexpr double not_all = 0.75;
     constexpr double an_event = 0.8;
-    if (foreseeable(evidence, decision).is_too_much || evidence.is_no_noise(evidence.gap(decision.chosen))) {
-        decision.at_most(not_all);
+    const double after = evidence.gap(decision.chosen);
+    if (foreseeable(evidence, decision).is_too_much || evidence.is_no_noise(after)) {
+        // The more is left the less sure it is.
+        constexpr double a_tenth = 0.1;
+        constexpr double a_quarter = 0.25;
+        const double left = after / decision.base_gap;
+        decision.at_most(left < a_tenth ? 0.95 : left < a_quarter ? 0.85 : 0.7);
     }
     if (has_events(evidence.ranking[decision.chosen].trained)) {
         decision.at_most(an_event);

@@ -32,8 +32,13 @@ bool has_events(const Candidate& candidate) {
 bool is_clear(const Interval& over) { return over.mean > clear_advantage && over.low > 0.0; }
 
 Evidence::Evidence(const std::vector<Ranked>& ranked, const Whitener& whitener, const Study& trained,
-                   const Study& validated, bool same)
-    : ranking(ranked), study(trained), validation(validated), same_records(same), whitener_(whitener) {}
+                   const Study& validated, bool same, FoundOut known)
+    : ranking(ranked),
+      study(trained),
+      validation(validated),
+      same_records(same),
+      whitener_(whitener),
+      known_(std::move(known)) {}
 
 std::size_t Evidence::none() const {
     return static_cast<std::size_t>(std::find_if(ranking.begin(), ranking.end(),
@@ -55,23 +60,23 @@ double Evidence::over_noise(double gap) const {
 }
 
 const Flexible& Evidence::remainder(std::size_t i) const {
-    const auto known = remainders_.find(i);
-    if (known != remainders_.end()) {
+    const auto known = known_.remainders.find(i);
+    if (known != known_.remainders.end()) {
         return known->second;
     }
     std::vector<Remainder> also;
     if (!same_records) {
         also = remainders(study, all_residuals(study, ranking[i].trained));
     }
-    return remainders_
+    return known_.remainders
         .emplace(i, explain(remainders(validation, ranking[i].residuals), also, model_of(study.base.form).delay_s,
                             study.scales.time_constant_s))
         .first->second;
 }
 
 const std::string& Evidence::objection(std::size_t i) const {
-    const auto known = objections_.find(i);
-    if (known != objections_.end()) {
+    const auto known = known_.objections.find(i);
+    if (known != known_.objections.end()) {
         return known->second;
     }
     std::string what;
@@ -83,7 +88,7 @@ const std::string& Evidence::objection(std::size_t i) const {
             what = objection_to_events(trained, ranking[i].candidate);
         }
     }
-    return objections_.emplace(i, std::move(what)).first->second;
+    return known_.objections.emplace(i, std::move(what)).first->second;
 }
 
 // Of events beside a fitted form. \param trained  with its intervals

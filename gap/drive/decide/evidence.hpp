@@ -10,12 +10,19 @@
 
 namespace gap {
 
+/// What takes simulations to find out, by place in the ranking: found out when it is asked for.
+struct FoundOut {
+    std::map<std::size_t, std::string> objections;
+    std::map<std::size_t, Flexible> remainders;
+};
+
 class Evidence {
 public:
     /// All of them outlive this. \param ranking  the best first, `none` among them
     /// \param whitener  of the ranking's likelihoods \param same_records  validation is a part of the fitted ones
+    /// \param known  need not be found out again
     Evidence(const std::vector<Ranked>& ranking, const Whitener& whitener, const Study& study, const Study& validation,
-             bool same_records);
+             bool same_records, FoundOut known = {});
 
     const std::vector<Ranked>& ranking;
     const Study& study;
@@ -43,8 +50,7 @@ private:
     [[nodiscard]] std::string objection_to_events(const Candidate& trained, Candidate judged) const;
 
     const Whitener& whitener_;
-    mutable std::map<std::size_t, std::string> objections_;
-    mutable std::map<std::size_t, Flexible> remainders_;
+    mutable FoundOut known_;
 };
 
 [[nodiscard]] bool has_events(const Candidate& candidate);

@@ -1,0 +1,391 @@
+// Each rule of the decision by itself, at its threshold, on rankings made by hand.
+#include "gap/drive/decide/rule.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <string>
+
+#include "gap/drive/question.hpp"
+#include "stand_case.hpp"
+
+namespace {
+
+using gap::Outcome;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// A linear stand that is simulated well; what candidates leave of it and how likely they are is said.
+class Rules : public testing::Test {
+protected:
+    Rules() : question_(gap_test::question_of({}, {.seed = 31}, {.seed = 32})), ground_(gap::prepare(question_)) {
+        set_noise(1.0);
+        add({}, 1.0, 0.0);
+    }
+
+    // Readings that differ by so much from sample to sample, over their deviation.
+    void set_noise(double share) {
+        ground_.validation.noise = share * gap::output_deviation(ground_.validation);
+        ground_.validation.least_deviation = 0.0;
+    }
+
+    /// \param advantage  over none, in every sample alike \returns its place in the ranking
+    std::size_t add(const std::vector<std::string>& effects, double gap_after, double advantage) {
+        gap::Ranked ranked;
+        for (const std::string& name : effects) {
+            const gap::Effect& effect = gap::effect_named(name);
+            ranked.trained.effects.push_back(&effect);
+            if (effect.kind == gap::Kind::lasting) {
+                ranked.trained.lasting.push_back(gap::parameters_of(effect, ground_.study.scales, 0));
+            }
+        }
+        ranked.trained.own.push_back(gap::state_of(ground_.study, ground_.study.courses[0].record()));
+        ranked.candidate = ranked.trained;
+        ranked.gap_after = gap_after;
+        ranked.by_sample.assign(samples, advantage / samples);
+        ranked.log_likelihood = advantage;
+        ranked.residuals = {std::vector<double>(ground_.validation.courses[0].record().size(), 0.0)};
+        ranking_.push_back(std::move(ranked));
+        const std::size_t at = ranking_.size() - 1;
+        known_.objections[at] = "";
+        known_.remainders[at] = {};
+        return at;
+    }
+
+    gap::Evidence evidence() const { return {ranking_, whitener_, ground_.study, ground_.validation, false, known_}; }
+    gap::Decision after(const char* rule, gap::Decision before = {}) const {
+        gap::rule_named(rule).apply(evidence(), before);
+        return before;
+    }
+    static gap::Decision attributed(std::size_t at, double base_gap = 1.0) {
+        gap::Decision decision;
+        decision.outcome = Outcome::attributed;
+        decision.effects = {at};
+        decision.chosen = at;
+        decision.base_gap = decision.noise_floor = base_gap;
+        decision.confidence = 0.97;
+        return decision;
+    }
+    void beside_a_form() { ground_.study.base.refit = ground_.validation.base.refit = true; }
+
+    static constexpr int samples = 400;
+    gap::Question question_;  // whose records the ground looks at
+    gap::Ground ground_;
+    gap::Whitener whitener_;
+    std::vector<gap::Ranked> ranking_;
+    gap::FoundOut known_;
+};
+
+TEST_F(Rules, HaveNamesOfTheirOwnAndReasons) {
+    std::set<std::string> names;
+    for (const gap::Rule& rule : gap::rules()) {
+        EXPECT_TRUE(names.insert(rule.name).second) << rule.name;
+        EXPECT_THAT(rule.reason, HasSubstr(" ")) << rule.name;
+        EXPECT_EQ(gap::rule_named(rule.name).apply, rule.apply);
+    }
+    EXPECT_THAT(names, SizeIs(12));
+    EXPECT_THROW((void)gap::rule_named("luck"), std::out_of_range);
+}
+
+TEST_F(Rules, ClearAdvantageIsEightUnitsOfLikelihood) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 7.9);
+    gap::Decision decision = after("clear_advantage");
+    EXPECT_EQ(decision.outcome, Outcome::no_gap);
+    EXPECT_NEAR(decision.confidence, 0.95 - 0.3 * 7.9 / 8.0, 1e-9);  // nearly named
+    ranking_[drag].by_sample.assign(samples, 8.1 / samples);
+    decision = after("clear_advantage");
+    EXPECT_EQ(decision.outcome, Outcome::attributed);
+    EXPECT_THAT(decision.effects, ElementsAre(drag));
+    // In every block of samples, not in one.
+    ranking_[drag].by_sample.assign(samples, 0.0);
+    ranking_[drag].by_sample[7] = 8.1;
+    EXPECT_EQ(after("clear_advantage").outcome, Outcome::no_gap);
+}
+
+TEST_F(Rules, ClearAdvantageTakesAMaterialShareOfTheGap) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.969, 100.0);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+    ranking_[drag].gap_after = 0.971;
+    EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
+    beside_a_form();
+    ranking_[drag].gap_after = 0.76;
+    EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
+    ranking_[drag].gap_after = 0.74;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+}
+
+TEST_F(Rules, ClearAdvantageOfAFurtherEffectIsOverOneFewer) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);
+    const std::size_t both = add({"quadratic_drag", "backlash"}, 0.4, 57.0);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+    ranking_[both].by_sample.assign(samples, 59.0 / samples);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[both].gap_after = 0.49;  // a twenty-fifth of what can be closed would be 0.02
+    ranking_[both].log_likelihood = 59.0;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+}
+
+TEST_F(Rules, ClearAdvantageIsNoneOfWhatTrainingLeavesOpen) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    known_.objections[drag] = "training leaves quadratic_drag.coefficient anywhere";
+    EXPECT_EQ(after("clear_advantage").outcome, Outcome::no_gap);
+}
+
+TEST_F(Rules, WhatCanBeForeseenIsNoNoise) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    gap::Decision decision = after("what_can_be_foreseen", attributed(drag));
+    EXPECT_EQ(decision.outcome, Outcome::attributed);
+    known_.remainders[drag] = {0.4, false, {}};  // by chance
+    EXPECT_EQ(after("what_can_be_foreseen", attributed(drag)).outcome, Outcome::attributed);
+    known_.remainders[drag] = {0.4, true, {}};
+    decision = after("what_can_be_foreseen", attributed(drag));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("40 % can be foreseen")));
+    EXPECT_NEAR(decision.noise_floor, 0.5 * std::sqrt(0.6), 1e-12);
+    // Of the squared gap that can be closed this is 0.1 of 0.85: beside a fitted form the rest is its main cause's.
+    EXPECT_NEAR(decision.confidence, 0.5 + 0.5 * 0.1 / 0.85, 1e-9);
+    beside_a_form();
+    EXPECT_EQ(after("what_can_be_foreseen", attributed(drag)).outcome, Outcome::attributed);
+    ranking_[drag].gap_after = 0.8;
+    EXPECT_EQ(after("what_can_be_foreseen", attributed(drag)).outcome, Outcome::unknown);
+}
+
+TEST_F(Rules, WhatCanBeForeseenOfAFittedFormIsItsOwnWhereItIsSmall) {
+    beside_a_form();
+    known_.remainders[0] = {0.5, true, {}};
+    gap::Decision none;
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.05;
+    EXPECT_EQ(after("what_can_be_foreseen", none).outcome, Outcome::unknown);
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.044;
+    EXPECT_EQ(after("what_can_be_foreseen", none).outcome, Outcome::no_gap);
+}
+
+TEST_F(Rules, WhatCannotBePartedIsAnAlternative) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);
+    const std::size_t friction = add({"coulomb_friction"}, 0.5, 44.1);
+    const std::size_t backlash = add({"backlash"}, 0.5, 43.9);
+    gap::Decision decision = after("what_cannot_be_parted", attributed(drag));
+    EXPECT_EQ(decision.outcome, Outcome::ambiguous);
+    EXPECT_THAT(decision.effects, ElementsAre(drag, friction));
+    EXPECT_NEAR(decision.confidence, 0.45, 1e-12);
+    ranking_[friction].by_sample.assign(samples, 43.9 / samples);
+    decision = after("what_cannot_be_parted", attributed(drag));
+    EXPECT_THAT(decision.effects, ElementsAre(drag));
+    EXPECT_NEAR(decision.confidence, 0.5 + 0.47 * (1.0 - std::exp(-6.1 / 8.0)), 1e-9);
+    // Not what training leaves open.
+    ranking_[backlash].by_sample.assign(samples, 50.0 / samples);
+    known_.objections[backlash] = "open";
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(drag)).effects, ElementsAre(drag));
+}
+
+TEST_F(Rules, WhatCannotBePartedIsNamedByTheSimplerOne) {
+    const std::size_t lag = add({"direction_asymmetry"}, 0.5, 50.0);
+    const std::size_t sensor = add({"sensor_lag"}, 0.5, 49.0);
+    const gap::Decision decision = after("what_cannot_be_parted", attributed(lag));
+    EXPECT_EQ(decision.outcome, Outcome::attributed);
+    EXPECT_THAT(decision.effects, ElementsAre(sensor));
+    EXPECT_EQ(decision.chosen, sensor);
+    // The wider one is none of the simpler one's rivals.
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(sensor)).effects, ElementsAre(sensor));
+}
+
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatGoesAsFar) {
+    const std::size_t cubic = add({"cubic_stiffness"}, 0.30, 900.0);
+    const std::size_t curve = add({"input_curve"}, 0.35, 500.0);
+    add({"supply_sag"}, 0.37, 500.0);
+    const auto named = [&] { return after("what_cannot_be_parted", attributed(cubic)).effects; };
+    set_noise(0.30 / 7.1);
+    EXPECT_THAT(named(), ElementsAre(cubic));
+    beside_a_form();
+    EXPECT_THAT(named(), ElementsAre(cubic, curve));
+    set_noise(0.30 / 6.9);  // a sensor's noise tells likelihoods
+    EXPECT_THAT(named(), ElementsAre(cubic));
+}
+
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsNoEventBesideWhatLasts) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);
+    add({"load_disturbance"}, 0.5, 49.0);
+    EXPECT_EQ(after("what_cannot_be_parted", attributed(drag)).outcome, Outcome::ambiguous);
+    beside_a_form();
+    const gap::Decision decision = after("what_cannot_be_parted", attributed(drag));
+    EXPECT_THAT(decision.effects, ElementsAre(drag));
+    EXPECT_NEAR(decision.confidence, 0.5 + 0.47 * (1.0 - std::exp(-6.0 / 8.0)), 1e-9);
+}
+
+TEST_F(Rules, FittedFormsLeaveDoubt) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    const std::size_t jump = add({"missed_counts"}, 0.5, 100.0);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    beside_a_form();
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    EXPECT_EQ(after("fitted_forms", attributed(jump)).confidence, 0.8);
+    // The more so the more is left that is no noise.
+    set_noise(0.01);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
+    ranking_[drag].gap_after = 0.24;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.85);
+    ranking_[drag].gap_after = 0.09;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.95);
+    set_noise(1.0);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    ranking_[drag].gap_after = 0.5;
+    known_.remainders[drag] = {0.4, true, {}};  // or can be foreseen
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
+}
+
+TEST_F(Rules, RoundedReadingsAreNamedWhereTheyAreMostOfWhatIsLeft) {
+    const std::size_t step = add({"encoder_quantisation"}, 0.01, 0.0);
+    gap::Decision none;
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.1;
+    const double half = std::sqrt(0.5 * 12.0) * 0.1 * gap::output_deviation(ground_.validation);
+    ground_.study.scales.quantum = 0.99 * half;
+    EXPECT_EQ(after("rounded_readings", none).outcome, Outcome::no_gap);
+    ground_.study.scales.quantum = 1.01 * half;
+    const gap::Decision decision = after("rounded_readings", none);
+    EXPECT_EQ(decision.outcome, Outcome::attributed);
+    EXPECT_THAT(decision.effects, ElementsAre(step));
+    EXPECT_EQ(decision.noise_floor, 0.01);
+}
+
+TEST_F(Rules, WhatIsNoNoiseIsNotNothing) {
+    gap::Decision none;
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.1;
+    set_noise(0.1 / 6.9);
+    EXPECT_EQ(after("what_is_no_noise", none).outcome, Outcome::no_gap);
+    set_noise(0.1 / 7.1);
+    const gap::Decision decision = after("what_is_no_noise", none);
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("no noise of a sensor")));
+    // Of a small gap twice as much is tolerated; of a fitted form's all.
+    none.base_gap = ranking_[0].gap_after = 0.04;
+    set_noise(0.04 / 14.9);
+    EXPECT_EQ(after("what_is_no_noise", none).outcome, Outcome::no_gap);
+    set_noise(0.04 / 15.1);
+    EXPECT_EQ(after("what_is_no_noise", none).outcome, Outcome::unknown);
+    beside_a_form();
+    EXPECT_EQ(after("what_is_no_noise", none).outcome, Outcome::no_gap);
+}
+
+TEST_F(Rules, WhatIsNoNoiseBesideACauseIsAnotherCause) {
+    const std::size_t jump = add({"missed_counts"}, 0.11, 100.0);
+    set_noise(0.01);
+    EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::unknown);
+    ranking_[jump].gap_after = 0.09;  // a tenth of the gap of a given model
+    EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::attributed);
+    beside_a_form();
+    ranking_[jump].gap_after = 0.49;
+    EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::attributed);
+    ranking_[jump].gap_after = 0.51;
+    EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::unknown);
+}
+
+TEST_F(Rules, PatternsAreNoNoise) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    std::vector<double>& left = ranking_[drag].residuals[0];
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        left[i] = 0.003 * std::sin(static_cast<double>(i * i));  // as good as noise
+    }
+    EXPECT_EQ(after("patterns", attributed(drag)).outcome, Outcome::attributed);
+    for (std::size_t i = left.size() / 2; i < left.size() / 2 + 100; ++i) {
+        left[i] *= 30.0;
+    }
+    const gap::Decision decision = after("patterns", attributed(drag));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("as loud from")));
+    // Jitter is louder where the output moves; so is a fitted form's misfit.
+    const std::size_t jitter = add({"sampling_jitter"}, 0.5, 100.0);
+    ranking_[jitter].residuals = ranking_[drag].residuals;
+    EXPECT_EQ(after("patterns", attributed(jitter)).outcome, Outcome::attributed);
+    beside_a_form();
+    EXPECT_EQ(after("patterns", attributed(drag)).outcome, Outcome::attributed);
+}
+
+TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
+    const std::size_t load = add({"load_disturbance"}, 0.5, 100.0);
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 99.0);
+    const double length_s = ground_.study.scales.length_s;
+    auto more = gap::parameters_of(gap::effect_named("load_disturbance"), ground_.study.scales, 0);
+    for (gap::FreeParameter& one : more) {
+        one.value = one.name.ends_with("from_s") ? 0.0 : one.name.ends_with("to_s") ? length_s : 1.0;
+    }
+    auto& own = ranking_[load].trained.own[0];
+    own.insert(own.end(), more.begin(), more.end());
+    gap::Decision decision = after("events_from_outside", attributed(load));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_LE(decision.confidence, 0.7);
+    gap::Decision both = attributed(load);
+    both.effects = {load, drag};
+    decision = after("events_from_outside", both);
+    EXPECT_EQ(decision.outcome, Outcome::attributed);
+    EXPECT_THAT(decision.effects, ElementsAre(drag));
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("an event from outside does not")));
+}
+
+TEST_F(Rules, FewAlternativesAreNamed) {
+    const std::vector<std::string> names = {"quadratic_drag", "backlash",   "supply_sag",
+                                            "input_curve",    "gain_error", "output_curve"};
+    gap::Decision all;
+    all.outcome = Outcome::ambiguous;
+    double gap_after = 0.50;
+    for (const std::string& name : names) {
+        all.effects.push_back(add({name}, gap_after -= 0.01, 100.0));
+    }
+    gap::Decision decision = after("few_alternatives", all);  // a given model: what equals a gain is the gain's
+    EXPECT_THAT(decision.effects, ElementsAre(1, 2, 5));
+    EXPECT_NEAR(decision.confidence, 0.3, 1e-12);
+    beside_a_form();
+    decision = after("few_alternatives", all);
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("6 causes explain these records equally well: quadratic_drag")));
+    all.effects.pop_back();
+    decision = after("few_alternatives", all);  // those that go farthest
+    EXPECT_THAT(decision.effects, ElementsAre(5, 4, 3));
+    EXPECT_EQ(decision.chosen, 5u);
+    EXPECT_THAT(decision.notes, SizeIs(1));
+    all.effects.resize(3);
+    EXPECT_THAT(after("few_alternatives", all).notes, IsEmpty());
+}
+
+TEST_F(Rules, LogsOfAnotherDriveAreExplainedByNothing) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.51, 100.0);
+    const gap::Decision decision = after("logs_of_another_drive", attributed(drag, 0.61));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_EQ(decision.confidence, 0.3);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("do model and log belong together?")));
+    EXPECT_EQ(after("logs_of_another_drive", attributed(drag, 0.59)).outcome, Outcome::attributed);
+    ranking_[drag].gap_after = 0.49;
+    EXPECT_EQ(after("logs_of_another_drive", attributed(drag, 0.61)).outcome, Outcome::attributed);
+}
+
+TEST_F(Rules, InputsThatNeverMoveTellOneStep) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    EXPECT_EQ(after("inputs_that_never_move", attributed(drag)).confidence, 0.97);
+    gap::Question question = gap_test::question_of({}, {.seed = 33}, {.seed = 34});
+    for (double& u : question.train[0].input) {
+        u = 0.1;
+    }
+    ground_ = gap::prepare(question);
+    const gap::Decision decision = after("inputs_that_never_move", attributed(drag));
+    EXPECT_EQ(decision.confidence, 0.5);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("the input never moves")));
+}
+
+TEST_F(Rules, SuspectsAreWhatLeadsAnUnknown) {
+    add({"quadratic_drag"}, 0.96, 100.0);
+    const std::size_t open = add({"backlash"}, 0.5, 100.0);
+    const std::size_t sag = add({"supply_sag"}, 0.94, 100.0);
+    known_.objections[open] = "open";
+    gap::Decision unknown;
+    unknown.outcome = Outcome::unknown;
+    EXPECT_EQ(after("suspects", unknown).suspect, sag);
+    unknown.chosen = open;  // what was chosen and then doubted
+    EXPECT_EQ(after("suspects", unknown).suspect, open);
+    EXPECT_FALSE(after("suspects", attributed(sag)).suspect);
+}
+
+}  // namespace
