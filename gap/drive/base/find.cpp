@@ -128,7 +128,7 @@ drive::Form held_near(drive::Form form, double times) {
 // As fitted to what is quick, and kept near it: whole residuals would make it slow again.
 drive::Form quick_form(Question alone, double quick_s) {
     constexpr double about = 4.0;
-    constexpr double near = 1.3;
+    constexpr double near = 2.0;
     alone.form = held_near(alone.form, about);
     const Ground part = prepare(alone);
     Whitener differences;
@@ -198,7 +198,7 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
                              fmt::format("{}: no {} ({}) explains anything of it: do input and output belong together?",
                                          records.front().name, structure.name, structure.meaning));
     }
-    const bool lags_alone = structure.integrators == 0 && structure.zeros == 0 && structure.order <= 2;
+    const bool lags_alone = driven && structure.integrators == 0 && structure.zeros == 0 && structure.order <= 2;
     const bool parts = lags_alone && quick.quick.squares < worth_a_quick_one * whole.quick.squares;
     return {*best, parts ? quick_best : std::nullopt, quick_s};
 }

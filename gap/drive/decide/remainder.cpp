@@ -110,6 +110,10 @@ std::string wave_of(const Evidence& evidence, const Decision& decision) {
     constexpr double share = 0.25;        // of what is left
     constexpr double of_input = 30.0;
     const Ranked& chosen = evidence.ranking[decision.chosen];
+    // What was let go swings by itself: a simulation that lags behind leaves a wave.
+    if (!evidence.study.scales.driven) {
+        return "";
+    }
     const Wave wave = clearest_wave(evidence.validation.courses.front().record(), chosen.residuals.front());
     const auto everywhere = [&](const Study& study, const std::vector<std::vector<double>>& residuals) {
         for (std::size_t r = 0; r < residuals.size(); ++r) {

@@ -10,7 +10,11 @@ const Effect& direction_asymmetry();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    // What is driven up and left down may differ; what swings by itself has no such ways.
+    if (!scales.driven) {
+        return {};
+    }
     return {{"tau_up_s",
              "s",
              0.0,
