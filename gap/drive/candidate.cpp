@@ -70,10 +70,11 @@ std::vector<FreeParameter> base_of(const Study& study) {
         }
         const bool delay = parameter.name == "delay_s";
         const double size = parameter.value != 0.0 ? std::fabs(parameter.value) : 1e-3;
-        // Far enough to reach any sensible value, not so far that a step leaves all sense.
+        // Far enough to reach any sensible value, not so far that a step leaves all sense. A dead time of a large part
+        // of the record is told by little of it: of what is bent or drifts it makes anything.
         const double lower =
             delay ? std::max(0.0, parameter.lower) : std::max(parameter.lower, parameter.value - 30.0 * size);
-        const double upper = delay ? std::min(parameter.upper, 0.5 * study.scales.length_s)
+        const double upper = delay ? std::min(parameter.upper, 0.2 * study.scales.length_s)
                                    : std::min(parameter.upper, parameter.value + 30.0 * size);
         const double scale = delay ? std::max(size, study.scales.time_constant_s) : size;
         free.push_back(to_free(parameter.name, parameter.value, lower, std::max(upper, lower + 1e-9), scale));

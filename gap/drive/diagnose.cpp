@@ -145,7 +145,14 @@ std::vector<const Described*> worth_asking(const std::vector<Described>& found) 
     const auto within = [&](const Described& one, double times) {
         return one.aside < times * front.aside && one.validation < times * front.validation;
     };
-    add_first([&](const Described& one) { return alike(one) && one.numbers < front.numbers && within(one, 2.0); });
+    // What a richer one makes of a bend fits the training, and elsewhere less well.
+    const auto better_elsewhere = [&](const Described& one) {
+        constexpr double clearly = 0.8;
+        return one.validation < clearly * front.validation;
+    };
+    add_first([&](const Described& one) {
+        return alike(one) && one.numbers < front.numbers && (within(one, 2.0) || better_elsewhere(one));
+    });
     // A richer one that says nothing more would only say it again.
     const auto further = [&](const Described& one) {
         constexpr double more = 0.97;

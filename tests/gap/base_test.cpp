@@ -112,6 +112,18 @@ TEST(Base, ThatIntegratesIsToldFromOneThatRests) {
     EXPECT_NEAR(value_of(all.front().form, "a1"), 0.8, 0.05);
 }
 
+// Up a bent staircase a long dead time and a long lag do as well as the quick lag that there is: only the steps tell.
+TEST(Base, OfABentStaircaseIsAsQuickAsItsSteps) {
+    const auto plant = [](double u, double y, double speed) { return (std::sqrt(u) - y - 0.17 * speed) / 3e-3; };
+    const auto up = [](double t) { return 0.1 * (1.0 + std::floor(t / 6.0)); };
+    const auto down = [](double t) { return 1.0 - 0.1 * std::floor(t / 6.0); };
+    const auto all = found(plant, {.input = up, .y = std::sqrt(0.1)}, {.input = down, .y = 1.0});
+    const auto one_lag =
+        std::find_if(all.begin(), all.end(), [](const gap::Described& one) { return one.name == "first_order"; });
+    ASSERT_NE(one_lag, all.end());
+    EXPECT_NEAR(value_of(one_lag->form, "a1") + value_of(one_lag->form, "delay_s"), 0.17, 0.02);
+}
+
 TEST(Base, OfOneLagIsNoRicherOne) {
     // A second lag of 10 ms, far below the interval.
     const auto plant = [](double u, double y, double speed) { return (u - y - 2.01 * speed) / 0.02; };

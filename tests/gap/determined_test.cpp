@@ -49,8 +49,8 @@ TEST(Untold, IsALagInADirectionThatTrainingLacks) {
     const gap::Question question =
         gap_test::question_of({}, {.experiment = "step", .seed = 75}, {.experiment = "pulse", .seed = 76});
     const gap::Ground ground = gap::prepare(question);
-    gap::Candidate candidate = trained(ground, "input_dead_zone");
-    candidate = gap::fit(ground.study, {&gap::effect_named("direction_asymmetry")}, ground.base, nullptr);
+    gap::Candidate candidate =
+        gap::fit(ground.study, {&gap::effect_named("direction_asymmetry")}, ground.base, nullptr);
     candidate.lasting.front()[1].value = 0.3;  // the lag downwards, as if validation had told it
     gap::add_intervals(ground.study, candidate, nullptr);
     EXPECT_THAT(gap::untold_of(ground.study, candidate), HasSubstr("is no effect"));

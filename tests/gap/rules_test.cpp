@@ -305,6 +305,24 @@ TEST_F(Rules, PatternsAreNoNoise) {
     EXPECT_EQ(after("patterns", attributed(drag)).outcome, Outcome::attributed);
 }
 
+TEST_F(Rules, PatternsAreWavesThatTheInputHasNot) {
+    for (auto* records : {&question_.train, &question_.validate}) {
+        for (gap::Record& record : *records) {
+            for (std::size_t i = 0; i < record.size(); ++i) {
+                record.output[i] += 0.02 * std::sin(2.0 * std::numbers::pi * 7.3 * record.time_s[i]);
+            }
+        }
+    }
+    ground_ = gap::prepare(question_);
+    ranking_[0].residuals = gap::all_residuals(ground_.validation, ranking_[0].candidate);
+    const gap::Decision decision = after("patterns");
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("a wave of 7.")));
+    // What was let go swings by itself.
+    ground_.study.scales.driven = false;
+    EXPECT_EQ(after("patterns").outcome, Outcome::no_gap);
+}
+
 TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
     const std::size_t load = add({"load_disturbance"}, 0.5, 100.0);
     const std::size_t drag = add({"quadratic_drag"}, 0.5, 99.0);
