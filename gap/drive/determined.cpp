@@ -125,6 +125,24 @@ std::string untold_of(const Study& study, const Candidate& candidate) {
     return "";
 }
 
+std::string linear_of(const Candidate& candidate) {
+    std::size_t lasting = 0;
+    for (const Effect* effect : candidate.effects) {
+        if (effect->kind != Kind::lasting) {
+            continue;
+        }
+        std::vector<Fitted> fitted;
+        for (const FreeParameter& number : candidate.lasting[lasting++]) {
+            fitted.push_back({number.value, number.low, number.high});
+        }
+        const std::string why = effect->linear_with != nullptr ? effect->linear_with(fitted) : "";
+        if (!why.empty()) {
+            return fmt::format("{}: {}", effect->name, why);
+        }
+    }
+    return "";
+}
+
 bool needs_event(const Study& study, const std::vector<FreeParameter>& own, const Effect& effect) {
     const std::vector<EffectParameter> named = effect.parameters(study.scales);
     return std::any_of(named.begin(), named.end(), [&](const EffectParameter& parameter) {

@@ -108,6 +108,9 @@ struct Effect {
     bool rounds = false;        ///< a reading stands for a range of values, within which nothing is missed
     std::vector<Written> (*to_contract)(const Effect& effect, std::span<const Fitted> fitted) = numbers_to_contract;
     std::vector<double> (*from_contract)(const Effect& effect, const Contracted& contracted) = numbers_from_contract;
+    /// Why it is linear with these numbers, and so what a fitted base of another form takes up; empty: it is not. None:
+    /// it never is.
+    std::string (*linear_with)(std::span<const Fitted> fitted) = nullptr;
     /// A further start that the residuals of what is there without it tell, for numbers whose basin is narrow: values
     /// in the order of `parameters`. For lasting ones.
     std::vector<double> (*start)(const Clue& clue) = nullptr;

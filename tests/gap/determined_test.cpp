@@ -56,6 +56,25 @@ TEST(Untold, IsALagInADirectionThatTrainingLacks) {
     EXPECT_THAT(gap::untold_of(ground.study, candidate), HasSubstr("is no effect"));
 }
 
+// Another lag up than down is no lag; the same one is, and a fitted base of another form has it.
+TEST(Linear, IsAnAsymmetryOfTheSameLags) {
+    gap::Candidate candidate;
+    candidate.effects = {&gap::effect_named("load_disturbance"), &gap::effect_named("direction_asymmetry")};
+    candidate.lasting = {
+        {{"direction_asymmetry.tau_up_s", 0.5, 0.0, 1.0, 1.0}, {"direction_asymmetry.tau_down_s", 0.6, 0.0, 1.0, 1.0}}};
+    gap::FreeParameter& up = candidate.lasting[0][0];
+    gap::FreeParameter& down = candidate.lasting[0][1];
+    up.low = 0.4, up.high = 0.54;
+    down.low = 0.55, down.high = 0.65;
+    EXPECT_EQ(gap::linear_of(candidate), "");
+    up.high = 0.55;
+    EXPECT_THAT(gap::linear_of(candidate), StartsWith("direction_asymmetry: "));
+    std::swap(up, down);
+    EXPECT_THAT(gap::linear_of(candidate), StartsWith("direction_asymmetry: "));
+    candidate.effects[1] = &gap::effect_named("supply_sag");
+    EXPECT_EQ(gap::linear_of(candidate), "");
+}
+
 // Between two levels of a staircase a threshold may lie anywhere: it moves no reading, and is known to the levels.
 TEST(Intervals, OfAThresholdReachToTheLevelsBesideIt) {
     const gap::Question question = gap_test::question_of({{"start_up_threshold.threshold", 0.05}}, {.seed = 77},

@@ -138,6 +138,20 @@ drive::Form quick_form(Question alone, double quick_s) {
     return held_near(with_values(alone.form, fit(part.study, {}, part.base, &differences)), near);
 }
 
+// Whether its lags, whose sum is the first power's coefficient, outlast every record: beside a zero that nearly cancels
+// it such a lag is a drift, which is none of the plant's, and alone it is an integrator.
+bool outlasts(const Described& one, const std::vector<Record>& records) {
+    constexpr double times = 1.5;
+    double length_s = 0.0;
+    for (const Record& record : records) {
+        length_s = std::max(length_s, record.time_s.back() - record.time_s.front());
+    }
+    return std::any_of(one.form.parameters().begin(), one.form.parameters().end(),
+                       [&](const drive::Parameter& parameter) {
+                           return parameter.name == "a1" && !parameter.fixed && parameter.value > times * length_s;
+                       });
+}
+
 // From each start; none: there is nothing of this structure, and others go on.
 std::vector<Described> describe(const Structure& structure, Question alone, const Question& asked) {
     std::vector<Described> found;
@@ -222,6 +236,9 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     std::vector<Described> all;
     for (std::vector<Described>& of_structure : found) {
         std::move(of_structure.begin(), of_structure.end(), std::back_inserter(all));
+    }
+    if (!std::all_of(all.begin(), all.end(), [&](const Described& one) { return outlasts(one, question.train); })) {
+        std::erase_if(all, [&](const Described& one) { return outlasts(one, question.train); });
     }
     if (all.empty()) {
         throw glsum::Failure(

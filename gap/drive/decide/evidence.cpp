@@ -84,6 +84,9 @@ const std::string& Evidence::objection(std::size_t i) const {
         Candidate trained = ranking[i].trained;
         add_intervals(study, trained, beside_form() ? nullptr : &whitener_);
         what = untold_of(study, trained);
+        if (what.empty() && beside_form()) {
+            what = linear_of(trained);
+        }
         if (what.empty() && beside_form() && has_events(trained)) {
             what = objection_to_events(trained, ranking[i].candidate);
         }

@@ -51,6 +51,12 @@ void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const d
     });
 }
 
+std::string linear_with(std::span<const Fitted> fitted) {
+    const Fitted& up = fitted[0];
+    const Fitted& down = fitted[1];
+    return up.low <= down.high && down.low <= up.high ? "its lags up and down may be the same" : "";
+}
+
 }  // namespace
 
 const Effect& direction_asymmetry() {
@@ -62,6 +68,7 @@ const Effect& direction_asymmetry() {
         .generalises = {"sensor_lag", "actuator_lag"},
         .place = Place::output,
         .numbers = {{"tau_up_s"}, {"tau_down_s"}},
+        .linear_with = linear_with,
     };
     return effect;
 }
