@@ -130,6 +130,16 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEffectIsOverOneFewer) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
 }
 
+TEST_F(Rules, ClearAdvantageOfAFurtherEventBesideAFormTakesHalf) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);
+    const std::size_t both = add({"quadratic_drag", "load_disturbance"}, 0.26, 100.0);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    beside_a_form();
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+    ranking_[both].gap_after = 0.24;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+}
+
 TEST_F(Rules, ClearAdvantageIsNoneOfWhatTrainingLeavesOpen) {
     const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
     known_.objections[drag] = "training leaves quadratic_drag.coefficient anywhere";

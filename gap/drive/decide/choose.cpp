@@ -16,6 +16,8 @@ constexpr double first_share_beside_a_form = 0.25;
 // large as the output itself it may be small and still take most.
 constexpr double further_share = 0.04;
 constexpr double second_share = 0.25;
+// Events, which are located where they are judged, follow any form's misfit: a further one takes half of what is left.
+constexpr double further_share_of_an_event = 0.5;
 
 bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
     const double before = evidence.gap(chosen);
@@ -25,6 +27,10 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
     const double material = so_far == 0   ? of_first * before
                             : so_far == 1 ? std::min(further_share * closable, second_share * before)
                                           : further_share * closable;
+    if (so_far > 0 && evidence.beside_form() && has_events(evidence.ranking[wider].trained) &&
+        !has_events(evidence.ranking[chosen].trained) && taken < further_share_of_an_event * before) {
+        return false;
+    }
     return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material;
 }
 
