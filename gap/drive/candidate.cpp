@@ -41,6 +41,10 @@ bool Candidate::has(const std::string& effect) const {
     return std::any_of(effects.begin(), effects.end(), [&](const Effect* mine) { return mine->name == effect; });
 }
 
+bool Candidate::any(bool Effect::*trait) const {
+    return std::any_of(effects.begin(), effects.end(), [&](const Effect* mine) { return mine->*trait; });
+}
+
 std::size_t Candidate::effect_parameters() const {
     std::size_t count = own.empty() ? 0 : event_parameters() / own.size();
     for (const auto& list : lasting) {

@@ -30,6 +30,8 @@ struct Candidate {
     double cost = 0.0;                                ///< half the sum of squares of the (whitened) residuals
     [[nodiscard]] std::string name() const;           ///< "none", or effects joined by " + "
     [[nodiscard]] bool has(const std::string& effect) const;
+    /// Whether one of its effects is so: `candidate.any(&Effect::rounds)`.
+    [[nodiscard]] bool any(bool Effect::*trait) const;
     [[nodiscard]] std::size_t effect_parameters() const;  ///< free ones of effects, those of events in one record
     [[nodiscard]] std::size_t event_parameters() const;   ///< free ones, in all records
 };

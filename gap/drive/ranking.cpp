@@ -70,7 +70,7 @@ std::vector<double> log_of_slow(std::span<const double> residuals, double deviat
 
 void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     const double step = validation.scales.quantum;
-    const bool within_steps = step > 0.0 && ranked.candidate.has("encoder_quantisation");
+    const bool within_steps = step > 0.0 && ranked.candidate.any(&Effect::rounds);
     ranked.by_sample.clear();
     ranked.log_likelihood = 0.0;
     std::vector<std::vector<double>> left;

@@ -54,7 +54,7 @@ public:
         bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
             // Spread is not in the sum of squares: jitter stays in the race whatever its place.
             const bool far = of_.ground.study.base.refit && singles[i].cost > too_far * singles.front().cost;
-            const bool near = (i < shortlisted && !far) || singles[i].has("sampling_jitter");
+            const bool near = (i < shortlisted && !far) || singles[i].any(&Effect::only_spreads);
             singles[i] = fit(of_.ground.study, singles[i].effects, singles[i], fits_by(),
                              {0, 1, near ? Effort{}.iterations : 0});
             fit_jitter(of_.ground.study, singles[i], found_.whitener);
@@ -110,12 +110,12 @@ private:
     // Jitter moves no reading, so it changes no other effect's fit: it is asked for once, beside the best of each size.
     [[nodiscard]] std::vector<Candidate> with_jitter() const {
         const auto jitter = std::find_if(of_.ground.list.begin(), of_.ground.list.end(),
-                                         [](const Effect* effect) { return effect->name == "sampling_jitter"; });
+                                         [](const Effect* effect) { return effect->only_spreads; });
         std::vector<Candidate> wide;
         for (std::size_t size = 1; jitter != of_.ground.list.end() && size <= 2; ++size) {
             const auto best = std::find_if(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
-                return ranked.trained.effects.size() == size && !ranked.trained.has("sampling_jitter") &&
-                       !ranked.trained.has("encoder_quantisation");
+                return ranked.trained.effects.size() == size && !ranked.trained.any(&Effect::only_spreads) &&
+                       !ranked.trained.any(&Effect::rounds);
             });
             if (best == found_.ranking.end()) {
                 continue;
@@ -214,9 +214,8 @@ private:
                 wider.push_back(effect);
                 Effects key = wider;
                 std::sort(key.begin(), key.end());
-                if (effect->name != "sampling_jitter" &&
-                    !(effect->name == "encoder_quantisation" && !quantum_shows()) && !is_of_another_model(wider) &&
-                    !lead->has("sampling_jitter") && !lead->has(effect->name) && !nested(lead->effects, *effect) &&
+                if (!effect->only_spreads && !(effect->rounds && !quantum_shows()) && !is_of_another_model(wider) &&
+                    !lead->any(&Effect::only_spreads) && !lead->has(effect->name) && !nested(lead->effects, *effect) &&
                     seen.insert(key).second) {
                     all.push_back(wider);
                     starts.push_back(lead);
@@ -244,7 +243,7 @@ private:
         std::vector<const Ranked*> sized;
         const bool steps_count = quantum_shows();
         for (const Ranked& ranked : found_.ranking) {
-            if (ranked.trained.effects.size() == size && (steps_count || !ranked.trained.has("encoder_quantisation"))) {
+            if (ranked.trained.effects.size() == size && (steps_count || !ranked.trained.any(&Effect::rounds))) {
                 sized.push_back(&ranked);
             }
         }

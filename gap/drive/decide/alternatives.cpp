@@ -15,6 +15,12 @@ constexpr double parting_advantage = 6.0;
 constexpr std::size_t most_alternatives = 3;
 constexpr double of_alternatives = 0.9;  // what their confidences add up to
 
+bool is_special_case(const Effect& effect, const Candidate& of) {
+    return std::any_of(of.effects.begin(), of.effects.end(), [&](const Effect* mine) {
+        return std::find(mine->generalises.begin(), mine->generalises.end(), effect.name) != mine->generalises.end();
+    });
+}
+
 bool generalises(const Candidate& general, const Candidate& special) {
     // Where the data hold a number of the wider one fast, it is not wider.
     if (general.effects.size() != special.effects.size() ||
@@ -24,10 +30,7 @@ bool generalises(const Candidate& general, const Candidate& special) {
     bool more = false;
     for (const Effect* effect : special.effects) {
         const bool same = general.has(effect->name);
-        const bool wider = std::any_of(general.effects.begin(), general.effects.end(), [&](const Effect* mine) {
-            return std::find(mine->generalises.begin(), mine->generalises.end(), effect->name) !=
-                   mine->generalises.end();
-        });
+        const bool wider = is_special_case(*effect, general);
         if (!same && !wider) {
             return false;
         }
@@ -106,9 +109,11 @@ void keep_few(const Evidence& evidence, Decision& decision) {
                          [&](std::size_t a, std::size_t b) { return evidence.gap(a) < evidence.gap(b); });
         decision.chosen = decision.effects.front();
     } else {
-        // Any effect that equals a gain change is the gain's alternative, which is kept.
+        // What others equal here, a gain that is wrong, say, is their special case, and is kept.
         const auto gain = std::find_if(decision.effects.begin(), decision.effects.end(), [&](std::size_t i) {
-            return evidence.ranking[i].trained.name() == "gain_error";
+            return std::any_of(decision.effects.begin(), decision.effects.end(), [&](std::size_t other) {
+                return is_special_case(*evidence.ranking[i].trained.effects.front(), evidence.ranking[other].trained);
+            });
         });
         if (gain != decision.effects.end() &&
             gain - decision.effects.begin() >= static_cast<std::ptrdiff_t>(most_alternatives)) {

@@ -71,7 +71,7 @@ void choose(const Evidence& evidence, Decision& decision) {
 
 void name_the_step(const Evidence& evidence, Decision& decision) {
     const auto candidate = std::find_if(evidence.ranking.begin(), evidence.ranking.end(), [](const Ranked& ranked) {
-        return ranked.trained.name() == "encoder_quantisation";
+        return ranked.trained.effects.size() == 1 && ranked.trained.effects.front()->rounds;
     });
     const double step = evidence.study.scales.quantum / output_deviation(evidence.validation);
     constexpr double most = 0.5;  // of the squared gap: a uniform error's square is a twelfth of the step's
