@@ -43,6 +43,10 @@ drive::Form search_form(const std::string& form, const std::vector<Record>& reco
                              fmt::format("fit:{}: expected one of {}; the nearest is {}", form, fmt::join(known, ", "),
                                          base::nearest_name(form, known)));
     }
+    if (form == "niopdt") {
+        // Of whole orders: where the plant swings, no lag leads there.
+        return {drive::Kind::niopdt, model_of(starts_of(*structure_named("second_order"), records).whole)};
+    }
     std::vector<Course> courses;
     double length_s = 0.0;
     for (const Record& record : records) {
@@ -80,10 +84,7 @@ drive::Form search_form(const std::string& form, const std::vector<Record>& reco
         model.gain = 1.0;
         return form_of(model);
     }
-    const drive::Kind kind = form == "fopdt"   ? drive::Kind::fopdt
-                             : form == "sopdt" ? drive::Kind::sopdt
-                                               : drive::Kind::niopdt;
-    return {kind, best};
+    return {form == "fopdt" ? drive::Kind::fopdt : drive::Kind::sopdt, best};
 }
 
 void take_base(Question& question, const std::string& words) {

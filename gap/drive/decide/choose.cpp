@@ -1,6 +1,10 @@
 // Which candidate, before it is asked what else there is.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <string>
 
 #include "gap/drive/decide/rule.hpp"
 
@@ -34,6 +38,21 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
     return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material;
 }
 
+// What cannot be named and yet goes most of the way, as likely as any, is more than nothing.
+std::optional<std::size_t> goes_most_of_the_way(const Evidence& evidence, const Decision& decision) {
+    constexpr double most = 0.5;
+    if (decision.base_gap < small_gap_of_a_form) {
+        return std::nullopt;
+    }
+    for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
+        if (evidence.ranking[i].score() > evidence.ranking.front().score() - clear_advantage &&
+            evidence.gap(i) < most * decision.base_gap) {
+            return i;
+        }
+    }
+    return std::nullopt;
+}
+
 void choose(const Evidence& evidence, Decision& decision) {
     const std::size_t none = evidence.none();
     decision.base_gap = evidence.gap(none);
@@ -58,6 +77,15 @@ void choose(const Evidence& evidence, Decision& decision) {
     if (decision.chosen != none) {
         decision.outcome = Outcome::attributed;
         decision.effects = {decision.chosen};
+        return;
+    }
+    if (const auto most = goes_most_of_the_way(evidence, decision); most && evidence.beside_form()) {
+        decision.outcome = Outcome::unknown;
+        decision.confidence = 0.7;
+        const std::string& objection = evidence.objection(*most);
+        decision.notes.push_back(fmt::format("{} would bring the gap to {:.4f}, but {}",
+                                             evidence.ranking[*most].trained.name(), evidence.gap(*most),
+                                             objection.empty() ? "is not clearly more likely than none" : objection));
         return;
     }
     decision.outcome = Outcome::no_gap;

@@ -57,5 +57,7 @@ private:
 /// A likelihood ratio that chance does not reach among some hundred candidates.
 constexpr double clear_advantage = 8.0;
 [[nodiscard]] bool is_clear(const Interval& over);
+/// A fitted form that leaves less than so much of the deviation, two thousandths of the variance, has all that matters.
+constexpr double small_gap_of_a_form = 0.0447;
 
 }  // namespace gap

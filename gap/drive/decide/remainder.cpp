@@ -12,9 +12,6 @@
 namespace gap {
 namespace {
 
-// A fitted form that leaves less than so much of the deviation, two thousandths of the variance, has all that matters.
-constexpr double small_gap_of_a_form = 0.0447;
-
 double square(double value) { return value * value; }
 
 void nothing_listed(Decision& decision, std::string_view what_is_left) {
