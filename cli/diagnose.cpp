@@ -16,8 +16,7 @@
 #include "cli/exam.hpp"
 #include "gap/drive/diagnose.hpp"
 #include "gap/drive/start.hpp"
-#include "gap/page.hpp"
-#include "gap/verdict.hpp"
+#include "gap/drive/verdict.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {

@@ -197,7 +197,7 @@ void run_blind(const Options& options) {
         const gap::cycles::Explanation found = gap::cycles::explain(
             question_of(measured, core, program.cores_folder),
             [&](const auto& variants) { return qemu::predict(program, file, measured, variants); });
-        put(gap::cycles::to_json(found), options.out / (names[c] + ".json"));
+        put(gap::to_json(gap::cycles::verdict_of(found, core)), options.out / (names[c] + ".json"));
         std::vector<std::string> named;
         for (const gap::cycles::Step& step : found.steps) {
             named.push_back(step.effect);
@@ -207,7 +207,7 @@ void run_blind(const Options& options) {
         hits += good ? 1 : 0;
         ++all;
         fmt::print("  {:<10} {:<10} {:<44} {}: {}{}\n", names[c], secrets[c].kind,
-                   fmt::format("{}", fmt::join(secrets[c].effects, " ")), found.verdict, fmt::join(named, " "),
+                   fmt::format("{}", fmt::join(secrets[c].effects, " ")), name_of(found.outcome), fmt::join(named, " "),
                    good ? "" : "   WRONG");
     }
     fmt::print("\n");
@@ -237,21 +237,21 @@ void run(const Options& options) {
             predicted.push_back(first[i].nominal);
             all.push_back(i);
         }
-        found.verdict = "attributed";
+        found.outcome = gap::Outcome::attributed;
         found.base_gap = found.after_gap = gap::cycles::gap_of(measured, predicted, all);
         found.steps.push_back({"different_binary", {}, {}, found.base_gap, found.base_gap, 0.99});
         found.notes.push_back(*other);
         found.next_experiment = "measure the ELF that is predicted: the core is judged once the instructions are equal";
     } else {
         found = gap::cycles::explain(question, predict);
-        if (found.verdict == "ambiguous" && found.next_experiment.empty()) {
+        if (found.outcome == gap::Outcome::ambiguous && found.next_experiment.empty()) {
             found.next_experiment = loops_that_part(program, found.reference, question.fitting.at(found.reference));
         }
     }
     fmt::print("{}: {} rows\n{}", options.measured.filename().string(), rows.size(),
-               gap::cycles::to_text(found, options.core));
+               gap::to_text(gap::cycles::verdict_of(found, options.core)));
     if (!options.json.empty()) {
-        put(gap::cycles::to_json(found), options.json);
+        put(gap::to_json(gap::cycles::verdict_of(found, options.core)), options.json);
     }
 }
 

@@ -13,7 +13,6 @@
 #include "gap/drive/diagnose.hpp"
 #include "gap/exam/ask.hpp"
 #include "gap/exam/score.hpp"
-#include "gap/verdict.hpp"
 #include "qemu/failure.hpp"
 
 namespace cli {

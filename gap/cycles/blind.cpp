@@ -109,16 +109,16 @@ void measure(std::vector<qemu::MeasuredCycles>& rows, const std::vector<qemu::Pr
 
 bool names(const Explanation& found, const Secret& secret) {
     if (secret.kind == "nothing") {
-        return found.verdict == "no_gap";
+        return found.outcome == Outcome::no_gap;
     }
     if (secret.kind == "unlisted") {
-        return found.verdict == "unknown";
+        return found.outcome == Outcome::unknown;
     }
     std::vector<std::string> named;
     for (const Step& step : found.steps) {
         named.push_back(step.effect);
     }
-    if (found.verdict == "ambiguous") {
+    if (found.outcome == Outcome::ambiguous) {
         // What cannot be told apart: one of the alternatives beside the steps.
         return std::any_of(found.alternatives.begin(), found.alternatives.end(), [&](const Step& other) {
             std::vector<std::string> together = named;
@@ -128,7 +128,7 @@ bool names(const Explanation& found, const Secret& secret) {
         });
     }
     std::sort(named.begin(), named.end());
-    return found.verdict == "attributed" && named == secret.effects;
+    return found.outcome == Outcome::attributed && named == secret.effects;
 }
 
 }  // namespace gap::cycles

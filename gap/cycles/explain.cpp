@@ -32,12 +32,9 @@ public:
         }
         const Cycles base = predicted_base();
         result_.base_gap = gap_of(evidence_.measured(), base, evidence_.to_judge());
-        const Location location = locate(evidence_, base);
-        result_.kernels = location.kernels;
-        result_.placements = location.placements;
-        result_.lines = location.lines;
+        result_.where = locate(evidence_, base);
         if (result_.base_gap <= std::max(small_gap, 4.0 * result_.floor)) {
-            result_.verdict = "no_gap";
+            result_.outcome = Outcome::no_gap;
             result_.after_gap = result_.base_gap;
             result_.reference = question_.base;
             return result_;
@@ -73,7 +70,7 @@ private:
             base.maintenance = 0.0;
         }
         const double cost_worth = from_nothing ? 0.5 : 4.0;
-        result_.verdict = "attributed";
+        result_.outcome = Outcome::attributed;
         State published = found;
         published.set = "published";
         const bool rivals = from_nothing && has_set(found.core, "published");
@@ -86,7 +83,7 @@ private:
             result_.steps = steps_to(evidence_, found, base, found, cost_worth);
             result_.after_gap = gap_of(evidence_.measured(), evidence_.whole(found), evidence_.to_judge());
             if (found.ratio > 1.0 && found.ratio < 1.5) {
-                result_.verdict = "ambiguous";
+                result_.outcome = Outcome::ambiguous;
                 Step other = *std::find_if(result_.steps.begin(), result_.steps.end(),
                                            [](const Step& step) { return step.effect == "clock_ratio"; });
                 result_.alternatives.push_back(other);
@@ -105,7 +102,7 @@ private:
             }
         }
         if (result_.after_gap > std::max(large_rest, 4.0 * result_.floor)) {
-            result_.verdict = "unknown";
+            result_.outcome = Outcome::unknown;
         }
     }
     [[nodiscard]] bool has_set(const std::string& core, const std::string& set) const {
@@ -153,7 +150,7 @@ private:
             result_.alternatives.push_back({effect, a_tap, {}, before, result_.after_gap, 0.25});
         }
         result_.apart = "floating-point rows, by their length, beyond published rules";
-        result_.verdict = "ambiguous";
+        result_.outcome = Outcome::ambiguous;
         std::string fits;
         for (const std::string& set : question_.fitting.at(found.core)) {
             State state = found;

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "gap/verdict/outcome.hpp"
+#include "gap/verdict/where.hpp"
 #include "qemu/silicon.hpp"
 
 namespace gap::cycles {
@@ -44,21 +46,16 @@ struct Step {
     double confidence;
 };
 
-struct Share {
-    std::string name;
-    double share;
-};
-
 struct Explanation {
-    std::string verdict;  ///< attributed, ambiguous, unknown, no_gap
+    Outcome outcome = Outcome::no_gap;
     std::vector<Step> steps;
     std::vector<Step> alternatives;  ///< of the last step of an ambiguous verdict: each explains the same
     std::string apart;               ///< what the alternatives are about, for people
-    double base_gap;
-    double after_gap;
-    double floor;
+    double base_gap = 0.0;
+    double after_gap = 0.0;
+    double floor = 0.0;
     std::string reference;
-    std::vector<Share> kernels, placements, lines;  ///< of the base's gap; lines: slope and constant
+    WhereInRows where;  ///< the base's gap lies
     std::vector<std::string> notes;
     std::string next_experiment;
 };

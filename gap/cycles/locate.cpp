@@ -5,7 +5,7 @@
 
 namespace gap::cycles {
 
-Location locate(const Evidence& evidence, const Cycles& base) {
+WhereInRows locate(const Evidence& evidence, const Cycles& base) {
     std::map<std::string, double> kernels;
     std::map<std::string, double> placements;
     std::map<std::string, Rows> lines;
@@ -34,11 +34,12 @@ Location locate(const Evidence& evidence, const Cycles& base) {
         }
     }
     const auto shares = [](const std::map<std::string, double>& parts, double all) {
-        std::vector<Share> found;
+        std::vector<NamedShare> found;
         for (const auto& [name, part] : parts) {
             found.push_back({name, all > 0.0 ? part / all : 1.0 / static_cast<double>(parts.size())});
         }
-        std::stable_sort(found.begin(), found.end(), [](const Share& a, const Share& b) { return a.share > b.share; });
+        std::stable_sort(found.begin(), found.end(),
+                         [](const NamedShare& a, const NamedShare& b) { return a.share > b.share; });
         return found;
     };
     return {shares(kernels, sum), shares(placements, sum),

@@ -5,10 +5,7 @@
 
 namespace gap::cycles {
 
-/// Shares of the rows that judge, each list by size; they sum to 1.
-struct Location {
-    std::vector<Share> kernels, placements, lines;  ///< lines: slope and constant
-};
-[[nodiscard]] Location locate(const Evidence& evidence, const Cycles& base);
+/// Of the rows that judge; each list sums to 1.
+[[nodiscard]] WhereInRows locate(const Evidence& evidence, const Cycles& base);
 
 }  // namespace gap::cycles

@@ -1,15 +1,14 @@
-// What was found of cycles, as a file and for people.
+// The verdict on cycles, from what explains them.
 #pragma once
 
 #include <string>
 
 #include "gap/cycles/explain.hpp"
+#include "gap/verdict/verdict.hpp"
 
 namespace gap::cycles {
 
-/// Schema glsum-gap-1.
-[[nodiscard]] std::string to_json(const Explanation& explanation);
-/// Some lines for a terminal. \param base  the core file that was judged
-[[nodiscard]] std::string to_text(const Explanation& explanation, const std::string& base);
+/// \param base  the core file that was judged
+[[nodiscard]] Verdict verdict_of(const Explanation& found, const std::string& base);
 
 }  // namespace gap::cycles

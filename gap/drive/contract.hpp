@@ -4,9 +4,9 @@
 #include <map>
 #include <span>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
+
+#include "gap/verdict/written.hpp"
 
 namespace gap {
 
@@ -29,15 +29,6 @@ struct Fitted {
     double value;
     double low;
     double high;
-};
-
-/// A number, a word or a list of numbers.
-using ContractValue = std::variant<double, std::string, std::vector<double>>;
-
-struct Written {
-    std::string name;
-    ContractValue value;
-    std::vector<std::pair<double, double>> intervals = {};  ///< of the number, or of each of the list; empty: none
 };
 
 /// Each number by its name, those that files leave out apart. \param fitted  in the order of the effect's numbers

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gap/drive/start.hpp"
-#include "gap/verdict.hpp"
+#include "gap/drive/verdict.hpp"
 #include "qemu/failure.hpp"
 
 namespace gap::exam {

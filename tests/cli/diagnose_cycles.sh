@@ -38,6 +38,7 @@ has '"effect": "call_overhead"'
 printf '%s\n' kernel,code,data,maintenance,taps,cycles,instructions shift_fir_q31,flash_cached,dtcm,0,5,47,9 >"$folder/other.csv"
 expect 0 "different_binary" diagnose cycles --measured "$folder/other.csv" --json "$verdict"
 has '"verdict": "attributed"'
+has '"noise_floor": 0.0'  # nothing was judged
 
 # Blind: sealed before anything is diagnosed, each from its file, and what it says is right but for a case or two.
 expect 2 "expected --measured FILE or --blind N" diagnose cycles

@@ -14,8 +14,7 @@
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/base/structure.hpp"
 #include "gap/drive/diagnose.hpp"
-#include "gap/page.hpp"
-#include "gap/verdict.hpp"
+#include "gap/drive/verdict.hpp"
 
 namespace {
 

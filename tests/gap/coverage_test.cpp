@@ -11,7 +11,7 @@
 
 #include "gap/drive/experiment.hpp"
 #include "gap/drive/start.hpp"
-#include "gap/verdict.hpp"
+#include "gap/drive/verdict.hpp"
 #include "stand_case.hpp"
 
 namespace {

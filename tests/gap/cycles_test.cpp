@@ -12,6 +12,7 @@
 
 namespace {
 
+using gap::Outcome;
 using gap::cycles::Explanation;
 using gap::cycles::Question;
 
@@ -107,7 +108,7 @@ std::vector<std::string> effects_of(const Explanation& found) {
 TEST(Cycles, FromNothingEachEffectThatTheRowsPayIsFound) {
     const Explanation found = diagnose(
         "ideal", {}, [](const auto& row, const auto& p) { return p.nominal + 12.0 + (row.maintenance ? 90.0 : 0.0); });
-    EXPECT_EQ(found.verdict, "attributed");
+    EXPECT_EQ(found.outcome, Outcome::attributed);
     EXPECT_EQ(effects_of(found),
               (std::vector<std::string>{"branch_mispredict", "cache_maintenance", "call_overhead", "load_bank_conflict",
                                         "load_use", "single_issue", "store_buffer"}));
@@ -122,7 +123,7 @@ TEST(Cycles, FromNothingEachEffectThatTheRowsPayIsFound) {
         }
     }
     double sum = 0.0;
-    for (const auto& share : found.kernels) {
+    for (const auto& share : found.where.kernels) {
         sum += share.share;
     }
     EXPECT_NEAR(sum, 1.0, 1e-12);
@@ -131,7 +132,7 @@ TEST(Cycles, FromNothingEachEffectThatTheRowsPayIsFound) {
 TEST(Cycles, OfACoreThatPaysTooMuchTheEffectIsNamed) {
     for (const char* effect : {"single_issue", "load_use", "store_buffer", "load_bank_conflict"}) {
         const Explanation found = diagnose("real", {effect}, unchanged);
-        EXPECT_EQ(found.verdict, "attributed") << effect;
+        EXPECT_EQ(found.outcome, Outcome::attributed) << effect;
         EXPECT_EQ(effects_of(found), std::vector<std::string>{effect});
         ASSERT_EQ(found.steps.size(), 1U);
         EXPECT_EQ(found.steps[0].parameters.at("factor"), 0.0);
@@ -144,7 +145,7 @@ TEST(Cycles, AnotherCostOfAnEffectIsFound) {
         return p.nominal +
                0.8 * static_cast<double>(p.half_cycles[timing::index(timing::Effect::load_bank_conflict)]) / 2.0;
     });
-    EXPECT_EQ(found.verdict, "attributed");
+    EXPECT_EQ(found.outcome, Outcome::attributed);
     ASSERT_EQ(effects_of(found), std::vector<std::string>{"load_bank_conflict"});
     EXPECT_NEAR(found.steps[0].parameters.at("factor"), 1.8, 0.02);
 }
@@ -215,7 +216,7 @@ TEST(Cycles, WhatPublishedRulesLeaveOfFloatingRowsIsAmbiguous) {
         }
         return all;
     });
-    EXPECT_EQ(found.verdict, "ambiguous");
+    EXPECT_EQ(found.outcome, Outcome::ambiguous);
     EXPECT_THAT(found.apart, testing::HasSubstr("floating-point rows"));
     std::vector<std::string> names;
     for (const auto& one : found.alternatives) {
@@ -231,16 +232,16 @@ TEST(Cycles, WhatPublishedRulesLeaveOfFloatingRowsIsAmbiguous) {
     EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("fitted leaves 0.00 %")));
 }
 
-TEST(Cycles, TheSameCoreIsNoGap) { EXPECT_EQ(diagnose("real", {}, unchanged).verdict, "no_gap"); }
+TEST(Cycles, TheSameCoreIsNoGap) { EXPECT_EQ(diagnose("real", {}, unchanged).outcome, Outcome::no_gap); }
 
 TEST(Cycles, AFasterClockIsNamedAndASlowerOneMayBeInterrupts) {
     const auto scaled = [](double ratio) { return [ratio](const auto&, const auto& p) { return ratio * p.nominal; }; };
     const Explanation faster = diagnose("real", {}, scaled(0.5));
-    EXPECT_EQ(faster.verdict, "attributed");
+    EXPECT_EQ(faster.outcome, Outcome::attributed);
     EXPECT_EQ(effects_of(faster), std::vector<std::string>{"clock_ratio"});
     EXPECT_NEAR(faster.steps[0].parameters.at("ratio"), 0.5, 0.005);
     const Explanation slower = diagnose("real", {}, scaled(1.25));
-    EXPECT_EQ(slower.verdict, "ambiguous");
+    EXPECT_EQ(slower.outcome, Outcome::ambiguous);
     ASSERT_EQ(slower.alternatives.size(), 2U);
     EXPECT_EQ(slower.alternatives[0].effect, "clock_ratio");
     EXPECT_EQ(slower.alternatives[1].effect, "interrupt_load");
@@ -251,7 +252,7 @@ TEST(Cycles, AFasterClockIsNamedAndASlowerOneMayBeInterrupts) {
 TEST(Cycles, WhatOnlyRowsOnTheBusLoseIsContention) {
     const Explanation found = diagnose(
         "real", {}, [](const auto& row, const auto& p) { return p.nominal * (row.data == "axi" ? 1.3 : 1.0); });
-    EXPECT_EQ(found.verdict, "attributed");
+    EXPECT_EQ(found.outcome, Outcome::attributed);
     ASSERT_EQ(effects_of(found), std::vector<std::string>{"bus_contention"});
     EXPECT_NEAR(found.steps[0].parameters.at("share"), 0.3, 0.005);
     EXPECT_LT(found.after_gap, 0.003);
@@ -260,7 +261,7 @@ TEST(Cycles, WhatOnlyRowsOnTheBusLoseIsContention) {
 TEST(Cycles, WhatNoEffectDoesIsUnknown) {
     const Explanation found =
         diagnose("real", {}, [](const auto& row, const auto& p) { return p.nominal + 1.5e-2 * row.taps * row.taps; });
-    EXPECT_EQ(found.verdict, "unknown");
+    EXPECT_EQ(found.outcome, Outcome::unknown);
 }
 
 TEST(Cycles, AClockAndASwitchAtOnceAreParted) {
@@ -271,8 +272,8 @@ TEST(Cycles, AClockAndASwitchAtOnceAreParted) {
             std::vector<std::string> both{"clock_ratio", effect};
             std::sort(both.begin(), both.end());
             EXPECT_TRUE(names(found, {.kind = "two", .effects = both}))
-                << effect << ' ' << ratio << ' ' << found.verdict;
-            EXPECT_EQ(found.verdict, ratio > 1.0 ? "ambiguous" : "attributed");
+                << effect << ' ' << ratio << ' ' << name_of(found.outcome);
+            EXPECT_EQ(found.outcome, ratio > 1.0 ? Outcome::ambiguous : Outcome::attributed);
         }
     }
 }
@@ -322,20 +323,20 @@ TEST(BlindCycles, WhatWasDoneIsInTheRows) {
 
 TEST(BlindCycles, OnlyTheWholeAnswerIsRight) {
     Explanation found{};
-    found.verdict = "attributed";
+    found.outcome = Outcome::attributed;
     found.steps = {{"fpu_latency", {}, {}, 0, 0, 0}, {"call_overhead", {}, {}, 0, 0, 0}};
     EXPECT_TRUE(names(found, {.kind = "two", .effects = {"call_overhead", "fpu_latency"}}));
     EXPECT_FALSE(names(found, {.kind = "switch", .effects = {"fpu_latency"}}));
     EXPECT_FALSE(names(found, {.kind = "nothing"}));
     EXPECT_FALSE(names(found, {.kind = "unlisted"}));
-    found.verdict = "ambiguous";
+    found.outcome = Outcome::ambiguous;
     EXPECT_FALSE(names(found, {.kind = "two", .effects = {"call_overhead", "fpu_latency"}}));
     found.alternatives = {{"interrupt_load", {}, {}, 0, 0, 0}, {"clock_ratio", {}, {}, 0, 0, 0}};
     EXPECT_TRUE(names(found, {.kind = "two", .effects = {"call_overhead", "clock_ratio", "fpu_latency"}}));
-    found.verdict = "unknown";
+    found.outcome = Outcome::unknown;
     EXPECT_FALSE(names(found, {.kind = "two", .effects = {"call_overhead", "fpu_latency"}}));
     EXPECT_TRUE(names(found, {.kind = "unlisted"}));
-    found.verdict = "no_gap";
+    found.outcome = Outcome::no_gap;
     EXPECT_TRUE(names(found, {.kind = "nothing"}));
 }
 

@@ -8,7 +8,7 @@
 #include "drive/model_file.hpp"
 #include "drive/simulation.hpp"
 #include "gap/drive/start.hpp"
-#include "gap/verdict.hpp"
+#include "gap/drive/verdict.hpp"
 #include "stand_case.hpp"
 
 namespace {

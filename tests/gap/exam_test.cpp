@@ -7,9 +7,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "gap/drive/verdict.hpp"
 #include "gap/exam/ask.hpp"
 #include "gap/exam/score.hpp"
-#include "gap/verdict.hpp"
 #include "qemu/failure.hpp"
 #include "stand_case.hpp"
 

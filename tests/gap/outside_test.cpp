@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "gap/verdict.hpp"
+#include "gap/drive/verdict.hpp"
 #include "stand_case.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Verdicts on logs of the virtual stand whose effect is known.
-#include "gap/verdict.hpp"
+#include "gap/drive/verdict.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -67,6 +67,8 @@ library_of() {
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
         drive/*) echo drive/libglsum_drive.a ;;
         gap/cycles/*) echo gap/cycles/libglsum_gap_cycles.a ;;
+        gap/exam/*) echo gap/exam/libglsum_exam.a ;;
+        gap/verdict/*) echo gap/verdict/libglsum_gap_verdict.a ;;
         gap/*) echo gap/libglsum_gap.a ;;
         qemu/timing/*) echo qemu/timing/libglsum_timing.a ;;
         qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
@@ -86,7 +88,7 @@ tests_of() {
         bench/*) echo bench_tests qemu_tests ;;
         drive/*) echo drive_tests ;;
         gap/cycles/*) echo gap_cycles_tests ;;
-        gap/*) echo gap_tests ;;
+        gap/*) echo gap_parts_tests gap_tests ;;
         qemu/timing/* | qemu/measured_cycles.cpp | qemu/silicon.cpp) echo timing_tests ;;
         *) echo qemu_tests bench_tests ;;
     esac

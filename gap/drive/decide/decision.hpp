@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-namespace gap {
+#include "gap/verdict/outcome.hpp"
 
-enum class Outcome { attributed, ambiguous, unknown, no_gap };
+namespace gap {
 
 struct Decision {
     Outcome outcome = Outcome::no_gap;

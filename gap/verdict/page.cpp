@@ -1,12 +1,10 @@
-#include "gap/page.hpp"
+#include "gap/verdict/page.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
-
-#include "gap/verdict.hpp"
 
 namespace gap {
 namespace {
@@ -60,7 +58,7 @@ struct Line {
 
 class Plot {
 public:
-    Plot(const Record& record, double height) : record_(record), height_(height) {}
+    Plot(const std::vector<double>& time_s, double height) : time_s_(time_s), height_(height) {}
 
     std::string draw(const std::vector<Line>& lines, const std::string& label) const {
         double low = lines.front().values.front();
@@ -72,8 +70,8 @@ public:
             }
         }
         high = high > low ? high : low + 1.0;
-        const double from_s = record_.time_s.front();
-        const double to_s = record_.time_s.back();
+        const double from_s = time_s_.front();
+        const double to_s = time_s_.back();
         const auto x = [&](double t) {
             return left_margin + (width - left_margin - 10.0) * (t - from_s) / (to_s - from_s);
         };
@@ -95,7 +93,7 @@ public:
             const std::size_t stride = std::max<std::size_t>(1, line.values.size() / 2200);
             for (std::size_t i = 0; i < line.values.size(); i += stride) {
                 if (std::isfinite(line.values[i])) {
-                    svg += fmt::format("{:.1f},{:.1f} ", x(record_.time_s[i]), y(line.values[i]));
+                    svg += fmt::format("{:.1f},{:.1f} ", x(time_s_[i]), y(line.values[i]));
                 }
             }
             svg += "\"/>\n";
@@ -104,12 +102,12 @@ public:
     }
 
 private:
-    const Record& record_;
+    const std::vector<double>& time_s_;
     double height_;
 };
 
-std::vector<double> simulated(const Record& record, const std::vector<double>& residuals) {
-    std::vector<double> values = record.output;
+std::vector<double> simulated(const Curve& curve, const std::vector<double>& residuals) {
+    std::vector<double> values = curve.measured;
     for (std::size_t i = 0; i < values.size(); ++i) {
         values[i] -= residuals[i];
     }
@@ -146,77 +144,72 @@ td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 
 }  // namespace
 
-std::string to_html(const Answer& answer) {
-    const Decision& decision = answer.decision;
-    const Ranked& none = answer.none();
-    const Ranked& chosen = answer.chosen();
+std::string to_html(const Verdict& verdict, const OfDrive& of, const std::vector<Curve>& curves) {
+    const Gap& gap = verdict.gap;
     std::string named;
-    for (const std::size_t i : decision.effects) {
-        named += (named.empty() ? ": " : " or ") + answer.ranking[i].trained.name();
+    for (const std::vector<Cause>& causes : of.alternatives) {
+        named += (named.empty() ? ": " : " or ") + joined(causes);
     }
     std::string html = fmt::format(
         "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
         "content=\"width=device-width\"><title>glsum: {0}{1}</title><style>{2}</style></head><body>\n<h1>{0}{1}</h1>\n"
         "<p>confidence {3:.2f}; gap ({4}) {5:.4f} before, {6:.4f} after, {7:.4f} at best</p>\n",
-        name_of(decision.outcome), escaped(named), style, decision.confidence, escaped(answer.metric),
-        decision.base_gap, chosen.gap_after, decision.noise_floor);
-    for (const std::string& line : {base_line(answer), suspect_line(answer)}) {
+        name_of(verdict.outcome), escaped(named), style, of.confidence, escaped(gap.metric), gap.base, gap.after,
+        gap.noise_floor);
+    for (const std::string& line : {base_line(of), suspect_line(verdict, of)}) {
         html += line.empty() ? "" : fmt::format("<p>{}.</p>\n", escaped(line));
     }
-    if (!answer.extrapolated.empty()) {
+    if (!of.extrapolated.empty()) {
         html += fmt::format("<p class=\"dim\">Extrapolated, as training has none of it: {}.</p>\n",
-                            escaped(fmt::format("{}", fmt::join(answer.extrapolated, ", "))));
+                            escaped(fmt::format("{}", fmt::join(of.extrapolated, ", "))));
     }
-    if (answer.split) {
+    if (of.split) {
         html += "<p class=\"dim\">No validation log: parts of the training log were kept aside for it.</p>\n";
     }
     html += fmt::format(
         "<p class=\"key\"><span style=\"color:var(--measured)\"><i></i>measured</span><span "
         "style=\"color:var(--base)\"><i "
         "style=\"border-top-style:dashed\"></i>base</span>{}</p>\n",
-        &chosen == &none ? ""
-                         : fmt::format("<span style=\"color:var(--after)\"><i></i>base + {}</span>",
-                                       escaped(chosen.trained.name())));
-    for (std::size_t r = 0; r < answer.records.size(); ++r) {
-        const Record& record = answer.records[r];
-        std::vector<Line> lines{{"measured", record.output}, {"base", simulated(record, none.residuals[r])}};
-        std::vector<Line> gaps{{"base", none.residuals[r]}};
-        if (&chosen != &none) {
-            lines.push_back({"after", simulated(record, chosen.residuals[r])});
-            gaps.push_back({"after", chosen.residuals[r]});
+        of.chosen == no_effect
+            ? ""
+            : fmt::format("<span style=\"color:var(--after)\"><i></i>base + {}</span>", escaped(of.chosen)));
+    for (const Curve& curve : curves) {
+        std::vector<Line> lines{{"measured", curve.measured}, {"base", simulated(curve, curve.left_by_base)}};
+        std::vector<Line> gaps{{"base", curve.left_by_base}};
+        if (!curve.left_by_chosen.empty()) {
+            lines.push_back({"after", simulated(curve, curve.left_by_chosen)});
+            gaps.push_back({"after", curve.left_by_chosen});
         }
-        html += Plot(record, 330.0).draw(lines, "output, " + record.name);
-        html += Plot(record, 170.0).draw(gaps, "measured - simulated");
+        html += Plot(curve.time_s, 330.0).draw(lines, "output, " + curve.name);
+        html += Plot(curve.time_s, 170.0).draw(gaps, "measured - simulated");
     }
     html +=
         "<h2>Candidates</h2><table><tr><th>effect</th><th></th><th class=\"n\">gap left</th><th class=\"n\">score over "
         "none</th></tr>\n";
     std::size_t rows = 0;
-    for (const Ranked& ranked : answer.ranking) {
-        if (rows++ < 14 || ranked.trained.effects.empty()) {
-            html +=
-                fmt::format("<tr><td>{}</td><td>{}</td><td class=\"n\">{:.4f}</td><td class=\"n\">{:.1f}</td></tr>\n",
-                            escaped(ranked.trained.name()),
-                            bar(decision.base_gap > 0.0 ? ranked.gap_after / decision.base_gap : 0.0,
-                                &ranked == &chosen ? "bar2" : "bar"),
-                            ranked.gap_after, ranked.score() - none.score());
+    for (const Rank& rank : verdict.ranking) {
+        if (rows++ < 14 || rank.effects == no_effect) {
+            html += fmt::format(
+                "<tr><td>{}</td><td>{}</td><td class=\"n\">{:.4f}</td><td class=\"n\">{:.1f}</td></tr>\n",
+                escaped(rank.effects),
+                bar(gap.base > 0.0 ? rank.gap_after / gap.base : 0.0, rank.effects == of.chosen ? "bar2" : "bar"),
+                rank.gap_after, rank.score - score_of_no_effect(verdict.ranking));
         }
     }
     html += "</table>\n<div class=\"columns\">\n" +
-            table_of(answer.where.time, "Where the base's squared gap lies: time", "s") +
-            table_of(answer.where.frequency, "frequency", "Hz") +
-            table_of(answer.where.input_level, "input level", "") +
-            table_of(answer.where.output_level, "output level", "") +
+            table_of(of.where.time, "Where the base's squared gap lies: time", "s") +
+            table_of(of.where.frequency, "frequency", "Hz") + table_of(of.where.input_level, "input level", "") +
+            table_of(of.where.output_level, "output level", "") +
             fmt::format(
                 "<section><h2>direction</h2><table><tr><td>rising</td><td>{}</td><td class=\"n\">{:.1f} %</td></tr>"
                 "<tr><td>falling</td><td>{}</td><td class=\"n\">{:.1f} %</td></tr><tr><td>still</td><td>{}</td><td "
                 "class=\"n\">{:.1f} %</td></tr></table></section></div>\n",
-                bar(answer.where.rising, "bar"), 100.0 * answer.where.rising, bar(answer.where.falling, "bar"),
-                100.0 * answer.where.falling, bar(answer.where.still, "bar"), 100.0 * answer.where.still);
-    for (const std::string& note : answer.notes) {
+                bar(of.where.rising, "bar"), 100.0 * of.where.rising, bar(of.where.falling, "bar"),
+                100.0 * of.where.falling, bar(of.where.still, "bar"), 100.0 * of.where.still);
+    for (const std::string& note : verdict.notes) {
         html += fmt::format("<p class=\"dim\">Note: {}.</p>\n", escaped(note));
     }
-    return html + fmt::format("<h2>Next</h2><p>{}.</p></body></html>\n", escaped(answer.next_experiment));
+    return html + fmt::format("<h2>Next</h2><p>{}.</p></body></html>\n", escaped(verdict.next_experiment));
 }
 
 }  // namespace gap
