@@ -27,7 +27,7 @@ struct Scales {
     double time_constant_s;    ///< of the model: how long it takes to most of its way
     double quantum;            ///< readings are multiples of it; 0: of none
     std::size_t orders;        ///< of the model's denominator, different ones above 0
-    std::size_t input_levels;  ///< different ones, 0 among them where it occurs; counted up to 100
+    std::size_t input_levels;  ///< different ones, 0 among them where it occurs; at most 100
     double held_share;         ///< of the readings that repeat the one before; 0 where a quantum explains them
     double deployed_step_s;  ///< of the simulation that ran, where one may have: fractional, given, not too long; or 0
     bool steady;             ///< the model rests somewhere for each input: it does not integrate

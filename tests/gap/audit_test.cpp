@@ -1,0 +1,167 @@
+// What records say of themselves, on records made for it.
+#include "gap/drive/audit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+gap::Record record_of(std::vector<double> output) {
+    gap::Record record;
+    record.name = "made";
+    record.usual_interval_s = 0.1;
+    for (std::size_t i = 0; i < output.size(); ++i) {
+        record.time_s.push_back(0.1 * static_cast<double>(i));
+        record.input.push_back(1.0);
+    }
+    record.output = std::move(output);
+    return record;
+}
+
+std::vector<double> noisy(std::size_t count, unsigned seed, double size = 1.0) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> normal(0.0, size);
+    std::vector<double> values;
+    for (std::size_t i = 0; i < count; ++i) {
+        values.push_back(normal(engine));
+    }
+    return values;
+}
+
+double quantum_of(const std::vector<double>& output) { return gap::audit({record_of(output)}).quantum; }
+
+TEST(AuditQuantum, IsTheLatticeWhereverItBegins) {
+    std::vector<double> values = noisy(400, 1);
+    for (double& value : values) {
+        value = 0.123 + 0.05 * std::round(value / 0.05);
+    }
+    EXPECT_NEAR(quantum_of(values), 0.05, 1e-9);
+    // One reading of a hundred may lie off it, and no more.
+    for (std::size_t i = 0; i < 400; i += 40) {
+        values[i] += 0.02;
+    }
+    EXPECT_EQ(quantum_of(values), 0.0);
+    EXPECT_EQ(quantum_of(noisy(400, 2)), 0.0);
+    // The digits of a file are no step: it is below a hundred-thousandth of the span.
+    std::vector<double> fine{0.0, 1.0, 3.0, 4.0, 200000.0, 200001.0, 7.0};
+    EXPECT_EQ(quantum_of(fine), 0.0);
+    fine[4] = 90000.0;
+    fine[5] = 90001.0;
+    EXPECT_NEAR(quantum_of(fine), 1.0, 1e-6);
+    EXPECT_EQ(quantum_of(std::vector<double>(50, 2.0)), 0.0);
+}
+
+// A logger's last digit rounds a sensor's steps: 0.3223 is 0.32 or 0.33.
+TEST(AuditQuantum, IsSeenThroughALoggersDigits) {
+    std::vector<double> values = noisy(400, 3);
+    for (double& value : values) {
+        value = std::round(0.3223 * std::round(4.0 * value) * 100.0) / 100.0;
+    }
+    EXPECT_NEAR(quantum_of(values), 0.3223, 2e-3);
+}
+
+// Of white noise the median of |z - 2 z' + z''| is 0.6745 sqrt 6 deviations.
+TEST(AuditNoise, IsThatOfSecondDifferences) {
+    EXPECT_NEAR(gap::audit({record_of(noisy(20000, 4, 0.3))}).noise, 0.3, 0.01);
+    // 1, 0, 0, 4, 0, ...: second differences by hand.
+    const std::vector<double> made{0.0, 1.0, 0.5, 4.5, 3.0};
+    // |0.5 - 2 + 0| = 1.5, |4.5 - 1 + 1| = 4.5, |3 - 9 + 0.5| = 5.5
+    EXPECT_NEAR(gap::audit({record_of(made)}).noise, std::max(4.5 / (0.6745 * std::sqrt(6.0)), 0.29 * 0.5), 1e-9);
+    // A straight line has none; what stays is held, and shows none.
+    std::vector<double> ramp = noisy(300, 5, 0.3);
+    std::vector<double> held = ramp;
+    held.insert(held.end(), 600, 0.7);
+    EXPECT_NEAR(gap::audit({record_of(held)}).noise, gap::audit({record_of(ramp)}).noise, 0.02);
+    // A quantum makes 0.29 of itself, at least.
+    std::vector<double> steps;
+    for (int i = 0; i < 200; ++i) {
+        steps.push_back(0.5 * (i / 20));
+    }
+    EXPECT_NEAR(gap::audit({record_of(steps)}).noise, 0.29 * 0.5, 1e-9);
+}
+
+TEST(AuditHeld, AreReadingsThatRepeatWhileTheOutputMoves) {
+    std::vector<double> values = noisy(1000, 6);
+    EXPECT_EQ(gap::audit({record_of(values)}).held_share, 0.0);
+    for (std::size_t i = 100; i < 900; i += 50) {
+        values[i] = values[i + 1] = values[i - 1];  // two of fifty
+    }
+    const gap::Audit found = gap::audit({record_of(values)});
+    EXPECT_NEAR(found.held_share, 32.0 / 1000.0, 1e-9);
+    EXPECT_THAT(found.notes, Contains(HasSubstr("3.2 % of the readings repeat the one before while the output moves")));
+    // At a stop the output does not move; neither does it where it rests.
+    std::vector<double> stopped = noisy(1000, 7);
+    for (double& value : stopped) {
+        value = std::min(value, 0.5);
+    }
+    EXPECT_EQ(gap::audit({record_of(stopped)}).held_share, 0.0);
+    // Less than one of 500 is chance.
+    std::vector<double> once = noisy(1000, 8);
+    once[500] = once[501] = once[499];
+    EXPECT_EQ(gap::audit({record_of(once)}).held_share, 0.0);
+    once[502] = once[499];
+    EXPECT_NEAR(gap::audit({record_of(once)}).held_share, 0.003, 1e-9);
+}
+
+TEST(AuditLevels, AreTheInputsToAFiftieth) {
+    gap::Record record = record_of(noisy(400, 9));
+    const auto levels = [&](const std::vector<double>& of) {
+        for (std::size_t i = 0; i < record.size(); ++i) {
+            record.input[i] = of[i % of.size()];
+        }
+        return gap::audit({record}).levels;
+    };
+    EXPECT_EQ(levels({1.0}), 1U);
+    EXPECT_EQ(levels({1.0, 0.981, -1.0, 0.0}), 3U);
+    EXPECT_EQ(levels({1.0, 0.979, -1.0, 0.0}), 4U);
+    std::vector<double> many;
+    for (int i = -47; i <= 47; ++i) {
+        many.push_back(0.021 * i);
+    }
+    many.push_back(1.0);
+    EXPECT_EQ(levels(many), 95U);  // 1 is 0.013 from the last
+    // Of all records together, once each.
+    gap::Record other = record;
+    std::fill(record.input.begin(), record.input.end(), 1.0);
+    std::fill(other.input.begin(), other.input.end(), 0.5);
+    EXPECT_EQ(gap::audit({record, other, record}).levels, 2U);
+}
+
+TEST(AuditNotes, SayWhatIsOdd) {
+    gap::Record record = record_of(noisy(400, 10));
+    EXPECT_THAT(gap::audit({record}).notes, IsEmpty());
+    for (std::size_t i = 200; i < 400; ++i) {
+        record.time_s[i] += 0.39;
+    }
+    EXPECT_THAT(gap::audit({record}).notes, IsEmpty());
+    for (std::size_t i = 200; i < 400; ++i) {
+        record.time_s[i] += 0.03;
+    }
+    EXPECT_THAT(gap::audit({record}).notes, Contains(HasSubstr("made: a gap of 0.52 s between stamps, usually 0.1 s")));
+    // Ten readings at the top are clipped, nine may be chance.
+    std::vector<double> values = noisy(400, 11);
+    const double top = *std::max_element(values.begin(), values.end()) + 0.1;
+    for (std::size_t i = 0; i < 9; ++i) {
+        values[40 * i] = top;
+    }
+    EXPECT_THAT(gap::audit({record_of(values)}).notes, IsEmpty());
+    values[390] = top;
+    EXPECT_THAT(gap::audit({record_of(values)}).notes, Contains(HasSubstr("made: 10 readings are ")));
+    // Coarse steps are often the highest.
+    for (double& value : values) {
+        value = 0.5 * std::round(std::clamp(value, -1.0, 1.0) / 0.5);
+    }
+    EXPECT_THAT(
+        gap::audit({record_of(values)}).notes,
+        testing::AllOf(Contains(HasSubstr("readings are multiples of 0.5")), Not(Contains(HasSubstr("clipped")))));
+}
+
+}  // namespace
