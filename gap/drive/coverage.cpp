@@ -73,12 +73,13 @@ Ways ways_of(const Records& records, double least_turn) {
         for (const double value : without_spikes(record.output)) {
             low = direction > 0 ? low : std::min(low, value);
             high = direction < 0 ? high : std::max(high, value);
+            // Of the first one, what was before is neither way.
             if (direction >= 0 && high - value > least_turn) {
-                ways.up.add(high - low);
+                ways.up.add(direction > 0 ? high - low : 0.0);
                 direction = -1;
                 low = value;
             } else if (direction <= 0 && value - low > least_turn) {
-                ways.down.add(high - low);
+                ways.down.add(direction < 0 ? high - low : 0.0);
                 direction = 1;
                 high = value;
             }

@@ -1,0 +1,125 @@
+// What is proposed to be measured next: the excitations by their levels, and the words of each verdict.
+#include "gap/drive/excitation.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "gap/drive/experiment.hpp"
+#include "gap/drive/start.hpp"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// Of a time constant of 2 s and a record of 40 s.
+std::vector<gap::Excitation> usual() { return gap::excitations(2.0, 40.0); }
+
+double at(const gap::Excitation& of, double share) { return of.level(share, share * of.length_s); }
+
+TEST(Excitations, AreAStaircaseUpAndDown) {
+    const gap::Excitation stairs = usual()[0];
+    EXPECT_EQ(stairs.text, "a staircase of 5 levels up and down, 10 s each");
+    EXPECT_EQ(stairs.length_s, 100.0);
+    for (int step = 0; step < 10; ++step) {
+        for (const double within : {0.001, 0.999}) {
+            EXPECT_NEAR(at(stairs, 0.1 * (step + within)), 0.2 * (step < 5 ? step + 1 : 10 - step), 1e-12) << step;
+        }
+    }
+}
+
+TEST(Excitations, AreBitsThatHoldAThirdOfATimeConstant) {
+    const gap::Excitation bits = usual()[1];
+    EXPECT_THAT(bits.text, HasSubstr("bits of 0.6 s between two fifths and four fifths"));
+    EXPECT_EQ(bits.length_s, 120.0);
+    int high = 0;
+    int changes = 0;
+    double before = 0.0;
+    for (int bit = 0; bit < 200; ++bit) {
+        const double level = at(bits, (0.6 * bit + 0.01) / 120.0);
+        EXPECT_TRUE(level == 0.4 || level == 0.8) << level;
+        EXPECT_EQ(at(bits, (0.6 * bit + 0.59) / 120.0), level) << bit;
+        high += level == 0.8 ? 1 : 0;
+        changes += bit > 0 && level != before ? 1 : 0;
+        before = level;
+    }
+    // As a coin would: 100 +- 14.
+    EXPECT_NEAR(high, 100, 28);
+    EXPECT_NEAR(changes, 100, 28);
+}
+
+// Its frequency goes from a fiftieth of the last one's, by as many octaves a second: the turns are its integral.
+TEST(Excitations, AreASweptSine) {
+    const gap::Excitation sweep = usual()[2];
+    EXPECT_THAT(sweep.text, HasSubstr("swept from 0.01 to 0.5 Hz"));
+    EXPECT_EQ(sweep.length_s, 120.0);
+    double turns = 0.0;
+    constexpr int steps = 20000;
+    for (int i = 0; i <= steps; ++i) {
+        const double share = static_cast<double>(i) / steps;
+        if (i % 1000 == 0) {
+            EXPECT_NEAR(at(sweep, share), 0.5 - 0.5 * std::cos(2.0 * std::numbers::pi * turns), 1e-3) << share;
+        }
+        turns += 0.01 * std::pow(50.0, share + 0.5 / steps) * 120.0 / steps;
+    }
+}
+
+TEST(Excitations, ArePulsesAndALevelThatIsHeld) {
+    const gap::Excitation pulses = usual()[3];
+    EXPECT_THAT(pulses.text, HasSubstr("10 s on and off"));
+    EXPECT_EQ(pulses.length_s, 60.0);
+    const double wanted[] = {1.0 / 3.0, 0.0, 2.0 / 3.0, 0.0, 1.0, 0.0};
+    for (int part = 0; part < 6; ++part) {
+        EXPECT_NEAR(at(pulses, (part + 0.5) / 6.0), wanted[part], 1e-12) << part;
+    }
+    EXPECT_EQ(at(pulses, 1.0), 0.0);
+    const gap::Excitation held = usual()[4];
+    EXPECT_EQ(held.text, "three fifths, held for 120 s");
+    EXPECT_EQ(held.length_s, 120.0);
+    EXPECT_EQ(at(held, 0.7), 0.6);
+}
+
+// A record of more than thirty holds of five time constants may show what is slower than these.
+TEST(Excitations, AreAsLongAsTheRecordWhereThatIsLong) {
+    EXPECT_EQ(gap::excitations(2.0, 300.0).size(), 5U);
+    const auto all = gap::excitations(2.0, 301.0);
+    ASSERT_EQ(all.size(), 6U);
+    EXPECT_EQ(all[5].text, "a staircase of 5 levels up and down, 30.1 s each");
+    EXPECT_EQ(all[5].length_s, 301.0);
+    EXPECT_NEAR(at(all[5], 0.45), 1.0, 1e-12);
+}
+
+// --- The words, where nothing is simulated.
+
+std::string words(gap::Outcome outcome, std::size_t levels, std::vector<std::string> extrapolated) {
+    gap::Record record;
+    record.usual_interval_s = 1.0;
+    record.time_s = {0.0, 1.0, 2.0};
+    record.input = {0.0, 1.0, 1.0};
+    record.output = {0.0, 1.0, 2.0};
+    const drive::Model model = drive::make_fopdt(1.0, 1.0, 0.0);
+    const gap::Study study{{gap::form_of(model), false}, gap::scales_of(model, {record}, {}), {}, {}, 0.1, 0.1, 0};
+    const gap::Whitener whitener;
+    return gap::next_experiment({outcome, study, {}, whitener, 0.1, levels, std::move(extrapolated)});
+}
+
+TEST(NextWords, OfNoGapAskForAnotherProfile) {
+    EXPECT_THAT(words(gap::Outcome::no_gap, 5, {}), StartsWith("none for this gap; another operating profile"));
+    EXPECT_EQ(words(gap::Outcome::no_gap, 5, {"falling output", "input above 1"}),
+              "none for this gap, though validation alone has these: falling output; input above 1");
+}
+
+TEST(NextWords, OfAnUnknownGoByWhatThereWas) {
+    EXPECT_THAT(
+        words(gap::Outcome::unknown, 9, {"falling output"}),
+        StartsWith(
+            "train on records that have these, too, as validation has: falling output. Training never went there"));
+    EXPECT_THAT(words(gap::Outcome::unknown, 3, {}), StartsWith("a staircase up and down with at least 5 levels"));
+    EXPECT_THAT(words(gap::Outcome::unknown, 4, {}), StartsWith("the same record twice more"));
+}
+
+}  // namespace
