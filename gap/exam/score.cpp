@@ -217,7 +217,9 @@ Reply parse_reply(const std::string& text, const std::string& name) {
         const Json suspect = fields.take("suspect");
         if (suspect.is_object() && suspect.contains("effects")) {
             Fields own(suspect, name + ": suspect");
-            reply.suspect = own.texts("effects", 0);
+            for (Json& effect : own.list("effects", Limits::list, true)) {
+                reply.suspect.push_back(Fields(std::move(effect), own.name() + ": effects").text("effect"));
+            }
         }
     }
     return reply;

@@ -237,6 +237,19 @@ TEST(Score, SumsUp) {
     EXPECT_THAT(text, HasSubstr("1.50 points of 4"));
 }
 
+// As it is written: what a scorer refuses would lose the answers of hours.
+TEST(Reply, OfASuspectAsItIsWritten) {
+    gap::Verdict verdict;
+    verdict.outcome = gap::Outcome::unknown;
+    verdict.gap = {"simulation", 0.4, 0.3, 0.1};
+    gap::OfDrive of;
+    of.suspect = gap::Suspect{"backlash + supply_sag", {{"backlash", {}}, {"supply_sag", {}}}, 0.3, 0.5};
+    verdict.of = of;
+    const exam::Reply reply = exam::parse_reply(gap::to_json(verdict), "v.json");
+    EXPECT_EQ(reply.verdict, "unknown");
+    EXPECT_THAT(reply.suspect, ElementsAre("backlash", "supply_sag"));
+}
+
 TEST(Reply, OfAVerdictsFile) {
     const std::string text = R"({"schema": "glsum-gap-1", "verdict": "ambiguous", "effects": [
         {"effect": "backlash", "alternative": 0, "confidence": 0.6},
@@ -248,7 +261,7 @@ TEST(Reply, OfAVerdictsFile) {
     EXPECT_EQ(reply.gap_before, 0.4);
     EXPECT_EQ(reply.gap_after, 0.2);
     const exam::Reply unknown = exam::parse_reply(
-        R"({"schema": "glsum-gap-1", "verdict": "unknown", "effects": [], "gap": {}, "suspect": {"effects": ["backlash"]}})",
+        R"({"schema": "glsum-gap-1", "verdict": "unknown", "effects": [], "gap": {}, "suspect": {"effects": [{"effect": "backlash"}]}})",
         "v.json");
     EXPECT_THAT(unknown.suspect, ElementsAre("backlash"));
     EXPECT_FALSE(unknown.gap_before);
