@@ -94,6 +94,11 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     say("deciding");
     answer.decision = decide(answer.ranking, answer.whitener, study, validation, split);
     const Whitener* fits_by = question.refit ? nullptr : &answer.whitener;
+    if (question.refit) {
+        Candidate best = answer.ranking.front().trained;
+        add_intervals(study, best, fits_by);
+        answer.lag_wanted = !linear_of(best).empty();
+    }
     std::vector<std::size_t> shown = answer.decision.effects;
     shown.push_back(answer.decision.suspect.value_or(answer.decision.chosen));
     for (const std::size_t i : shown) {
@@ -163,6 +168,13 @@ std::vector<const Described*> worth_asking(const std::vector<Described>& found) 
     });
     add_first([&](const Described& one) { return !alike(one) && one.integrators < 2 && within(one, 1.6); });
     return asked;
+}
+
+const Described* with_one_lag_more(const std::vector<Described>& found, const Described& than) {
+    const auto richer = std::find_if(found.begin(), found.end(), [&](const Described& one) {
+        return one.integrators == than.integrators && one.numbers == than.numbers + 1;
+    });
+    return richer == found.end() ? nullptr : &*richer;
 }
 
 std::vector<std::string> causes_of(const Answer& answer) {
@@ -262,12 +274,18 @@ Answer answer_with_found_base(Question question, const std::function<void(const 
     }
     const double floor = 1e-4;
     std::vector<Tried> tried;
-    for (const Described* base : worth_asking(found)) {
+    std::vector<const Described*> asked = worth_asking(found);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+        const Described* base = asked[i];
         say(fmt::format("the base: {} ({})", base->name, base->meaning));
         question.form = base->form;
         Answer answer = answer_to(question, say);
         const bool closed = answer.decision.outcome == Outcome::no_gap;
         const double price = price_of(answer, base->numbers, floor);
+        if (const Described* richer = answer.lag_wanted ? with_one_lag_more(found, *base) : nullptr;
+            richer != nullptr && std::find(asked.begin(), asked.end(), richer) == asked.end()) {
+            asked.push_back(richer);
+        }
         tried.push_back({base->name, std::move(answer), price});
         if (closed && tried.size() == 1) {
             break;

@@ -34,6 +34,7 @@ struct Answer {
     std::string base_name;                ///< of a base that was found or fitted; empty: a model was given
     double linear_share = 0.0;            ///< of the validation output's variance, by the best linear description
     std::vector<Described> descriptions;  ///< of a base that was looked for, the best first
+    bool lag_wanted = false;              ///< what helps most is linear, beside a fitted base: a richer one has it
 };
 
 /// \throws glsum::Failure (bad input): records and model that cannot belong together: a dead time as long as the
