@@ -258,7 +258,7 @@ TEST_F(Rules, FittedFormsLeaveDoubt) {
     set_noise(0.01);
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
     ranking_[drag].gap_after = 0.24;
-    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.85);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.9);
     ranking_[drag].gap_after = 0.09;
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.95);
     set_noise(1.0);
