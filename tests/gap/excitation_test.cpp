@@ -1,6 +1,7 @@
 // What is proposed to be measured next: the excitations by their levels, and the words of each verdict.
 #include "gap/drive/excitation.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -120,6 +121,86 @@ TEST(NextWords, OfAnUnknownGoByWhatThereWas) {
             "train on records that have these, too, as validation has: falling output. Training never went there"));
     EXPECT_THAT(words(gap::Outcome::unknown, 3, {}), StartsWith("a staircase up and down with at least 5 levels"));
     EXPECT_THAT(words(gap::Outcome::unknown, 4, {}), StartsWith("the same record twice more"));
+}
+
+// --- What a record would tell of a number whose slopes are known: a drift's are the time itself.
+
+struct Drifting {
+    std::vector<gap::Record> records;
+    gap::Study study;
+    gap::Candidate named;
+    gap::Whitener whitener;
+    Drifting() : study{{gap::form_of(drive::make_fopdt(1.0, 1.0, 0.0)), false}, {}, {}, {}, 0.01, 0.001, 0} {
+        gap::Record record;
+        record.name = "drifts";
+        record.usual_interval_s = 0.1;
+        for (int i = 0; i < 401; ++i) {
+            record.time_s.push_back(0.1 * i);
+            record.input.push_back(i < 200 ? 1.0 : 0.0);
+            record.output.push_back(0.0);
+        }
+        records = {record};
+        study.counts = gap::all_count(records);
+        study.courses.emplace_back(records[0], 1);
+        records[0].output[100] = 1.0;  // how far it goes
+        study.scales = gap::scales_of(gap::model_of(study.base.form), records, {});
+        named.effects = {&gap::effect_named("sensor_drift")};
+        named.own.resize(1);
+        named.lasting = {gap::parameters_of(*named.effects[0], study.scales, 0)};
+        named.lasting[0][0].value = 1e-4;
+        records[0].output = gap::simulate(gap::scenario_of(study, named, 0), study.courses[0]);
+        whitener.deviation = whitener.stationary_deviation = 0.02;
+    }
+    // Of so many samples a tenth of a second apart, by a deviation of 0.02.
+    static double information(int samples) {
+        double squares = 0.0;
+        for (int i = 0; i < samples; ++i) {
+            squares += 0.01 * i * i;
+        }
+        return squares / (0.02 * 0.02);
+    }
+    // As of values that are spread evenly over its bounds.
+    [[nodiscard]] double prior() const {
+        const double half = 0.5 * (named.lasting[0][0].upper - named.lasting[0][0].lower);
+        return 3.0 / (half * half);
+    }
+};
+
+TEST(Sharpened, IsWhatTheSlopesOfTheLongestRecordTell) {
+    const Drifting made;
+    // Three times as long as the record, 1203 samples: no other excitation is.
+    const double before = 1.96 / std::sqrt(Drifting::information(401) + made.prior());
+    const double after = 1.96 / std::sqrt(Drifting::information(401) + Drifting::information(1200) + made.prior());
+    EXPECT_EQ(gap::sharpen(made.study, made.named, made.whitener),
+              fmt::format("three fifths, held for 120 s from 0 to 1, beside what there is: {:.3g} times narrower for "
+                          "sensor_drift.per_s (within {:.2g} instead of {:.2g}); by the slopes of what is simulated",
+                          before / after, after, before));
+}
+
+// Where what is left is larger than the noise, intervals are as much wider, before and behind.
+TEST(Sharpened, IsNoNarrowerForAMisfit) {
+    Drifting made;
+    for (std::size_t i = 0; i < made.records[0].size(); ++i) {
+        made.records[0].output[i] += i % 2 == 0 ? 0.06 : -0.06;
+    }
+    const double n = 401.0;
+    const double variance = 9.0 * n / (n - 1.0);
+    const double before = 1.96 / std::sqrt(Drifting::information(401) / variance + made.prior());
+    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener),
+                HasSubstr(fmt::format("instead of {:.2g})", before)));
+}
+
+TEST(Sharpened, OfAnEventIsTheSameRecordAgain) {
+    Drifting made;
+    made.named.effects = {&gap::effect_named("load_disturbance")};
+    made.named.lasting.clear();
+    made.named.own[0] = gap::parameters_of(*made.named.effects[0], made.study.scales, 0);
+    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener), StartsWith("the same record once more"));
+    // What has no number is tested elsewhere.
+    made.named.effects = {&gap::effect_named("sensor_magnitude")};
+    made.named.lasting = {gap::parameters_of(*made.named.effects[0], made.study.scales, 0)};
+    made.named.own[0].clear();
+    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener), StartsWith("a record at other levels and speeds"));
 }
 
 }  // namespace

@@ -148,4 +148,13 @@ TEST(BootstrapSum, HasTheSpreadOfIndependentBlocks) {
     EXPECT_LT(torn.high - torn.low, 0.5 * (blocks.high - blocks.low));
 }
 
+// Of two draws the one is the lower bound and the other the upper.
+TEST(BootstrapSum, OfFewDrawsIsTheirRange) {
+    const Values values = noise(100, 10);
+    const gap::Interval two = gap::bootstrap_sum(values, 5, 2);
+    EXPECT_LT(two.low, two.high);
+    const gap::Interval many = gap::bootstrap_sum(values, 5, 39);  // the second of them from either end
+    EXPECT_LT(many.low, many.high);
+}
+
 }  // namespace

@@ -121,6 +121,7 @@ run_tests() {
         status=0
         limit=240
         ! of_firmware "$file" || limit=900
+        [ "$test" != gap_tests ] || limit=900  # whole diagnoses
         log=$source/build/planted/tests.log
         case $test in
             # Headers of every kernel, compiled and run here.
@@ -130,7 +131,11 @@ run_tests() {
                 ;;
             *)
                 # What takes long comes last: most bugs are caught before.
-                case $test in bench_tests) long='EqualCost.*:Accuracy.Of*:GateTime.*:Report.*' ;; *) long= ;; esac
+                case $test in
+                    bench_tests) long='EqualCost.*:Accuracy.Of*:GateTime.*:Report.*' ;;
+                    gap_tests) long='NextExperiment.*:Deployed.*:Exam.*:FittedBase.*:Oracle.*:Verdict.*:Base.*:JointGap.*:Simulated.*:Candidates.*:GapIdentifiable.*:Gap/*' ;;
+                    *) long= ;;
+                esac
                 for part in "${long:+$only_these-$long}" "${long:-$only_these}"; do
                     [ -n "$part" ] && [ "$status" -eq 0 ] || continue
                     timeout "$limit" "${program:-$build/tests/$test}" --gtest_brief=1 --gtest_fail_fast --gtest_filter="$part" >"$log" 2>&1 || status=$?
