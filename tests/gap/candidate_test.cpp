@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "gap/drive/fit.hpp"
 #include "gap/drive/jitter.hpp"
@@ -350,6 +351,72 @@ TEST(Jitter, SpreadsReadingsByTheirSpeed) {
     candidate.effects.clear();
     EXPECT_TRUE(gap::spread_of(made.study, candidate, 0, left, whitener).empty());
     EXPECT_EQ(gap::without_jitter(made.study, candidate, 0, left, whitener), left);
+}
+
+// A plant that always moves, read at other times than its stamps say.
+struct Shifted {
+    Made made;
+    gap::Candidate candidate;
+    gap::Whitener whitener;
+    Shifted(double half_width_s, double noise, double coloured)
+        : made(lag(), {[] {
+                   gap::Record record;
+                   record.name = "moves";
+                   record.usual_interval_s = 0.5;
+                   for (int i = 0; i < 800; ++i) {
+                       record.time_s.push_back(0.5 * i);
+                       record.input.push_back(2.0 * std::sin(0.31 * i) + std::sin(0.173 * i));
+                       record.output.push_back(0.0);
+                   }
+                   return record;
+               }()},
+               false) {
+        gap::Candidate none;
+        none.own.resize(1);
+        const auto simulated = gap::simulate(gap::scenario_of(made.study, none, 0), made.study.courses[0]);
+        std::mt19937_64 engine(5);
+        std::uniform_real_distribution<double> even(-1.0, 1.0);
+        std::normal_distribution<double> normal(0.0, noise);
+        double squares = 0.0;
+        double shift = 0.0;
+        for (std::size_t i = 0; i < simulated.size(); ++i) {
+            const std::size_t from = i == 0 ? 0 : i - 1;
+            const std::size_t to = std::min(simulated.size() - 1, i + 1);
+            const double speed = (simulated[to] - simulated[from]) / (0.5 * static_cast<double>(to - from));
+            shift = coloured * shift + (1.0 - coloured) * half_width_s * even(engine);
+            const double left = shift * speed + normal(engine);
+            made.records[0].output[i] = simulated[i] + left;
+            squares += left * left;
+        }
+        whitener.deviation = whitener.stationary_deviation = std::sqrt(squares / 800.0);
+        candidate.effects = {&gap::effect_named("sampling_jitter")};
+        candidate.own.resize(1);
+        candidate.lasting = {gap::parameters_of(*candidate.effects[0], made.study.scales, 0)};
+        gap::fit_jitter(made.study, candidate, whitener);
+    }
+    [[nodiscard]] double width() const { return candidate.lasting[0][0].value; }
+    [[nodiscard]] double noise_share() const { return candidate.lasting[0][1].value; }
+};
+
+TEST(Jitter, IsFoundByTheSpreadOfReadings) {
+    const Shifted jitters(0.2, 0.01, 0.0);
+    EXPECT_NEAR(jitters.width(), 0.2, 0.02);
+    const double noise = std::sqrt(jitters.noise_share()) * jitters.whitener.deviation;
+    EXPECT_NEAR(noise, 0.01, 0.004);
+    // Of 800 second moments of even shifts a width is known to some per cent.
+    EXPECT_GT(jitters.candidate.lasting[0][0].deviation, 0.002);
+    EXPECT_LT(jitters.candidate.lasting[0][0].deviation, 0.015);
+}
+
+TEST(Jitter, IsNoneOfEvenNoiseAndOfWhatIsColoured) {
+    const Shifted quiet(0.0, 0.02, 0.0);
+    EXPECT_EQ(quiet.width(), 0.0);
+    EXPECT_EQ(quiet.noise_share(), 1.0);
+    const Shifted slow(0.2, 1e-4, 0.9);
+    EXPECT_EQ(slow.width(), 0.0);
+    EXPECT_EQ(slow.noise_share(), 1.0);
+    const Shifted little(0.2, 1e-4, 0.1);  // a tenth of the shift stays
+    EXPECT_GT(little.width(), 0.1);
 }
 
 }  // namespace

@@ -1,0 +1,108 @@
+// The weights of a fractional derivative on increments: near ones as the generating function has them, far ones as the
+// exponentials make them; and the sum over a signal's past.
+#include "gap/drive/derivative.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+namespace {
+
+// (1 - z)^(v-1) ((3 - z)/2)^v, term by term.
+std::vector<double> weights(double v, std::size_t count) {
+    std::vector<long double> plain{1.0L};
+    std::vector<long double> factor{std::pow(1.5L, static_cast<long double>(v))};
+    for (std::size_t k = 1; k < count; ++k) {
+        const auto n = static_cast<long double>(k);
+        plain.push_back(plain.back() * (n - static_cast<long double>(v)) / n);
+        factor.push_back(factor.back() * (n - 1.0L - static_cast<long double>(v)) / (3.0L * n));
+    }
+    std::vector<double> all;
+    for (std::size_t k = 0; k < count; ++k) {
+        long double sum = 0.0L;
+        for (std::size_t j = 0; j <= std::min<std::size_t>(k, 80); ++j) {
+            sum += factor[j] * plain[k - j];
+        }
+        all.push_back(static_cast<double>(sum));
+    }
+    return all;
+}
+
+constexpr std::size_t near_count = static_cast<std::size_t>(gap::Exponentials::near_count);
+
+double at(const gap::Exponentials& exponentials, const gap::Table& table, std::size_t k) {
+    if (k < near_count) {
+        return table.near(static_cast<Eigen::Index>(k));
+    }
+    return (table.far.array() * exponentials.ratios().pow(static_cast<double>(k - near_count))).sum();
+}
+
+TEST(Derivative, HasTheWeightsOfItsGeneratingFunction) {
+    const gap::Exponentials exponentials(4000);
+    EXPECT_EQ(exponentials.horizon(), 4000U);
+    EXPECT_GT(exponentials.ratios().minCoeff(), 0.0);
+    EXPECT_LT(exponentials.ratios().maxCoeff(), 1.0);
+    for (const double order : {0.3, 0.98319, 1.5, 1.9909, 2.6}) {
+        const gap::Table table = exponentials.table(order);
+        const std::vector<double> wanted = weights(order, 4001);
+        for (std::size_t k = 0; k < near_count; ++k) {
+            EXPECT_NEAR(at(exponentials, table, k), wanted[k], 1e-13) << order << " " << k;
+        }
+        for (std::size_t k = near_count; k <= 4000; k += 7) {
+            EXPECT_NEAR(at(exponentials, table, k), wanted[k], 2e-5 * std::fabs(wanted[k]) + 1e-12)
+                << order << " " << k;
+        }
+    }
+}
+
+// Of whole orders the rest is a power of a third: nothing of it is remembered.
+TEST(Derivative, OfAWholeOrderHasNoMemory) {
+    const gap::Exponentials exponentials(100);
+    for (const double order : {1.0, 2.0}) {
+        const gap::Table table = exponentials.table(order);
+        const std::vector<double> wanted = weights(order, near_count);
+        for (std::size_t k = 0; k < near_count; ++k) {
+            EXPECT_NEAR(at(exponentials, table, k), wanted[k], 1e-13) << order << " " << k;
+        }
+        EXPECT_EQ(table.far.cwiseAbs().sum(), 0.0);
+    }
+    EXPECT_EQ(gap::Exponentials(5).horizon(), 32U);
+}
+
+TEST(Derivative, SumsThePast) {
+    const gap::Exponentials exponentials(400);
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> normal;
+    for (const double order : {0.6, 1.0, 1.7, 2.0}) {
+        const gap::Table table = exponentials.table(order);
+        gap::Past past(exponentials, table);
+        EXPECT_EQ(past.newest(), table.near(0));
+        std::vector<double> increments;
+        for (std::size_t n = 0; n < 200; ++n) {
+            double sum = 0.0;
+            for (std::size_t j = 1; j <= n; ++j) {
+                sum += at(exponentials, table, j) * increments[n - j];
+            }
+            ASSERT_NEAR(past.known(), sum, 1e-9) << order << " " << n;
+            increments.push_back(normal(engine));
+            past.push(increments.back());
+        }
+    }
+}
+
+// What came evenly: as many increments alike as there are near weights.
+TEST(Derivative, MayBeginWithAnEvenPast) {
+    const gap::Exponentials exponentials(400);
+    const gap::Table table = exponentials.table(0.7);
+    gap::Past past(exponentials, table);
+    past.fill_near(0.25);
+    double sum = 0.0;
+    for (std::size_t k = 1; k < near_count; ++k) {
+        sum += 0.25 * at(exponentials, table, k);
+    }
+    EXPECT_NEAR(past.known(), sum, 1e-12);
+}
+
+}  // namespace
