@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "bench/host_line.hpp"
@@ -327,6 +328,75 @@ TEST(BoundFormula, OfANestedWindowInFixedPoint) {
     const double expected = 0.75 * of_weights + of_steps * 0x1p-32 + absolute * 0x1p-32 +
                             std::ldexp(1.0, line.state().scale.output_exponent - 32);
     EXPECT_NEAR((bound_of<Sum<Ring, Horner, Q31>>(design, 0.75)) / expected, 1.0, 1e-6);
+}
+
+// Where nothing is summed up, products that vanish are left: half of the smallest denormal number for each term, or a
+// whole one.
+TEST(BoundFormula, OfSilenceAreDenormals) {
+    constexpr double least = std::numeric_limits<float>::denorm_min();
+    EXPECT_EQ((bound_of<Sum<Ring, Plain, F32>>({0.5, 30}, 0.0)), 30.0 * least);
+    EXPECT_EQ((bound_of<Sum<Shift, Plain, F64>>({0.5, 30}, 0.0)), 30.0 * std::numeric_limits<double>::denorm_min());
+    EXPECT_EQ((bound_of<Sum<Modes, Plain, F32>>({0.5, 16}, 0.0)), 16.0 * least);
+    EXPECT_EQ((bound_of<Sum<Nested, Plain, F32>>({0.5, 11, {}, {}, {6, 2}}, 0.0)), 11.0 * least);
+    EXPECT_EQ((bound_of<Sum<MirrorHold, Plain, F32>>({0.5, 10}, 0.0, 14)), 18.0 * least);
+    EXPECT_NEAR((bound_of<Sum<MirrorDelta, Plain, F32>>({1.0, 10}, 0.0)), (10.0 + 1.0) * least, 1e-3 * least);
+    // A running sum that has lost as much at each of its samples.
+    const std::vector<Mode> with_sum = {{0.0, 0.5}};
+    EXPECT_NEAR((bound_of<Sum<Integral, Plain, F32>>({-0.5, 6, with_sum}, 0.0, 1000)), (4.0 + 0.5 * 1000.0) * least,
+                1e-3 * least);
+}
+
+// modes_bound.hpp: once = 6 u + u/d, or 14 u + 4 u^2/d, and what denormals lose; carried on for as long as it lives.
+TEST(BoundFormula, OfAnAverage) {
+    using Stops = Sum<Modes, Plain, F32>;
+    using Carries = Sum<Modes, Compensated, F32>;
+    constexpr double least = std::numeric_limits<float>::denorm_min();
+    const auto carried = [](double once) { return once / (1.0 - once); };
+    EXPECT_NEAR(average_error<Stops>(1e-3, 1.0) / carried(6.0 * u + 1e3 * u), 1.0, 1e-12);
+    EXPECT_NEAR(average_error<Stops>(1.0, 1.0) / carried(7.0 * u), 1.0, 1e-12);
+    EXPECT_NEAR(average_error<Carries>(1e-8, 1.0) / carried(14.0 * u + 4e8 * u * u), 1.0, 1e-12);
+    EXPECT_NEAR(average_error<Carries>(0.5, 1e-40) / carried(14.0 * u + 8.0 * u * u + least / 0.5 / 1e-40), 1.0, 1e-12);
+    EXPECT_EQ(average_error<Stops>(0.5 * u, 1.0), std::numeric_limits<double>::infinity());
+    EXPECT_TRUE(std::isfinite(average_error<Stops>(2.0 * u, 1.0)));
+    EXPECT_NEAR((average_error<Sum<Modes, Plain, Q31>>(0.01, 0.25)), 0x1p-29 + 0x1p-32 / 0.01 / 0.25, 1e-20);
+}
+
+// nested_bound.hpp, where the sums of weights are rounded as well: in double, and in fixed point to the last term.
+TEST(BoundFormula, OfBlocksWhoseWeightsAreRoundedToo) {
+    constexpr std::size_t near_taps = 5;
+    constexpr std::size_t terms = 11;
+    const Design design{1.5, terms, {}, {}, {6, 2}};
+    const auto a = weights(1.5, 40);
+    bench::HostLine<Sum<Nested, Plain, Q31>> line(design);
+    const double coefficient = std::ldexp(0.5, line.state().scale.table_exponent - 31);
+    double sum = 1.0 + (terms - 1);
+    double absolute = 1.0;
+    double means = 0.0;
+    double of_blocks = 0.0;
+    for (std::size_t j = 1; j < near_taps; ++j) {
+        sum += std::fabs(a[j]) * (3.0 + static_cast<double>(terms - j));
+        absolute += std::fabs(a[j]);
+    }
+    std::size_t from = near_taps;
+    for (std::size_t b = 0; b < 6; ++b) {
+        const std::size_t level = b / 2 + 1;
+        double weight = 0.0;
+        double magnitude = 0.0;
+        for (std::size_t j = from; j < from + (std::size_t{1} << level); ++j) {
+            weight += a[j];
+            magnitude += std::fabs(a[j]);
+        }
+        from += std::size_t{1} << level;
+        sum += std::fabs(weight) * (3.0 + static_cast<double>(terms - near_taps - b) + static_cast<double>(level));
+        absolute += std::fabs(weight);
+        of_blocks += magnitude;
+        means += (std::fabs(weight) + coefficient) * static_cast<double>(level) * 0x1p-32 + 0x1p-52 * magnitude * 0.75;
+    }
+    EXPECT_NEAR((bound_of<Sum<Nested, Plain, F64>>(design, 0.75)) / (0.75 * (0x1p-53 * sum + 0x1.01p-52 * of_blocks)),
+                1.0, 1e-9);
+    const double fixed = 0.75 * (terms - 1) * coefficient + means + absolute * 0x1p-32 +
+                         std::ldexp(1.0, line.state().scale.output_exponent - 32);
+    EXPECT_NEAR((bound_of<Sum<Nested, Plain, Q31>>(design, 0.75)) / fixed, 1.0, 1e-11);
 }
 
 }  // namespace
