@@ -329,4 +329,17 @@ TEST(StaticCharacteristicEdges, BendsByItsFarthestLevel) {
     EXPECT_THAT(picture.script, HasSubstr("plot 0.25 + 1 * x"));
 }
 
+// Where decimal commas may be meant three readings are shown, however many there are.
+TEST(LogEdges, ThreeReadingsAreShown) {
+    const auto said = refusal_of([] { (void)drive::parse_log("time_s,input,y,z\n1,5,2,3,4\n", "l.csv"); });
+    EXPECT_THAT(said, HasSubstr("with decimal commas it may be '1,5 2 3 4' or '1 5,2 3 4' or '1 5 2,3 4'; quote such"));
+    EXPECT_THAT(said, Not(HasSubstr("'1 5 2 3,4'")));
+    EXPECT_THAT(
+        refusal_of([] { (void)drive::parse_log("0,2\n1,4\n", "l.csv"); }),
+        HasSubstr("l.csv:1: expected a header such as time_s,input,output or a column 3 for the output, found 2 "
+                  "columns without a header; --output-column N names one by its number"));
+    EXPECT_THAT(drive::parse_log("0,7,2\n1,7,4\n", "l.csv").warnings,
+                ElementsAre("l.csv: read with no header, column 1 as time, column 2 as input, column 3 as output"));
+}
+
 }  // namespace

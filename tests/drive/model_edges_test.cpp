@@ -12,6 +12,8 @@
 #include "drive/commensurate.hpp"
 #include "drive/controller.hpp"
 #include "drive/form.hpp"
+#include "drive/kernel_sum.hpp"
+#include "drive/real_transform.hpp"
 #include "drive/realtime.hpp"
 #include "drive/realtime_controller.hpp"
 #include "drive/simulation.hpp"
@@ -19,6 +21,7 @@
 #include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/without_model.hpp"
 #include "drive/swings.hpp"
+#include "glsum/registry.hpp"
 #include "glsum/weights.hpp"
 #include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
@@ -364,6 +367,37 @@ TEST(SealedTruth, WithoutAModelIsWrittenWithEveryField) {
     EXPECT_EQ(file["cases"][1]["case"], "002");
     EXPECT_EQ(file["cases"][1]["noise"]["colour"], "coloured");
     EXPECT_FALSE(file["cases"][1].contains("where"));
+}
+
+// Of a fraction -1 is a sample, 1 and what lies below -1 are not.
+TEST(KernelSum, CountsSamplesBeyondFullScale) {
+    drive::KernelSum<glsum::Sum<glsum::Ring, glsum::Plain, glsum::Q31>> sum({0.5, 4});
+    ASSERT_EQ(sum.status(), glsum::Status::ok);
+    sum.push(-1.0);
+    EXPECT_EQ(sum.saturations(), 0U);
+    EXPECT_NEAR(sum.past(), 0.5, 1e-9);  // -a_1
+    EXPECT_NEAR(sum.past(), 0.5, 1e-9);  // it was only asked
+    sum.push(std::nextafter(1.0, 0.0));
+    EXPECT_EQ(sum.saturations(), 0U);
+    sum.push(1.0);
+    EXPECT_EQ(sum.saturations(), 1U);
+    sum.push(std::nextafter(-1.0, -2.0));
+    EXPECT_EQ(sum.saturations(), 2U);
+    drive::KernelSum<glsum::Sum<glsum::Ring, glsum::Oldest, glsum::F64>> real({0.5, 4});
+    real.push(7.0);
+    EXPECT_EQ(real.saturations(), 0U);
+    EXPECT_NEAR(real.past(), -3.5, 1e-12);
+}
+
+TEST(RealTransform, HasHalfASpectrum) {
+    drive::RealTransform::Buffer buffer(48, std::vector<double>{1.0, 2.0});
+    EXPECT_EQ(buffer.reals().size(), 48U);
+    EXPECT_EQ(buffer.spectrum().size(), 25U);
+    const drive::RealTransform::Buffer& kept = buffer;
+    EXPECT_EQ(kept.spectrum().size(), 25U);
+    EXPECT_EQ(kept.reals()[1], 2.0);
+    EXPECT_EQ(kept.reals()[2], 0.0);
+    EXPECT_EQ(kept.reals()[47], 0.0);
 }
 
 }  // namespace
