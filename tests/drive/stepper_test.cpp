@@ -82,18 +82,21 @@ Stepped<K> stepped(const ModelDesign& design, const std::vector<double>& input) 
     }
     std::vector<typename K::Coefficient> table(coefficients);
     std::vector<typename K::Sample> past(samples);
-    std::vector<typename K::Sample> line(Model::line_count(design.delay));
+    const std::size_t waiting = Model::line_count(design.delay);
+    std::vector<typename K::Sample> line(waiting + 1);
     // On a microcontroller a state may lie anywhere and begin as anything.
     typename Model::State state;
     std::memset(static_cast<void*>(&state), 0xa5, sizeof state);
     std::memset(static_cast<void*>(table.data()), 0xa5, coefficients * sizeof table[0]);
     std::memset(static_cast<void*>(past.data()), 0xa5, samples * sizeof past[0]);
     std::memset(static_cast<void*>(line.data()), 0xa5, line.size() * sizeof line[0]);
-    EXPECT_EQ(Model::prepare(state, design, table, past, line), Status::ok);
+    const typename K::Sample behind = line.back();
+    EXPECT_EQ(Model::prepare(state, design, table, past, std::span(line).first(waiting)), Status::ok);
     Stepped<K> found;
     for (const double u : input) {
         found.output.push_back(Model::to_real(design, Model::step(state, Model::from_real(design, u))));
     }
+    EXPECT_EQ(std::memcmp(&line.back(), &behind, sizeof behind), 0);  // nobody's sample behind the line
     found.saturations = state.saturations;
     return found;
 }

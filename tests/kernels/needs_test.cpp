@@ -115,6 +115,14 @@ TEST(Needs, OfBlocksAreWhatTheyReach) {
     EXPECT_EQ(reach_of(Design{0.5, 6, {}, {}, {6, 2}}), most_reach + 1);
     EXPECT_EQ(reach_of(Design{0.5, 7, {}, {}, {6, 2}}), 1U + 28U);
     EXPECT_EQ(K::past_count(Design{0.5, 6, {}, {}, {6, 2}}), 0U);
+    // At that reach it is the past that is missing, beyond it the design is refused; without blocks it is a length.
+    typename K::State state{};
+    std::vector<float> table(40);
+    const auto prepared = [&](const Design& asked) { return K::prepare(state, asked, table, {}); };
+    EXPECT_EQ(prepared({0.5, 29, {}, {}, {27, 1}}), Status::past_too_small);
+    EXPECT_EQ(prepared({0.5, 30, {}, {}, {27, 1}}), Status::blocks_out_of_range);
+    EXPECT_EQ(prepared({0.5, 30, {}, {}, {27, 0}}), Status::blocks_out_of_range);
+    EXPECT_EQ(prepared({0.5, 30}), Status::past_too_small);
 }
 
 // Groups of four: a ring of G of them, and coefficients for the three outputs that lie between.
