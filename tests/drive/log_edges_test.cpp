@@ -342,4 +342,17 @@ TEST(LogEdges, ThreeReadingsAreShown) {
                 ElementsAre("l.csv: read with no header, column 1 as time, column 2 as input, column 3 as output"));
 }
 
+// Of what may be read in two ways the first three fields are shown, and that there are more.
+TEST(LogEdges, ThreeFieldsOfAReadingAreShown) {
+    const auto said = [](const std::string& row) {
+        return refusal_of([&] { (void)drive::parse_log(row + "\n" + row + "\n", "l.csv"); });
+    };
+    EXPECT_EQ(said("1,a,b,1;2;a;b"),
+              "l.csv:2: 4 fields by comma: '1', 'a', 'b', ..., or 4 fields by semicolon: '1,a,b,1', '2', 'a', ...? "
+              "--separator comma or semicolon decides");
+    EXPECT_EQ(said("1,a,1;2;a"),
+              "l.csv:2: 3 fields by comma: '1', 'a', '1;2;a', or 3 fields by semicolon: '1,a,1', '2', 'a'? "
+              "--separator comma or semicolon decides");
+}
+
 }  // namespace

@@ -277,4 +277,37 @@ TEST(ControllerStep, BeginsAtZeroWhateverItHeld) {
     EXPECT_EQ(Line::prepare(state, design, std::span(table).first(0), past), Status::table_too_small);
 }
 
+TEST(Stepper, ItsDesignsAreNothingByThemselves) {
+    const ModelDesign model;
+    EXPECT_TRUE(model.increments);
+    EXPECT_FALSE(model.half_input);
+    EXPECT_EQ(model.delay, 0U);
+    EXPECT_EQ(model.input, 1.0);
+    EXPECT_EQ(model.constant, 0.0);
+    EXPECT_EQ(model.input_full_scale, 1.0);
+    EXPECT_EQ(model.stored_full_scale, 1.0);
+    EXPECT_EQ(model.output_full_scale, 1.0);
+    EXPECT_TRUE(model.tables.empty());
+    const glsum::ControllerDesign controller;
+    EXPECT_EQ(controller.first, 1.0);
+    EXPECT_EQ(controller.low, -INFINITY);
+    EXPECT_EQ(controller.high, INFINITY);
+    EXPECT_TRUE(controller.modes.empty());
+    EXPECT_EQ(glsum::most_tables, 4U);
+    // A table of so many ratios and modes has a tap more than the ratios, and two for each mode.
+    const std::vector<Mode> slow(3, Mode{0.1, 0.01});
+    const PastTable table{0.5, one, slow};
+    EXPECT_EQ(table.design().taps, 3U + 1U + 6U);
+    EXPECT_EQ(Stepper<Modes>::table_count(table), 9U);
+    EXPECT_EQ(Stepper<Modes>::past_count(table), 3U + 3U);
+    // In fixed point an input is a fraction of its full scale, an output a multiple of the stored one's.
+    ModelDesign scaled;
+    scaled.input_full_scale = 4.0;
+    scaled.stored_full_scale = 0.5;
+    EXPECT_EQ(Stepper<Fixed>::from_real(scaled, 1.0), 1 << 29);
+    EXPECT_EQ(Stepper<Fixed>::to_real(scaled, std::int64_t{1} << 31), 0.5);
+    EXPECT_EQ(Stepper<Single>::from_real(scaled, 1.0), 1.0F);
+    EXPECT_EQ(Stepper<Single>::to_real(scaled, 0.25F), 0.25);
+}
+
 }  // namespace

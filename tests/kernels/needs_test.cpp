@@ -12,6 +12,7 @@
 #include "bench/reference/real.hpp"
 #include "glsum/block_weights.hpp"
 #include "glsum/bound.hpp"
+#include "glsum/computes_in_double.hpp"
 #include "glsum/double_double.hpp"
 #include "glsum/dsp.hpp"
 #include "glsum/gain.hpp"
@@ -169,6 +170,8 @@ TEST(Needs, OnlyVectorsNeedTheHost) {
     Registry::for_each([&]<class K>() {
         if constexpr (!std::is_same_v<K, Null>) {
             EXPECT_EQ(K::host_only, K::name().find("_simd") != std::string_view::npos) << K::name();
+            const bool doubles = K::name().ends_with("f64") || K::name().ends_with("f32a64");
+            EXPECT_EQ(computes_in_double<K>(), doubles) << K::name();
             EXPECT_TRUE(K::order_in_range(0.5)) << K::name();
             EXPECT_TRUE(K::order_in_range(2.0)) << K::name();
             EXPECT_FALSE(K::order_in_range(std::nextafter(2.0, 3.0))) << K::name();
