@@ -100,36 +100,39 @@ std::vector<Cost> HostTimes::costs(const std::vector<Case>& cases) {
     for (const auto& [kernel, taps] : cases) {
         timed.push_back({kernel, bench::length_of(kernel, order_, taps, samples_), order_});
     }
-    const bench::HostTiming timing = bench::time_on_host(timed, samples_, 9, {});
+    const bench::HostTiming timing = bench::time_on_host(timed, samples_, repetitions, {});
     cycle_counter_ = timing.context.value("cycle_counter", "unknown");
-    std::vector<Cost> costs(cases.size());
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const std::string name = bench::row_name(cases[i].first, order_, timed[i].length, "host");
-        std::vector<double> ns;
-        std::vector<double> cycles;
-        Cost& cost = costs[i];
-        for (const bench::Json& row : timing.rows) {
-            if (row.value("run_name", "") != name || row.value("run_type", "iteration") != "iteration") {
-                continue;
-            }
-            if (row.value("error_occurred", false)) {
-                cost.fault = row.value("error_message", "wrong");
-                continue;
-            }
-            ns.push_back(number(row, "real_time"));
-            cycles.push_back(number(row, "cycles_per_sample"));
-            cost.bytes = number(row, "state_bytes") + number(row, "coefficient_bytes");
-        }
-        if (ns.empty()) {
-            cost.fault = cost.fault.empty() ? "not timed" : cost.fault;
-            continue;
-        }
-        // The median, and half of what the middle half of the repetitions spans.
-        cost.value = quantile(ns, 0.5);
-        cost.noise = (quantile(ns, 0.75) - quantile(ns, 0.25)) / 2.0;
-        cost.limited = quantile(cycles, 0.5);
+    std::vector<Cost> costs;
+    for (const bench::Timed& one : timed) {
+        costs.push_back(cost_of_times(timing.rows, bench::row_name(one.name, order_, one.length, "host")));
     }
     return costs;
+}
+
+Cost cost_of_times(const std::vector<bench::Json>& rows, const std::string& name) {
+    Cost cost;
+    std::vector<double> ns;
+    std::vector<double> cycles;
+    for (const bench::Json& row : rows) {
+        if (row.value("run_name", "") != name || row.value("run_type", "iteration") != "iteration") {
+            continue;
+        }
+        if (row.value("error_occurred", false)) {
+            cost.fault = row.value("error_message", "wrong");
+            continue;
+        }
+        ns.push_back(number(row, "real_time"));
+        cycles.push_back(number(row, "cycles_per_sample"));
+        cost.bytes = number(row, "state_bytes") + number(row, "coefficient_bytes");
+    }
+    if (ns.empty()) {
+        cost.fault = cost.fault.empty() ? "not timed" : cost.fault;
+        return cost;
+    }
+    cost.value = quantile(ns, 0.5);
+    cost.noise = (quantile(ns, 0.75) - quantile(ns, 0.25)) / 2.0;
+    cost.limited = quantile(cycles, 0.5);
+    return cost;
 }
 
 }  // namespace choose

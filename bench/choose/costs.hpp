@@ -72,10 +72,15 @@ private:
     std::size_t remembered_ = 0;
 };
 
+/// Of one timing's repetitions, which have this `run_name`: as `value` their median time in ns, as `noise` half of what
+/// their middle half spans, as `limited` the median of their cycles. Aggregates of them do not count.
+[[nodiscard]] Cost cost_of_times(const std::vector<bench::Json>& rows, const std::string& name);
+
 /// Nanoseconds a sample here: all cases of one call in one run, in interleaved repetitions, since times of different
 /// runs do not compare. Never taken from a file, and never remembered.
 class HostTimes : public CostSource {
 public:
+    static constexpr unsigned repetitions = 9;  ///< odd, so that the median is one of them
     /// \param samples  of the record that designs with modes are for
     HostTimes(double order, std::size_t samples) : order_(order), samples_(samples) {}
 

@@ -39,7 +39,9 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
         if (question.max_instructions) {
             throw Failure(Exit::bad_input, "--max-instructions: only with --target m7; on the host use --max-cycles");
         }
-        note = "host times: taken in this run alone, 9 interleaved repetitions of each candidate, never of a file";
+        note = fmt::format(
+            "host times: taken in this run alone, {} interleaved repetitions of each candidate, never of a file",
+            HostTimes::repetitions);
         return std::make_unique<HostTimes>(question.conditions.order, question.conditions.samples);
     }
     if (question.max_instructions && !question.core.empty()) {

@@ -26,8 +26,6 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
-constexpr std::size_t steady_calls = 32;
-
 // Runs a command; what it says is thrown when it fails.
 void run(const std::string& command) {
     FILE* pipe = popen((command + " 2>&1").c_str(), "r");
@@ -64,7 +62,45 @@ std::string upper(std::string word) {
     return word;
 }
 
-// One C file of all headers: for each a function to be counted and the calls of it.
+void write(const std::filesystem::path& path, const std::string& text) {
+    std::ofstream out(path, std::ios::binary);
+    out << text;
+    if (!out.flush()) {
+        throw Failure(Exit::bad_input, fmt::format("{}: cannot write", path.string()));
+    }
+}
+
+std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& board, const qemu::Scratch& scratch) {
+    const std::filesystem::path source = build_info::source_folder;
+    const std::filesystem::path targets = source / "targets";
+    const std::string flags = target_flags(board);
+    if (std::system("command -v arm-none-eabi-gcc >/dev/null 2>&1") != 0) {
+        throw Failure(Exit::missing, "arm-none-eabi-gcc: not found (Debian package gcc-arm-none-eabi)");
+    }
+    const std::filesystem::path c_file = scratch.file("counted.c");
+    const std::filesystem::path elf = scratch.file("verify.elf");
+    write(c_file, counted_source(specs));
+    // Without section anchors: a header is to be compiled as it is alone, not beside the tables of others.
+    run(
+        fmt::format("arm-none-eabi-gcc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -ffunction-sections "
+                    "-fno-section-anchors{} -c "
+                    "'{}' -o '{}'",
+                    flags, c_file.string(), scratch.file("counted.o").string()));
+    run(fmt::format(
+        "arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti{} -I'{}' -nostartfiles -Wl,--gc-sections "
+        "-T '{}' -T '{}' '{}' '{}' '{}' '{}' '{}' -lm -o '{}'",
+        flags,
+        source.string() + "' -I'" + targets.string() + "' -I'" + (targets / "firmware").string() + "' -I'" +
+            (source / "kernels").string(),
+        (targets / "mps2-an500" / "memory.ld").string(), (targets / "cortex-m7" / "sections.ld").string(),
+        (targets / "firmware" / "verify.cpp").string(), (targets / "firmware" / "verify_calls.cpp").string(),
+        (targets / "firmware" / "marks.S").string(), scratch.file("counted.o").string(),
+        (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
+    return elf;
+}
+
+}  // namespace
+
 std::string counted_source(const std::vector<Spec>& specs) {
     std::string text =
         "#include <stdint.h>\nvoid glsum_make_calls(unsigned taps, unsigned software_double, void (*make)(unsigned "
@@ -113,72 +149,28 @@ static uint32_t verify_{0}(void)
            "unsigned glsum_verify(unsigned number)\n{\n    return (unsigned)entries[number]();\n}\n";
 }
 
-void write(const std::filesystem::path& path, const std::string& text) {
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    if (!out.flush()) {
-        throw Failure(Exit::bad_input, fmt::format("{}: cannot write", path.string()));
-    }
-}
-
-std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& board, const qemu::Scratch& scratch) {
-    const std::filesystem::path source = build_info::source_folder;
-    const std::filesystem::path targets = source / "targets";
-    const std::string flags = target_flags(board);
-    if (std::system("command -v arm-none-eabi-gcc >/dev/null 2>&1") != 0) {
-        throw Failure(Exit::missing, "arm-none-eabi-gcc: not found (Debian package gcc-arm-none-eabi)");
-    }
-    const std::filesystem::path c_file = scratch.file("counted.c");
-    const std::filesystem::path elf = scratch.file("verify.elf");
-    write(c_file, counted_source(specs));
-    // Without section anchors: a header is to be compiled as it is alone, not beside the tables of others.
-    run(
-        fmt::format("arm-none-eabi-gcc -std=c99 -Wall -Wextra -Wpedantic -Wconversion -Werror -ffunction-sections "
-                    "-fno-section-anchors{} -c "
-                    "'{}' -o '{}'",
-                    flags, c_file.string(), scratch.file("counted.o").string()));
-    run(fmt::format(
-        "arm-none-eabi-g++ -std=c++20 -fno-exceptions -fno-rtti{} -I'{}' -nostartfiles -Wl,--gc-sections "
-        "-T '{}' -T '{}' '{}' '{}' '{}' '{}' '{}' -lm -o '{}'",
-        flags,
-        source.string() + "' -I'" + targets.string() + "' -I'" + (targets / "firmware").string() + "' -I'" +
-            (source / "kernels").string(),
-        (targets / "mps2-an500" / "memory.ld").string(), (targets / "cortex-m7" / "sections.ld").string(),
-        (targets / "firmware" / "verify.cpp").string(), (targets / "firmware" / "verify_calls.cpp").string(),
-        (targets / "firmware" / "marks.S").string(), scratch.file("counted.o").string(),
-        (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
-    return elf;
-}
-
-struct Mean {
-    double instructions = 0.0;
-    double stores = 0.0;
-    std::uint64_t first_instructions = 0;  // of the first call
-};
-
-// Of 32 calls once the past is full: the calls that `qemu::measure` takes the kernel's mean of.
-std::map<std::uint32_t, Mean> means(const qemu::CallLog& log, const std::map<std::uint32_t, std::size_t>& taps) {
-    std::map<std::uint32_t, Mean> result;
+std::map<std::uint32_t, SteadyCalls> steady_calls_of(const qemu::CallLog& log,
+                                                     const std::map<std::uint32_t, std::size_t>& taps) {
+    std::map<std::uint32_t, SteadyCalls> result;
     std::map<std::uint32_t, std::uint64_t> seen;
     for (const qemu::CallRun& run : log.runs) {
+        SteadyCalls& mean = result[run.entry];
         const std::uint64_t from = 1 + taps.at(run.entry);
         const std::uint64_t before = seen[run.entry];
         if (before == 0) {
-            result[run.entry].first_instructions = run.counts.instructions;
+            mean.first_instructions = run.counts.instructions;
         }
         seen[run.entry] += run.calls;
         const std::uint64_t begin = std::max(before, from);
-        const std::uint64_t end = std::min(before + run.calls, from + steady_calls);
+        const std::uint64_t end = std::min(before + run.calls, from + SteadyCalls::count);
         if (begin < end) {
-            const double share = static_cast<double>(end - begin) / static_cast<double>(steady_calls);
-            result[run.entry].instructions += share * static_cast<double>(run.counts.instructions);
-            result[run.entry].stores += share * static_cast<double>(run.counts.stores);
+            const double share = static_cast<double>(end - begin) / static_cast<double>(SteadyCalls::count);
+            mean.instructions += share * static_cast<double>(run.counts.instructions);
+            mean.stores += share * static_cast<double>(run.counts.stores);
         }
     }
     return result;
 }
-
-}  // namespace
 
 std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qemu::Board& board,
                                        const timing::TimingRequest& timing) {
@@ -240,10 +232,10 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
                       fmt::format("the firmware answered for {} headers of {} and stopped", all.size(), specs.size()));
     }
     std::ifstream log_file(scratch.file("calls"));
-    const auto counted = means(qemu::read_call_log(log_file), taps);
+    const auto counted = steady_calls_of(qemu::read_call_log(log_file), taps);
     std::ifstream times(scratch.file("times"));
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const Mean& header = counted.at(entries[i]);
+        const SteadyCalls& header = counted.at(entries[i]);
         const firmware::TimedCalls calls = qemu::timed_calls(specs[i].kernel, specs[i].taps);
         all[i].kernel_cycles = kernels[i].cores.at(0).cycles;
         all[i].header_cycles =

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "bench/generate/header.hpp"
+#include "qemu/call_counter.hpp"
 #include "qemu/firmware.hpp"
 
 namespace generate {
@@ -29,7 +31,8 @@ struct Verified {
     /// Of few taps, two branches that are foreseen in the one place and not in the other, 8 cycles and a fetch each.
     static constexpr double place_cycles = 20.0;
 
-    /// Beside its calls of some 140 instructions a tap: GCC 14 saves up to six registers more a sample, of few taps too.
+    /// Beside its calls of some 140 instructions a tap: GCC 14 saves up to six registers more a sample, of few taps
+    /// too.
     static constexpr double saved_share = 0.001;
     static constexpr double saved_instructions = 8.0;
 
@@ -42,6 +45,22 @@ struct Verified {
                header_cycles <= kernel_cycles + place;
     }
 };
+
+/// One C file of all headers, each `<prefix>.h`: for each a function count_<prefix> to be counted and the calls of it.
+[[nodiscard]] std::string counted_source(const std::vector<Spec>& specs);
+
+/// Mean counts of a function's steady calls.
+struct SteadyCalls {
+    static constexpr std::size_t count = 32;
+    double instructions = 0.0;
+    double stores = 0.0;
+    std::uint64_t first_instructions = 0;  ///< of the first call of all
+};
+
+/// Of 32 calls once the past is full, those that `qemu::measure` takes a kernel's mean of: the ones behind the first L
+/// and one more. \param taps  L of each function in the log, by its address
+[[nodiscard]] std::map<std::uint32_t, SteadyCalls> steady_calls_of(const qemu::CallLog& log,
+                                                                   const std::map<std::uint32_t, std::size_t>& taps);
 
 /// Compiles every header (warnings are errors), runs its self-check, and counts and times its steps and the kernel's.
 /// \param timing  of one core

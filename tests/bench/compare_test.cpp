@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 namespace {
 
@@ -100,6 +101,49 @@ TEST(CompareJson, HoldsEveryPairWithItsRatioAndWhichWayIsBetter) {
     EXPECT_GT(time.at("ratio_low").get<double>(), 0.75);
     EXPECT_LT(time.at("ratio_high").get<double>(), 0.85);
     EXPECT_EQ(time.at("change"), "better");
+}
+
+// What the terminal shows: the conditions that differ, a line for each counter, the largest changes first, and what one
+// run alone has.
+TEST(CompareTable, SumsEachCounterAndNamesTheLargestChanges) {
+    Comparison comparison;
+    comparison.differences = {{"seed", "1", "2", Effect::incomparable}, {"cpu", "one", "two", Effect::advisory}};
+    const auto add = [&](const char* row, const char* counter, double a, double b, int better) {
+        Pair pair;
+        pair.row = row;
+        pair.counter = counter;
+        pair.a = a;
+        pair.b = b;
+        pair.log_ratio = pair.low = pair.high = std::log(b / a);
+        pair.better = better;
+        comparison.pairs.push_back(pair);
+    };
+    add("one", "bytes", 8.0, 16.0, -1);
+    add("two", "bytes", 16.0, 2.0, 1);
+    add("three", "bytes", 5.0, 5.0, 0);
+    add("four", "cycles", 10.0, 40.0, -1);
+    comparison.pairs.back().to_anchor = true;
+    comparison.pairs.back().low = std::log(3.0);
+    comparison.pairs.back().high = std::log(5.0);
+    comparison.only_a = {"gone", "gone too"};
+    comparison.wrong = {"bad"};
+    // Of 2, 1/8 and 1 the mean is 4^(-1/3) = 0.63, the deviation 2^sqrt(10/3 - 4/9) = 3.248.
+    const std::string whole =
+        "  seed: 1 in A, 2 in B: not comparable\n"
+        "  cpu: one in A, two in B\n"
+        "\n  counter                       rows  better   worse  geometric mean geometric sd\n"
+        "  bytes                            3       1       1           x0.63       x3.248\n"
+        "  cycles                           1       0       1              x4           x1\n"
+        "\n  largest changes, B over A (2 of 3)\n"
+        "  two bytes: 16 -> 2, x0.125 better\n"
+        "  four cycles: 10 -> 40, x4 (x3 to x5 of the anchor) worse\n"
+        "\n  2 rows only in A: gone, ...\n"
+        "\n  1 rows wrong in A or B, not compared: bad\n";
+    EXPECT_EQ(to_table(comparison, 2), whole);
+    EXPECT_NE(to_table(comparison, 3).find("(3 of 3)"), std::string::npos);
+    EXPECT_NE(to_table(comparison, 4).find("(3 of 3)"), std::string::npos);
+    EXPECT_NE(to_table(comparison, 4).find("one bytes: 8 -> 16, x2 worse\n"), std::string::npos);
+    EXPECT_EQ(to_table(Comparison{}, 9).find("largest"), std::string::npos);
 }
 
 }  // namespace

@@ -126,4 +126,69 @@ TEST(ResultFile, OtherFilesAreRefusedWithAReason) {
     EXPECT_THROW((void)bench::read_results("/nonexistent/a.json"), glsum::Failure);
 }
 
+// What is refused beyond a bound is read at it.
+TEST(ResultFile, AtTheBoundsEverythingIsRead) {
+    using bench::ResultLimits;
+    bench::Json wide = row("a");
+    while (wide.size() < ResultLimits::fields) {
+        wide["counter" + std::to_string(wide.size())] = 1;
+    }
+    const std::string name(ResultLimits::text, 'n');
+    const bench::Results results = bench::parse_results(file_of({wide, row(name), row("b")}), "a.json");
+    ASSERT_EQ(results.rows.size(), 3U);
+    EXPECT_EQ(results.rows[0], wide);
+    EXPECT_EQ(results.rows[1].at("name"), name);
+    wide["one_more"] = 1;
+    EXPECT_THAT(refusal(file_of({row("b"), wide})), HasSubstr("row 2: expected at most 256 fields"));
+    // Six deep: the file, its context, and four of the context's own.
+    EXPECT_EQ(bench::parse_results(R"({"context": {"a": {"b": [[{}, 7]]}}, "benchmarks": []})", "a.json").context,
+              bench::Json::parse(R"({"a": {"b": [[{}, 7]]}})"));
+    EXPECT_THAT(refusal(R"({"context": {"a": {"b": [[[[]]]]}}, "benchmarks": []})"), HasSubstr("nested 7 deep"));
+    std::string many = R"({"context": {"a": [0)";
+    for (std::size_t i = 2; i < ResultLimits::context_values; ++i) {  // the array counts as well
+        many += ",0";
+    }
+    EXPECT_EQ(bench::parse_results(many + R"(]}, "benchmarks": []})", "a.json").context.at("a").size(),
+              ResultLimits::context_values - 1);
+    EXPECT_THAT(refusal(many + R"(,0]}, "benchmarks": []})"), HasSubstr("context: expected at most 100000 values"));
+}
+
+// What no row nor context is, is passed over whole: other programs add parts of their own.
+TEST(ResultFile, OtherPartsAreNoneOfOurs) {
+    const bench::Results results = bench::parse_results(
+        R"({"more": {"x": [1, {"name": "no row"}], "y": null}, "context": {"a": [1, {"b": 2}], "c": null, "d": "e"},
+            "benchmarks": [{"name": "a", "flag": true, "text": "t", "negative": -3, "positive": 3, "real": 0.5}]})",
+        "a.json");
+    EXPECT_EQ(results.context, bench::Json::parse(R"({"a": [1, {"b": 2}], "c": null, "d": "e"})"));
+    ASSERT_EQ(results.rows.size(), 1U);
+    EXPECT_EQ(
+        results.rows[0],
+        bench::Json::parse(R"({"name": "a", "flag": true, "text": "t", "negative": -3, "positive": 3, "real": 0.5})"));
+}
+
+// Of a long value its beginning is shown, of broken JSON what stands about the place, with nothing a terminal obeys.
+TEST(ResultFile, MessagesShowTheirPlaceAndNoMore) {
+    const std::string digits = "0123456789012345678901234567890123456789012345678901234567890123456789";
+    const std::string shown = "[12345678,\"" + digits.substr(0, 49);  // 60 letters
+    const std::string value = "[12345678,\"" + digits + "\"]";
+    EXPECT_TRUE(refusal("{\"context\": {\"commit\": " + value + "}, \"benchmarks\": []}")
+                    .ends_with("expected a text, found " + shown));
+    EXPECT_TRUE(refusal("{\"context\": \"" + digits + "\", \"benchmarks\": []}")
+                    .ends_with("expected an object, found \"" + digits.substr(0, 59)));
+    EXPECT_TRUE(refusal("{\"benchmarks\": [\"" + digits + "\"]}").ends_with("found \"" + digits.substr(0, 59)));
+    EXPECT_TRUE(refusal("{\"benchmarks\": [{\"name\": \"a\", \"state_bytes\": \"" + digits + "\"}]}")
+                    .ends_with("found \"" + digits.substr(0, 59)));
+    // Twelve letters to the one that is wrong, and twelve behind it.
+    EXPECT_EQ(refusal("{\"context\": {},\n\"ab\tdefghijk?mnopqrstuvwxyz0123456789"),
+              "a.json:2: expected JSON, found '");
+}
+
+TEST(ResultFile, ANumberThatIsNoneIsFoundWhereverItStands) {
+    EXPECT_EQ(refusal("NaN"), "a.json:1: expected a finite number, found NaN");
+    EXPECT_EQ(refusal("\n-Infinity"), "a.json:2: expected a finite number, found -Infinity");
+    EXPECT_EQ(refusal("[nan]"), "a.json:1: expected a finite number, found nan");
+    EXPECT_THAT(refusal("{\"context\": nano}"), HasSubstr("expected JSON, found"));  // begins like one
+    EXPECT_THAT(refusal(" \n\t\r"), HasSubstr("found an empty one"));
+}
+
 }  // namespace

@@ -428,6 +428,7 @@ TEST(Earlier, CostsOfTheTargetAreItsCyclesBandAndBytes) {
     EXPECT_EQ(modelled[0].bytes, 44.0);
     EXPECT_EQ(modelled[0].noise, 0.0);
     EXPECT_EQ(modelled[1].value, 900.0);
+    EXPECT_EQ(modelled[1].limited, 950.0);
     const auto counted = taken("");
     EXPECT_EQ(counted[0].value, 61.0);
     EXPECT_EQ(counted[0].limited, 61.0);
@@ -447,6 +448,68 @@ TEST(Earlier, CostsOfTheTargetAreItsCyclesBandAndBytes) {
     earlier.on_target = false;
     choose::remember(earlier, question, counts);
     EXPECT_ANY_THROW((void)counts.costs({{"ring_plain_f32", 5}}));
+}
+
+// Of nine repetitions the median, half of what the middle half spans, and the cycles' median, whatever their order.
+TEST(HostTimes, AreTheMedianOfTheirRepetitions) {
+    const std::string name = "gl/ring_plain_f32/order:0.5/taps:50/host";
+    std::vector<bench::Json> rows;
+    for (const double ns : {50.0, 10.0, 20.0, 40.0, 90.0, 30.0, 60.0, 80.0, 70.0}) {
+        rows.push_back(row(name, {{"real_time", ns},
+                                  {"cycles_per_sample", 1000.0 - ns},
+                                  {"state_bytes", 200.0},
+                                  {"coefficient_bytes", 196.0}}));
+    }
+    bench::Json mean = row(name, {{"real_time", 1e6}, {"cycles_per_sample", 1e6}});
+    mean["run_type"] = "aggregate";
+    rows.push_back(mean);
+    rows.push_back(row("gl/ring_plain_f32/order:0.5/taps:51/host", {{"real_time", 1.0}}));
+    for (bench::Json& one : rows) {
+        one["run_name"] = one["name"];
+    }
+    const choose::Cost cost = choose::cost_of_times(rows, name);
+    EXPECT_EQ(cost.value, 50.0);
+    EXPECT_EQ(cost.noise, 20.0);  // from 30 to 70
+    EXPECT_EQ(cost.limited, 950.0);
+    EXPECT_EQ(cost.bytes, 396.0);
+    EXPECT_EQ(cost.fault, "");
+    // Between two values in proportion.
+    const choose::Cost two = choose::cost_of_times({rows[0], rows[1]}, name);  // 50 and 10
+    EXPECT_EQ(two.value, 30.0);
+    EXPECT_EQ(two.noise, 10.0);  // 20 to 40
+    EXPECT_EQ(choose::cost_of_times({}, name).fault, "not timed");
+    bench::mark_error(rows[3], "wrong answer");
+    EXPECT_EQ(choose::cost_of_times({rows[3]}, name).fault, "wrong answer");
+    EXPECT_EQ(choose::cost_of_times({rows[0], rows[3]}, name).fault, "wrong answer");
+}
+
+TEST(Question, OnTheHostTimesAreTakenInThisRunAlone) {
+    Question question = small();
+    question.target = choose::Target::host;
+    question.kernels = {"ring_plain_f32", "shift_plain_f32"};
+    question.max_error = 0.5;
+    question.max_bytes = 1e6;
+    const choose::Answer found = choose::answer(question, std::nullopt);
+    ASSERT_TRUE(found.choice.chosen);
+    EXPECT_LE(found.choice.chosen->error.error, 0.5);
+    EXPECT_GT(found.choice.chosen->cost.value, 0.0);
+    EXPECT_GT(found.choice.chosen->cost.bytes, 0.0);
+    EXPECT_GE(found.choice.chosen->cost.noise, 0.0);
+    EXPECT_EQ(found.unit, "ns");
+    EXPECT_EQ(found.limited_unit, "cycles");
+    ASSERT_EQ(found.notes.size(), 4U);
+    EXPECT_EQ(found.notes[1],
+              "host times: taken in this run alone, 9 interleaved repetitions of each candidate, never of a file");
+    EXPECT_NE(found.notes[2].find(", 0 errors taken from the file"), std::string::npos) << found.notes[2];
+    EXPECT_TRUE(found.notes[3].starts_with("host cycles: ")) << found.notes[3];
+    EXPECT_NE(found.notes[3].find("cycles", 12), std::string::npos) << found.notes[3];
+    EXPECT_TRUE(choose::HostTimes(0.5, 60).costs({}).empty());
+    EXPECT_FALSE(choose::HostTimes(0.5, 60).exact());
+    question.max_bytes = 1.0;
+    EXPECT_FALSE(choose::answer(question, std::nullopt).choice.chosen);
+    question.max_cycles = 1e-9;
+    question.max_bytes.reset();
+    EXPECT_FALSE(choose::answer(question, std::nullopt).choice.chosen);
 }
 
 }  // namespace

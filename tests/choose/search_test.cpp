@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <tuple>
+#include <utility>
 
 namespace {
 
@@ -194,6 +198,263 @@ TEST(Search, AWrongAnswerNeverWins) {
     const Choice found = choose::choose(errors, costs, {"broken"}, {1.0, {}, {}}, 1, false);
     EXPECT_FALSE(found.chosen);
     EXPECT_EQ(found.kernels.at(0).why, "it is broken");
+}
+
+// Kernels that meet any limit from a length on, with costs as each test gives them, and what was asked.
+struct Few : choose::ErrorSource, choose::CostSource {
+    struct One {
+        std::size_t meets_from;
+        std::function<Cost(std::size_t)> cost;
+        bool dear = false;
+        double error = 0.01;
+    };
+    std::map<std::string, One> ones;
+    bool same_every_time = true;
+    std::vector<choose::Case> asked;
+    std::size_t rounds = 0;
+
+    [[nodiscard]] std::size_t longest() const override { return ::longest; }
+    [[nodiscard]] double truncation(std::size_t) const override { return 0.0; }
+    [[nodiscard]] double rounding_bound(const std::string&, std::size_t) const override { return 0.0; }
+    [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override {
+        const One& one = ones.at(kernel);
+        return {.error = taps >= one.meets_from ? one.error : 1.0, .signal = "made", .fault = {}};
+    }
+    [[nodiscard]] bool meets(const std::string& kernel, std::size_t taps, double limit) override {
+        return error(kernel, taps).error <= limit;
+    }
+    [[nodiscard]] std::string unit() const override { return "instructions"; }
+    [[nodiscard]] std::string limited_unit() const override { return "instructions"; }
+    [[nodiscard]] bool exact() const override { return same_every_time; }
+    [[nodiscard]] bool dear(const std::string& kernel) const override { return ones.at(kernel).dear; }
+    [[nodiscard]] std::vector<Cost> costs(const std::vector<choose::Case>& cases) override {
+        std::vector<Cost> found;
+        rounds += cases.empty() ? 0 : 1;
+        for (const choose::Case& one : cases) {
+            asked.push_back(one);
+            found.push_back(ones.at(one.first).cost(one.second));
+        }
+        return found;
+    }
+    Choice choose(const Limits& limits) {
+        std::vector<std::string> all;
+        for (const auto& [name, one] : ones) {
+            all.push_back(name);
+        }
+        return choose::choose(*this, *this, all, limits, 1, false);
+    }
+};
+
+Cost cost_of(double value, double bytes = 8.0, double noise = 0.0) {
+    return {.value = value, .limited = value, .noise = noise, .bytes = bytes, .fault = {}};
+}
+
+std::vector<choose::Case> row_of(const std::string& kernel, std::size_t first, std::size_t last) {
+    std::vector<choose::Case> cases;
+    for (std::size_t taps = first; taps <= last; ++taps) {
+        cases.emplace_back(kernel, taps);
+    }
+    return cases;
+}
+
+// Code that goes in groups costs least at a group's end: the seven lengths behind the shortest are looked at.
+TEST(Search, TheRestOfAGroupIsLookedAt) {
+    Few few;
+    few.ones["a"] = {20, [](std::size_t taps) { return cost_of(taps == 27 ? 50.0 : taps == 28 ? 10.0 : 100.0); }};
+    const Choice found = few.choose({0.1, {}, {}});
+    EXPECT_EQ(found.chosen->taps, 27U);
+    EXPECT_EQ(few.asked, row_of("a", 20, 27));
+    few.asked.clear();
+    few.same_every_time = false;  // times are not compared so closely
+    EXPECT_EQ(few.choose({0.1, {}, {}}).chosen->taps, 20U);
+    EXPECT_EQ(few.asked, row_of("a", 20, 20));
+    Few last;  // none is longer than the record
+    last.ones["a"] = {longest - 2, [](std::size_t) { return cost_of(100.0); }};
+    EXPECT_EQ(last.choose({0.1, {}, {}}).chosen->taps, longest - 2);
+    EXPECT_EQ(last.asked, row_of("a", longest - 2, longest));
+}
+
+// By the rest of a group a cost may fall by 64 instructions, in software double by a tenth of the best as well.
+TEST(Search, WhatCanNoMoreBecomeTheCheapestIsNotLookedAt) {
+    for (const auto& [cost, dear, looked_at] : {std::tuple(1064.0, false, true), std::tuple(1065.0, false, false),
+                                                std::tuple(1164.0, true, true), std::tuple(1165.0, true, false)}) {
+        Few few;
+        few.ones["a"] = {50, [](std::size_t) { return cost_of(1000.0); }};
+        few.ones["b"] = {50, [value = cost](std::size_t) { return cost_of(value); }, dear};
+        EXPECT_EQ(few.choose({0.1, {}, {}}).chosen->kernel, "a");
+        EXPECT_EQ(std::count(few.asked.begin(), few.asked.end(), choose::Case("b", 57)), looked_at ? 1 : 0) << cost;
+    }
+    // Where nothing fits so far the limit is what has to be met.
+    for (const double cost : {564.0, 565.0}) {
+        Few few;
+        few.ones["a"] = {50, [&](std::size_t taps) { return cost_of(taps == 53 ? 500.0 : cost); }};
+        EXPECT_EQ(few.choose({0.1, 500.0, {}}).chosen.has_value(), cost == 564.0) << cost;
+    }
+}
+
+// A dear kernel is measured at 64 taps first, and where it is longer and dearer there than what fits, nowhere else.
+TEST(Search, ADearKernelIsTriedAtAShortLengthFirst) {
+    const auto asked_of = [](double short_cost, std::size_t meets_from, const Limits& limits, bool fails = false) {
+        Few few;
+        few.ones["cheap"] = {390, [](std::size_t) { return cost_of(1000.0); }};
+        few.ones["dear"] = {meets_from,
+                            [=](std::size_t taps) {
+                                Cost cost = cost_of(taps <= 64 ? short_cost : 5000.0);
+                                cost.fault = fails ? "too long" : "";
+                                return cost;
+                            },
+                            true};
+        (void)few.choose(limits);
+        std::vector<std::size_t> asked;
+        for (const auto& [kernel, taps] : few.asked) {
+            if (kernel == "dear") {
+                asked.push_back(taps);
+            }
+        }
+        return asked;
+    };
+    using Lengths = std::vector<std::size_t>;
+    EXPECT_EQ(asked_of(1001.0, 65, {0.1, {}, {}}), Lengths{64});
+    EXPECT_EQ(asked_of(1000.0, 65, {0.1, {}, {}}), (Lengths{64, 65}));
+    EXPECT_EQ(asked_of(900.0, 300, {0.1, {}, {}}), (Lengths{64, 300}));
+    EXPECT_EQ(asked_of(3000.0, 64, {0.1, {}, {}}), Lengths{64});  // no longer than that
+    EXPECT_EQ(asked_of(3000.0, 300, {0.1, {}, {}}, true), (Lengths{64, 300}));
+    Few alone;
+    alone.ones["dear"] = {300, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }, true};
+    EXPECT_EQ(alone.choose({0.1, 640.0, {}}).kernels.at(0).fate, Fate::too_dear);
+    EXPECT_EQ(alone.choose({0.1, 640.0, {}}).kernels.at(0).already,
+              std::nullopt);  // 640 are within the limit: measured
+    EXPECT_EQ(alone.choose({0.1, 639.0, {}}).kernels.at(0).already->taps, 64U);
+    EXPECT_EQ(alone.choose({0.1, 639.0, {}}).kernels.at(0).fate, Fate::too_dear);
+    EXPECT_EQ(alone.choose({0.1, 3000.0, {}}).chosen->taps, 300U);
+    Few beside;
+    beside.ones["cheap"] = {20, [](std::size_t) { return cost_of(100.0); }};
+    beside.ones["dear"] = alone.ones["dear"];
+    EXPECT_EQ(beside.choose({0.1, {}, {}}).kernels.at(1).fate, Fate::dearer);
+}
+
+TEST(Search, EachFateHasItsReason) {
+    Few few;
+    few.ones["a"] = {20, [](std::size_t) { return cost_of(100.0, 50.0); }};
+    few.ones["as good"] = {20, [](std::size_t) { return cost_of(110.0, 50.0); }};
+    few.ones["beaten"] = {20, [](std::size_t) { return cost_of(120.0, 50.0); }};
+    few.ones["broken"] = {20, [](std::size_t) {
+                              Cost cost = cost_of(1.0, 1.0);
+                              cost.fault = "other bits";
+                              return cost;
+                          }};
+    few.ones["small"] = {20, [](std::size_t) { return cost_of(130.0, 49.0); }};
+    few.ones["too dear"] = {20, [](std::size_t) { return cost_of(201.0, 50.0); }};
+    few.ones["too large"] = {20, [](std::size_t) { return cost_of(90.0, 61.0); }};
+    few.ones["vague"] = {1000, [](std::size_t) { return cost_of(1.0, 1.0); }};
+    const Choice found = few.choose({0.1, 200.0, 60.0});
+    EXPECT_EQ(found.chosen->kernel, "a");
+    EXPECT_EQ(found.runner_up->kernel, "as good");
+    EXPECT_FALSE(found.tie);
+    EXPECT_TRUE(found.relaxed.empty());
+    std::map<std::string, std::pair<Fate, std::string>> fates;
+    for (const choose::Fared& fared : found.kernels) {
+        fates[fared.kernel] = {fared.fate, fared.why};
+    }
+    const std::map<std::string, std::pair<Fate, std::string>> expected = {{"a", {Fate::chosen, ""}},
+                                                                          {"as good", {Fate::runner_up, ""}},
+                                                                          {"beaten", {Fate::dominated, "by a"}},
+                                                                          {"broken", {Fate::wrong, "other bits"}},
+                                                                          {"small", {Fate::dearer, ""}},
+                                                                          {"too dear", {Fate::too_dear, ""}},
+                                                                          {"too large", {Fate::too_large, ""}},
+                                                                          {"vague", {Fate::inaccurate, ""}}};
+    EXPECT_EQ(fates, expected);
+    EXPECT_EQ(few.choose({0.1, 201.0, 61.0}).chosen->kernel, "too large");  // exactly at the limits
+    // As good in each and better in none does not dominate.
+    few.ones["beaten"] = few.ones["as good"] = few.ones["a"];
+    for (const choose::Fared& fared : few.choose({0.1, 200.0, 60.0}).kernels) {
+        EXPECT_NE(fared.fate, Fate::dominated) << fared.kernel;
+    }
+}
+
+TEST(Search, WithinTheNoiseOfBothItIsATie) {
+    for (const auto& [second, tie] : {std::pair(113.0, true), std::pair(113.5, false)}) {
+        Few few;
+        few.same_every_time = false;
+        few.ones["a"] = {20, [](std::size_t) { return cost_of(100.0, 8.0, 3.0); }};
+        few.ones["b"] = {20, [value = second](std::size_t) { return cost_of(value, 8.0, 10.0); }};
+        EXPECT_EQ(few.choose({0.1, {}, {}}).tie, tie) << second;
+    }
+}
+
+// Nothing fits: what each limit alone would have to be, the least relaxation first.
+TEST(Relax, SaysWhatEachLimitAloneWouldHaveToBe) {
+    Few few;
+    few.ones["dear"] = {100, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps), 40.0); }};
+    few.ones["large"] = {50, [](std::size_t taps) { return cost_of(60.0, 2.0 * static_cast<double>(taps)); }};
+    const Choice found = few.choose({0.1, 500.0, 50.0});
+    ASSERT_FALSE(found.chosen);
+    ASSERT_EQ(found.relaxed.size(), 3U);
+    EXPECT_EQ(found.relaxed[0].limit, "max_cost");
+    EXPECT_EQ(found.relaxed[0].from, 500.0);
+    EXPECT_EQ(found.relaxed[0].to, 1000.0);
+    EXPECT_EQ(found.relaxed[0].fits.kernel, "dear");
+    EXPECT_EQ(found.relaxed[0].fits.taps, 100U);
+    EXPECT_EQ(found.relaxed[1].limit, "max_bytes");
+    EXPECT_EQ(found.relaxed[1].to, 100.0);
+    EXPECT_EQ(found.relaxed[1].fits.kernel, "large");
+    EXPECT_EQ(found.relaxed[2].limit, "max_error");
+    EXPECT_EQ(found.relaxed[2].to, 1.0);
+    EXPECT_EQ(found.relaxed[2].factor(), 10.0);
+    // Without limits on cost and bytes only the error can be relaxed.
+    Few vague;
+    vague.ones["a"] = {1000, [](std::size_t) { return cost_of(1.0); }};
+    const Choice none = vague.choose({0.1, {}, {}});
+    ASSERT_EQ(none.relaxed.size(), 1U);
+    EXPECT_EQ(none.relaxed[0].limit, "max_error");
+    EXPECT_EQ(none.relaxed[0].to, 1.0);
+}
+
+// A dear kernel that alone would do is measured where it does before a limit is named.
+TEST(Relax, ADearKernelsCostIsThatOfTheLengthItNeeds) {
+    Few few;
+    few.ones["dear"] = {300, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }, true};
+    const Choice found = few.choose({0.1, 600.0, {}});
+    ASSERT_EQ(found.relaxed.size(), 2U);
+    EXPECT_EQ(found.relaxed[0].limit, "max_cost");
+    EXPECT_EQ(found.relaxed[0].to, 3000.0);
+    EXPECT_EQ(found.relaxed[0].fits.taps, 300U);
+}
+
+// The most accurate within the other limits is that of the longest length, found in few rounds where costs are
+// straight.
+TEST(Relax, TheLongestLengthWithinTheOtherLimitsIsFound) {
+    const auto error_at = [](std::size_t taps) { return 1.0 / static_cast<double>(taps); };
+    struct Falling : Few {
+        [[nodiscard]] ErrorAt error(const std::string&, std::size_t taps) override {
+            return {.error = 1.0 / static_cast<double>(taps), .signal = "made", .fault = {}};
+        }
+    };
+    for (const std::size_t most : {1U, 2U, 3U, 31U, 32U, 33U, 100U, 250U, 399U, 400U}) {
+        for (const bool by_bytes : {false, true}) {
+            Falling few;
+            few.ones["a"] = {1, [&](std::size_t taps) {
+                                 const double rising = 7.0 + 5.0 * static_cast<double>(taps);
+                                 return by_bytes ? cost_of(1.0, rising) : cost_of(rising, 1.0);
+                             }};
+            const double limit = 7.0 + 5.0 * static_cast<double>(most) + 1.0;
+            const Choice found = few.choose(by_bytes ? Limits{1e-4, 2.0, limit} : Limits{1e-4, limit, 2.0});
+            ASSERT_FALSE(found.chosen);
+            ASSERT_EQ(found.relaxed.size(), 1U) << most;
+            EXPECT_EQ(found.relaxed[0].limit, "max_error");
+            EXPECT_EQ(found.relaxed[0].to, error_at(most)) << most << by_bytes;
+            EXPECT_EQ(found.relaxed[0].fits.taps, most) << by_bytes;
+            EXPECT_LE(few.rounds, 8U) << most << by_bytes;
+        }
+    }
+    // A step in the costs: by halves it is found as well.
+    Falling steep;
+    steep.ones["a"] = {1, [](std::size_t taps) { return cost_of(taps <= 123 ? 10.0 : 1e6); }};
+    EXPECT_EQ(steep.choose({1e-4, 50.0, {}}).relaxed.at(0).fits.taps, 123U);
+    EXPECT_LE(steep.rounds, 24U);
+    // Where nothing is within the other limits there is no relaxing the error.
+    EXPECT_TRUE(steep.choose({1e-4, 9.0, {}}).relaxed.empty());
 }
 
 }  // namespace

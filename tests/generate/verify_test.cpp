@@ -1,0 +1,134 @@
+// Headers on the target, where no target is needed: what is compiled there, what counts, when a header has passed.
+#include "bench/generate/verify.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "qemu/failure.hpp"
+#include "qemu/scratch.hpp"
+
+namespace {
+
+using generate::SteadyCalls;
+using generate::Verified;
+using testing::HasSubstr;
+
+constexpr std::uint32_t one = 0x100;
+constexpr std::uint32_t other = 0x200;
+
+qemu::CallRun run(std::uint32_t entry, std::uint64_t calls, std::uint64_t instructions, std::uint64_t stores) {
+    return {entry, calls, {instructions, 0, stores, 0}};
+}
+
+// With 3 taps the calls 4 to 35, counted from 0: the past is full behind the third, and one more is left out.
+TEST(SteadyCalls, Are32OnceThePastIsFull) {
+    const auto mean = [](const std::vector<qemu::CallRun>& runs) {
+        return generate::steady_calls_of({runs, {}}, {{one, 3}, {other, 3}}).at(one);
+    };
+    const SteadyCalls all = mean({run(one, 100, 10, 2)});
+    EXPECT_EQ(all.instructions, 10.0);
+    EXPECT_EQ(all.stores, 2.0);
+    EXPECT_EQ(all.first_instructions, 10U);
+    // What is before them and behind them does not count.
+    const SteadyCalls steady = mean({run(one, 1, 99, 9), run(one, 3, 999, 99), run(one, 32, 10, 2), run(one, 1, 9, 9)});
+    EXPECT_EQ(steady.instructions, 10.0);
+    EXPECT_EQ(steady.stores, 2.0);
+    EXPECT_EQ(steady.first_instructions, 99U);
+    // In the share that each has of the 32, with another function's calls between.
+    const SteadyCalls mixed =
+        mean({run(one, 12, 16, 8), run(other, 7, 1, 1), run(one, 23, 48, 16), run(one, 5, 80, 0)});
+    EXPECT_EQ(mixed.instructions, (8.0 * 16.0 + 23.0 * 48.0 + 1.0 * 80.0) / 32.0);
+    EXPECT_EQ(mixed.stores, (8.0 * 8.0 + 23.0 * 16.0) / 32.0);
+    EXPECT_EQ(mixed.first_instructions, 16U);
+    EXPECT_THROW((void)mean({run(0x300, 1, 1, 1)}), std::out_of_range);
+}
+
+Verified passed(const char* kernel) { return {kernel, 50, 0, 1000.0, 1000.0, 50.0, 50.0, 600.0, 600.0}; }
+
+TEST(Verified, InstructionsAndCyclesCountToTheLastOne) {
+    EXPECT_TRUE(passed("ring_plain_f32").good());
+    Verified wrong = passed("ring_plain_f32");
+    wrong.first_wrong = 1;
+    EXPECT_FALSE(wrong.good());
+    Verified more = passed("ring_plain_f32");
+    more.header_instructions = 1000.25;
+    EXPECT_FALSE(more.good());
+    more.header_instructions = 900.0;
+    EXPECT_TRUE(more.good());
+    more.header_cycles = 600.25;
+    EXPECT_FALSE(more.good());
+}
+
+// In software double the place of a call's branches is no cost: 4 % or 20 cycles; nor are some registers saved: a
+// thousandth or 8 instructions.
+TEST(Verified, InSoftwareDoubleThePlaceIsNoCost) {
+    const auto good = [](double instructions, double more_instructions, double cycles, double more_cycles) {
+        return Verified{"ring_plain_f32a64", 50, 0, instructions, instructions + more_instructions, 0.0, 0.0, cycles,
+                        cycles + more_cycles}
+            .good();
+    };
+    EXPECT_TRUE(good(1000.0, 8.0, 400.0, 20.0));
+    EXPECT_FALSE(good(1000.0, 8.03, 400.0, 20.0));
+    EXPECT_FALSE(good(1000.0, 8.0, 400.0, 20.1));
+    EXPECT_TRUE(good(100000.0, 100.0, 10000.0, 400.0));
+    EXPECT_FALSE(good(100000.0, 100.5, 10000.0, 400.0));
+    EXPECT_FALSE(good(100000.0, 100.0, 10000.0, 402.0));
+}
+
+TEST(Verified, ATableSaysWhichFailed) {
+    Verified wrong = passed("shift_plain_q15");
+    wrong.first_wrong = 7;
+    wrong.header_instructions = 1100.0;
+    wrong.header_cycles = 540.0;
+    const std::string table = generate::to_table({passed("ring_plain_f32"), wrong}, "a-core");
+    EXPECT_THAT(
+        table, HasSubstr("ring_plain_f32                50  the kernel's        1000.0      1000.0   1.0000       600.0"
+                         "      600.0   1.0000\n"));
+    EXPECT_THAT(
+        table, HasSubstr("shift_plain_q15               50  differ at 7         1000.0      1100.0   1.1000       600.0"
+                         "      540.0   0.9000  FAILED\n"));
+    EXPECT_TRUE(table.ends_with("cycles of the timing model for a-core\n")) << table;
+}
+
+// A C file with a function for each header, its types by its format, and whether its calls are of software double.
+TEST(Verified, WhatIsCompiledCallsEachHeadersStep) {
+    const auto spec = [](const char* kernel, std::size_t taps, const char* prefix) {
+        return generate::Spec{
+            .kernel = kernel, .order = 0.5, .taps = taps, .step_s = {}, .prefix = prefix, .provenance = {}};
+    };
+    const std::string source = generate::counted_source(
+        {spec("ring_oldest_f64", 50, "k0"), spec("shift_plain_f32", 20, "k1"), spec("ring_plain_q31", 30, "k2"),
+         spec("ring_plain_q15", 40, "k3"), spec("ring_plain_f32a64", 10, "k4")});
+    EXPECT_THAT(source, HasSubstr("#define K0_F64_TABLE_ATTRIBUTES "));
+    EXPECT_THAT(source, HasSubstr("#include \"k1.h\"\ntypedef float sample_k1;\ntypedef float output_k1;\n"));
+    EXPECT_THAT(source, HasSubstr("typedef double sample_k0;\ntypedef double output_k0;\n"));
+    EXPECT_THAT(source, HasSubstr("typedef int32_t sample_k2;\ntypedef int32_t output_k2;\n"));
+    EXPECT_THAT(source, HasSubstr("typedef int16_t sample_k3;\ntypedef int32_t output_k3;\n"));
+    EXPECT_THAT(source, HasSubstr("typedef float sample_k4;\ntypedef float output_k4;\n"));
+    EXPECT_THAT(source, HasSubstr("return k1_step_f32(S, x);"));
+    EXPECT_THAT(source, HasSubstr("glsum_make_calls(50U, 1U, call_k0);"));
+    EXPECT_THAT(source, HasSubstr("glsum_make_calls(20U, 0U, call_k1);"));
+    EXPECT_THAT(source, HasSubstr("glsum_make_calls(30U, 0U, call_k2);"));
+    EXPECT_THAT(source, HasSubstr("glsum_make_calls(10U, 1U, call_k4);"));
+    EXPECT_THAT(source, HasSubstr("entries[])(void) = {\n    verify_k0,\n    verify_k1,\n    verify_k2,\n"));
+}
+
+// Without the firmware's flags beside it nothing is compiled.
+TEST(Verified, AFolderWithoutFlagsIsNamed) {
+    const qemu::Scratch folder;
+    qemu::Board board;
+    board.measure_elf = folder.file("measure.elf");
+    try {
+        (void)generate::verify_on_target(
+            {{.kernel = "shift_plain_f32", .order = 0.5, .taps = 5, .step_s = {}, .prefix = "a", .provenance = {}}},
+            board, {});
+        ADD_FAILURE() << "nothing was refused";
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::missing);
+        EXPECT_THAT(failure.what(), HasSubstr("build_info.json: expected the flags of the firmware"));
+    }
+}
+
+}  // namespace
