@@ -21,11 +21,12 @@
 #include "bench/designs.hpp"
 #include "bench/exact_weights.hpp"
 #include "bench/host_line.hpp"
-#include "bench/peers/peer.hpp"
+#include "bench/peer_numbers.hpp"
 #include "bench/progress.hpp"
 #include "bench/reference/dropped.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signals.hpp"
+#include "bench/timed_rows.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/failure.hpp"
@@ -216,53 +217,6 @@ std::vector<Kernel> kernels() {
     return all;
 }
 
-// A peer's coefficients, a_0 = 1 included.
-struct PeerTable {
-    std::vector<double> coefficients;
-    double largest = 0.0;
-    double absolute_sum = 0.0;
-    explicit PeerTable(const std::vector<reference::Real>& weights) {
-        for (const reference::Real& weight : weights) {
-            coefficients.push_back(static_cast<double>(weight));
-            largest = std::max(largest, std::fabs(coefficients.back()));
-            absolute_sum += std::fabs(coefficients.back());
-        }
-    }
-};
-
-// How a peer's numbers stand for real ones.
-template <class Dot>
-struct PeerNumbers {
-    explicit PeerNumbers(const PeerTable&) {}
-    static float coefficient(double a) { return static_cast<float>(a); }
-    static float sample(double x) { return static_cast<float>(x); }
-    static double real(float sum) { return sum; }
-    // Any order of summation: every term may pass every addition.
-    static double bound(const PeerTable& table) {
-        return 1.01 * static_cast<double>(table.coefficients.size() + 2) * glsum::F32::sum_roundoff * signal_peak *
-               table.absolute_sum;
-    }
-};
-template <>
-struct PeerNumbers<Q31Dot> {
-    int bits = q31_coefficient_bits;  // of fraction: fewer where a coefficient needs 33 bits, or a sum 65
-    explicit PeerNumbers(const PeerTable& table) {
-        while (table.largest >= std::ldexp(1.0, 31 - bits) || table.absolute_sum >= std::ldexp(1.0, 32 - bits)) {
-            --bits;
-        }
-    }
-    [[nodiscard]] std::int32_t coefficient(double a) const {
-        return static_cast<std::int32_t>(std::lround(std::ldexp(a, bits)));
-    }
-    static std::int32_t sample(double x) { return static_cast<std::int32_t>(std::lround(std::ldexp(x, 31))); }
-    [[nodiscard]] double real(std::int64_t sum) const { return std::ldexp(static_cast<double>(sum), -31 - bits); }
-    // Sums are exact; each coefficient and each sample is rounded once.
-    [[nodiscard]] double bound(const PeerTable& table) const {
-        return std::ldexp(static_cast<double>(table.coefficients.size()), -bits - 1) +
-               std::ldexp(1.01 * table.absolute_sum, -32);
-    }
-};
-
 template <class Dot>
 double time_peer(benchmark::State* state, MakeDot<Dot> make, const std::vector<reference::Real>& weights) {
     const PeerTable table(weights);
@@ -284,29 +238,6 @@ double time_peer(benchmark::State* state, MakeDot<Dot> make, const std::vector<r
         [&](auto sum) { return numbers.real(sum); });
     set_sizes(state, taps, taps * sizeof(typename Dot::Sample), 2 * taps * sizeof(typename Dot::Sample));
     return ns;
-}
-
-// Google Benchmark looks for a number of iterations by wall time: on a busy machine it may stop at one. For repetitions
-// we fix it: some 2 ms, and whole turns of a ring of that many taps, where a sample's time depends on the place of the
-// head.
-std::int64_t iterations_for(double ns, std::size_t taps) {
-    constexpr double wanted_ns = 2e6;
-    const double turns = std::ceil(wanted_ns / (std::max(ns, 0.1) * static_cast<double>(taps)));
-    return static_cast<std::int64_t>(std::min(turns, 1e6)) * static_cast<std::int64_t>(taps);
-}
-
-// Google Benchmark says in the name that the iterations were fixed; the name is what later runs are joined by.
-void drop_iterations(Json& row, const char* key) {
-    const auto field = row.find(key);
-    if (field == row.end()) {
-        return;
-    }
-    std::string name = field->get<std::string>();
-    constexpr std::string_view mark = "/iterations:";
-    if (const std::size_t begin = name.find(mark); begin != std::string::npos) {
-        name.erase(begin, name.find_first_not_of("0123456789", begin + mark.size()) - begin);
-        *field = name;
-    }
 }
 
 // Writes what Google Benchmark's own JSON reporter writes, and shows the progress.
@@ -358,8 +289,8 @@ void initialise(const std::vector<std::string>& flags, bool quick_default) {
 
 HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, unsigned repetitions,
                         const std::vector<std::string>& flags) {
-    // Random turns: what disturbs the machine for a while meets all kernels alike. Google Benchmark keeps its flags from
-    // one run to the next, so that each says all that it wants.
+    // Random turns: what disturbs the machine for a while meets all kernels alike. Google Benchmark keeps its flags
+    // from one run to the next, so that each says all that it wants.
     std::vector<std::string> words = {
         fmt::format("--benchmark_repetitions={}", repetitions),
         fmt::format("--benchmark_enable_random_interleaving={}", repetitions > 1 ? "true" : "false")};

@@ -66,9 +66,8 @@ void with_kernel(const std::string& name, const Use& use) {
 MeasuredErrors::MeasuredErrors(double order, std::vector<Record> records)
     : order_(order), records_(std::move(records)), truncation_(records_.at(0).samples.size(), 0.0) {
     for (const Record& record : records_) {
-        for (std::size_t i = 0; i < truncation_.size(); ++i) {
-            truncation_[i] = std::max(truncation_[i], record.truncation[i]);
-        }
+        std::transform(truncation_.begin(), truncation_.end(), record.truncation.begin(), truncation_.begin(),
+                       [](double one, double other) { return std::max(one, other); });
     }
 }
 

@@ -45,6 +45,11 @@ std::string at(const Answer& answer, const Candidate& candidate) {
     return fmt::format("{} with {} taps", candidate.kernel, taps_of(answer, candidate));
 }
 
+// Of what is beyond it.
+double limit_of_cost(const Question& question) {
+    return question.max_cycles ? *question.max_cycles : question.max_instructions.value();
+}
+
 std::string why(const Answer& answer, const Fared& fared) {
     const auto& chosen = answer.choice.chosen;
     const auto times = [&](const Candidate& candidate) {
@@ -63,15 +68,12 @@ std::string why(const Answer& answer, const Fared& fared) {
                                                cost_text(answer, *fared.already))
                                  : times(*fared.best);
         case Fate::too_dear:
-            return fared.already
-                       ? fmt::format("at {} taps already {}", taps_of(answer, *fared.already),
-                                     cost_text(answer, *fared.already))
-                       : fmt::format("{:.3g} times the limit",
-                                     fared.best->cost.limited / answer.question.max_cycles.value_or(
-                                                                    answer.question.max_instructions.value_or(1.0)));
+            return fared.already ? fmt::format("at {} taps already {}", taps_of(answer, *fared.already),
+                                               cost_text(answer, *fared.already))
+                                 : fmt::format("{:.3g} times the limit",
+                                               fared.best->cost.limited / limit_of_cost(answer.question));
         case Fate::too_large:
-            return fmt::format("{:.3g} times the limit",
-                               fared.best->cost.bytes / answer.question.max_bytes.value_or(1.0));
+            return fmt::format("{:.3g} times the limit", fared.best->cost.bytes / answer.question.max_bytes.value());
         case Fate::inaccurate:
             return fmt::format("gets to {:.2e} at best, at {} taps", fared.short_of->error.error,
                                taps_of(answer, *fared.short_of));

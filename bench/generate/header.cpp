@@ -67,9 +67,9 @@ std::vector<std::string> literals(const Numbers& numbers) {
 // Two coefficients a word, the first in the lower half.
 std::vector<std::string> words(const std::vector<std::int64_t>& coefficients) {
     std::vector<std::string> texts;
-    for (std::size_t i = 0; i + 1 < coefficients.size(); i += 2) {
-        const auto low = static_cast<std::uint16_t>(coefficients[i]);
-        const auto high = static_cast<std::uint16_t>(coefficients[i + 1]);
+    for (std::size_t i = 0; i < coefficients.size(); i += 2) {
+        const auto low = static_cast<std::uint16_t>(coefficients.at(i));
+        const auto high = static_cast<std::uint16_t>(coefficients.at(i + 1));
         texts.push_back(bits_literal(static_cast<std::uint32_t>(low) | static_cast<std::uint32_t>(high) << 16, false));
     }
     return texts;

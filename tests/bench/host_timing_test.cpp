@@ -7,6 +7,8 @@
 #include <set>
 
 #include "bench/designs.hpp"
+#include "bench/peer_numbers.hpp"
+#include "bench/timed_rows.hpp"
 #include "qemu/failure.hpp"
 
 namespace {
@@ -42,6 +44,8 @@ TEST(HostTiming, RepetitionsKeepTheirNameAndOrder) {
             EXPECT_EQ(row.at("iterations").get<std::int64_t>() % taps, 0) << row;
             EXPECT_GE(row.at("iterations").get<std::int64_t>(), taps);
             EXPECT_LE(row.at("iterations").get<std::int64_t>(), 1000000 * taps);
+            // Far below what was asked for: the estimate was of something else.
+            EXPECT_GE(row.at("iterations").get<double>() * row.at("ns_per_sample").get<double>(), 2e5) << row;
             EXPECT_FALSE(row.contains("error_occurred")) << row;
             EXPECT_GT(row.at("ns_per_sample").get<double>(), 0.0);
             // Of the same iterations; a busy machine may take the processor away between two readings of its clock.
@@ -109,6 +113,72 @@ TEST(HostTiming, AFlagThatIsNoneIsRefused) {
     EXPECT_THROW((void)bench::time_on_host(one, 100, 1, {"--benchmark_filter=nothing_is_called_so"}), glsum::Failure);
     EXPECT_EQ(bench::time_on_host(one, 100, 1, {"--benchmark_min_time=0.0001", "--benchmark_filter=."}).rows.size(),
               1U);
+}
+
+TEST(TimedRows, IterationsAreSome2MsInWholeTurns) {
+    EXPECT_EQ(bench::iterations_for(20.0, 50), 100000);  // 2e6 ns of 20 ns each
+    EXPECT_EQ(bench::iterations_for(30.0, 600), 67200);  // 66 667, and on to the end of the turn
+    EXPECT_EQ(bench::iterations_for(1e9, 600), 600);
+    EXPECT_EQ(bench::iterations_for(2.0, 1), 1000000);
+    EXPECT_EQ(bench::iterations_for(1.0, 1), 1000000);  // no more turns than that
+    EXPECT_EQ(bench::iterations_for(1.0, 2), 2000000);
+    EXPECT_EQ(bench::iterations_for(0.1, 40), 40 * 500000);
+    EXPECT_EQ(bench::iterations_for(0.0, 40), 40 * 500000);  // no clock tells less
+}
+
+TEST(TimedRows, ANameLosesItsIterationsAndNothingElse) {
+    const auto name_of = [](const char* name) {
+        bench::Json row = {{"name", name}, {"label", "/iterations:5"}};
+        bench::drop_iterations(row, "name");
+        bench::drop_iterations(row, "not there");
+        EXPECT_EQ(row.at("label"), "/iterations:5");
+        EXPECT_EQ(row.size(), 2U);
+        return row.at("name").get<std::string>();
+    };
+    EXPECT_EQ(name_of("gl/a/taps:50/host/iterations:1000/repeats:3"), "gl/a/taps:50/host/repeats:3");
+    EXPECT_EQ(name_of("gl/a/taps:50/host/iterations:1000_mean"), "gl/a/taps:50/host_mean");
+    EXPECT_EQ(name_of("gl/a/taps:50/host/iterations:1"), "gl/a/taps:50/host");
+    EXPECT_EQ(name_of("gl/a/taps:50/host"), "gl/a/taps:50/host");
+}
+
+std::vector<reference::Real> reals(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+
+// Each term of n is rounded in its two factors, their product and n - 1 additions: (n + 2) half units, and a little.
+TEST(PeerNumbers, InSinglePrecisionTheBoundIsOfEveryRounding) {
+    const bench::PeerTable table(reals({1.0, -0.5, -0.125}));
+    EXPECT_EQ(table.largest, 1.0);
+    EXPECT_EQ(table.absolute_sum, 1.625);
+    EXPECT_EQ(table.coefficients, (std::vector<double>{1.0, -0.5, -0.125}));
+    using Numbers = bench::PeerNumbers<bench::F32Dot>;
+    const double rounded = 5.0 * 0x1p-24 * 0.9 * 1.625;
+    EXPECT_GT(Numbers::bound(table), rounded);
+    EXPECT_LT(Numbers::bound(table), 1.011 * rounded);
+    EXPECT_EQ(Numbers::coefficient(0.1), 0.1F);
+    EXPECT_EQ(Numbers::sample(0.1), 0.1F);
+    EXPECT_EQ(Numbers::real(0.1F), static_cast<double>(0.1F));
+}
+
+TEST(PeerNumbers, InQ31ACoefficientOrASumThatIsTooLargeTakesABit) {
+    using Numbers = bench::PeerNumbers<bench::Q31Dot>;
+    const auto bits = [](const std::vector<double>& weights) { return Numbers(bench::PeerTable(reals(weights))).bits; };
+    EXPECT_EQ(bits({1.0, -0.5}), 29);
+    EXPECT_EQ(bits({1.0, 3.99}), 29);
+    EXPECT_EQ(bits({1.0, 4.0}), 28);  // 2^31 in 29 bits
+    EXPECT_EQ(bits({-3.0, 3.0, 1.99}), 29);
+    EXPECT_EQ(bits({-3.0, 3.0, 2.0}), 28);  // a sum of 2^63
+    EXPECT_EQ(bits({9.0}), 27);
+    const Numbers numbers(bench::PeerTable(reals({1.0, -0.5})));
+    EXPECT_EQ(numbers.coefficient(1.0), 1 << 29);
+    EXPECT_EQ(numbers.coefficient(-0.5), -(1 << 28));
+    EXPECT_EQ(numbers.coefficient(0x3p-31), 1);  // 3/4 to nearest
+    EXPECT_EQ(Numbers::sample(0.5), 1 << 30);
+    EXPECT_EQ(Numbers::sample(0x3p-33), 1);
+    EXPECT_EQ(numbers.real(std::int64_t{1} << 60), 1.0);
+    // Half a unit of each of two coefficients, of samples up to 1; half a unit of each sample, times its coefficient.
+    const double rounded = 2.0 * 0x1p-30 + 1.5 * 0x1p-32;
+    const double bound = numbers.bound(bench::PeerTable(reals({1.0, -0.5})));
+    EXPECT_GT(bound, rounded);
+    EXPECT_LT(bound, rounded + 0.0151 * 0x1p-32);
 }
 
 }  // namespace

@@ -178,15 +178,17 @@ TEST(ResultFile, MessagesShowTheirPlaceAndNoMore) {
     EXPECT_TRUE(refusal("{\"benchmarks\": [\"" + digits + "\"]}").ends_with("found \"" + digits.substr(0, 59)));
     EXPECT_TRUE(refusal("{\"benchmarks\": [{\"name\": \"a\", \"state_bytes\": \"" + digits + "\"}]}")
                     .ends_with("found \"" + digits.substr(0, 59)));
-    // Twelve letters to the one that is wrong, and twelve behind it.
+    // Twelve letters to the one that is wrong, here a bare tab, and twelve behind it.
     EXPECT_EQ(refusal("{\"context\": {},\n\"ab\tdefghijk?mnopqrstuvwxyz0123456789"),
-              "a.json:2: expected JSON, found '");
+              "a.json:2: expected JSON, found 't\": {}, \"ab defghijk?mno'");
+    EXPECT_EQ(refusal("{\x7f\"a\": 1}"), "a.json:1: expected JSON, found '{ \"a\": 1}'");
+    EXPECT_EQ(refusal("{\"a\" 1 }"), "a.json:1: expected JSON, found '{\"a\" 1 }'");
 }
 
 TEST(ResultFile, ANumberThatIsNoneIsFoundWhereverItStands) {
     EXPECT_EQ(refusal("NaN"), "a.json:1: expected a finite number, found NaN");
     EXPECT_EQ(refusal("\n-Infinity"), "a.json:2: expected a finite number, found -Infinity");
-    EXPECT_EQ(refusal("[nan]"), "a.json:1: expected a finite number, found nan");
+    EXPECT_EQ(refusal("{\"context\": nan}"), "a.json:1: expected a finite number, found nan");
     EXPECT_THAT(refusal("{\"context\": nano}"), HasSubstr("expected JSON, found"));  // begins like one
     EXPECT_THAT(refusal(" \n\t\r"), HasSubstr("found an empty one"));
 }

@@ -59,6 +59,14 @@ TEST(Technique, InSoftwareFourSumsAreMadeOneAfterTheOther) {
     EXPECT_THAT(header("mirror_multi_f64", 17), HasSubstr("double s[4];"));
     EXPECT_THAT(header("mirror_multi_f64", 16), Not(HasSubstr("double s[4];")));
     EXPECT_THAT(header("mirror_multi_f32", 17), Not(HasSubstr("double s[4];")));
+    // Where sums are in double a target without its own is told apart, if there is a past.
+    EXPECT_THAT(header("ring_oldest_f64", 2), HasSubstr("#define MY_F64_SOFT_DOUBLE "));
+    EXPECT_THAT(header("ring_oldest_f64", 2), HasSubstr("#pragma GCC unroll 1\n"));
+    EXPECT_THAT(header("ring_plain_f32a64", 2), HasSubstr("#define MY_F32A64_SOFT_DOUBLE "));
+    EXPECT_THAT(header("ring_oldest_f64", 1), Not(HasSubstr("#define MY_F64_SOFT_DOUBLE ")));
+    EXPECT_THAT(header("ring_oldest_f32", 2), Not(HasSubstr("SOFT_DOUBLE")));
+    EXPECT_THAT(header("ring_oldest_f64", 2), HasSubstr("(__ARM_FP & 8)"));  // the bit of double precision
+    EXPECT_THAT(header("ring_oldest_f32", 2), HasSubstr("(__ARM_FP & 4)"));
 }
 
 TEST(Technique, APastOfFewerThanFourHasNoGroups) {
