@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <fstream>
+#include <functional>
 #include <sstream>
+#include <string>
 
 #include "qemu/failure.hpp"
 #include "qemu/scratch.hpp"
@@ -55,6 +59,97 @@ TEST(Files, RemoveWhatAKilledRunLeft) {
 
 TEST(Files, AFolderThatCannotBeWrittenIsFoundBeforeTheRun) {
     EXPECT_THROW(bench::check_writable("/proc/glsum/out.json"), glsum::Failure);
+}
+
+std::string refusal(const std::function<void()>& ask) {
+    try {
+        ask();
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        return failure.what();
+    }
+    ADD_FAILURE() << "nothing was refused";
+    return "";
+}
+
+std::ptrdiff_t files_in(const std::filesystem::path& folder) {
+    return std::distance(std::filesystem::directory_iterator(folder), {});
+}
+
+TEST(Files, AreReadUpToTheirLimit) {
+    const qemu::Scratch folder;
+    const auto path = folder.file("in.json");
+    const std::string text = std::string(1 << 16, 'a') + std::string(1000, 'b');
+    std::ofstream(path) << text;
+    EXPECT_EQ(bench::read_file(path, text.size()), text);
+    EXPECT_EQ(bench::read_file(path, 1 << 20), text);
+    EXPECT_EQ(refusal([&] { (void)bench::read_file(path, text.size() - 1); }),
+              path.string() + ": expected a file of at most 66535 bytes");
+    EXPECT_EQ(refusal([&] { (void)bench::read_file(folder.file("none"), 9); }),
+              folder.file("none").string() + ": cannot read: No such file or directory");
+    EXPECT_EQ(refusal([&] { (void)bench::read_file(folder.file(""), 9); }),
+              folder.file("").string() + ": cannot read: Is a directory");
+    std::ofstream(folder.file("empty")).flush();
+    EXPECT_EQ(bench::read_file(folder.file("empty"), 9), "");
+}
+
+// Whatever comes in the way, the reason is said, nothing is left beside, and what was there stays.
+TEST(Files, WhatCannotBeWrittenIsNamedWithItsReason) {
+    const qemu::Scratch folder;
+    EXPECT_EQ(refusal([&] { bench::write_file("/proc/glsum/out.json", "x"); }),
+              "/proc/glsum/out.json: cannot write: No such file or directory; what was there before is untouched");
+    EXPECT_NE(refusal([] { bench::check_writable("/proc/glsum/out.json"); }).find("cannot write: No such file"),
+              std::string::npos);
+    const auto taken = folder.file("taken");
+    std::filesystem::create_directories(taken / "inside");
+    EXPECT_EQ(refusal([&] { bench::write_file(taken, "x"); }),
+              taken.string() + ": cannot write: Is a directory; what was there before is untouched");
+    EXPECT_EQ(files_in(taken.parent_path()), 1);
+    EXPECT_EQ(
+        refusal([&] { bench::publish(folder.file("gone"), folder.file("out")); }),
+        folder.file("out").string() + ": cannot write: No such file or directory; what was there before is untouched");
+}
+
+TEST(Files, AreWrittenIntoFoldersThatAreMade) {
+    const qemu::Scratch folder;
+    const auto path = folder.file("a") / "b" / "out.json";
+    bench::check_writable(path);
+    EXPECT_EQ(files_in(path.parent_path()), 0);
+    bench::write_file(path, "new");
+    EXPECT_EQ(content(path), "new");
+    EXPECT_EQ(bench::partial_name("out.json"), "./out.json.partial-" + std::to_string(getpid()));
+}
+
+// A run that is still at work keeps its own; what is no run's is nobody's to remove.
+TEST(Files, OfOthersOnlyWhatIsLeftIsRemoved) {
+    const qemu::Scratch folder;
+    const auto path = folder.file("out.json");
+    const std::string alive = path.string() + ".partial-" + std::to_string(getppid());
+    std::ofstream(alive) << "half";
+    std::ofstream(path.string() + ".partial-mine") << "half";
+    std::ofstream(folder.file("another.json.partial-999999999")) << "half";
+    std::ofstream(path.string() + ".partial-999999999") << "half";
+    (void)bench::partial_name(path);
+    EXPECT_EQ(files_in(path.parent_path()), 3);
+    EXPECT_EQ(content(alive), "half");
+}
+
+TEST(Files, NoneIsLeftOpen) {
+    const qemu::Scratch folder;
+    const auto path = folder.file("out.json");
+    const auto open_files = [] { return files_in("/proc/self/fd"); };
+    const auto before = open_files();
+    bench::write_file(path, "x");
+    (void)bench::read_file(path, 9);
+    bench::check_writable(path);
+    bench::write_file(folder.file("other"), "x");
+    std::filesystem::create_directories(folder.file("taken") / "inside");
+    (void)refusal([&] { bench::write_file(folder.file("taken"), "x"); });
+    (void)refusal([&] { (void)bench::read_file(path, 0); });
+    (void)refusal([&] { (void)bench::read_file(folder.file(""), 9); });
+    std::filesystem::create_symlink("/dev/full", bench::partial_name(path));
+    (void)refusal([&] { bench::write_file(path, "new"); });
+    EXPECT_EQ(open_files(), before);
 }
 
 }  // namespace

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <string>
 
+#include "bench/reference/bdf.hpp"
 #include "bench/reference/dropped.hpp"
 #include "tests/bench/closed_forms.hpp"
 #include "tests/bench/digits.hpp"
@@ -206,6 +209,55 @@ TEST(Reference, ReproducesPrintedValues) {
     std::iota(ramp.begin(), ramp.end(), 0.0);
     const Real derivative = to_real(full_sums("0.5", ramp)[100]) * Real("0.01") / sqrt(Real("0.01"));
     digits::expect_printed(derivative, "1.1269695801851284449", 0.5);
+}
+
+std::vector<Real> product_of(const std::vector<Real>& one, const std::vector<Real>& other) {
+    std::vector<Real> all(one.size(), Real(0));
+    for (std::size_t n = 0; n < all.size(); ++n) {
+        for (std::size_t k = 0; k <= n; ++k) {
+            all[n] += one[k] * other[n - k];
+        }
+    }
+    return all;
+}
+
+void expect_same(const std::vector<Real>& found, const std::vector<Real>& expected, const std::string& what) {
+    ASSERT_EQ(found.size(), expected.size()) << what;
+    for (std::size_t j = 0; j < found.size(); ++j) {
+        EXPECT_LT(static_cast<double>(abs(found[j] - expected[j])), 1e-44) << what << ' ' << j;
+    }
+}
+
+// Of order 1 the backward differences of 2 to 4 steps, by their first; orders add up; increments sum once.
+TEST(Reference, WeightsOfHigherOrderAreThePowersOfBackwardDifferences) {
+    constexpr std::size_t count = 260;
+    const std::vector<std::vector<Real>> differences = {
+        {Real(3) / 2, -2, Real(1) / 2},
+        {Real(11) / 6, -3, Real(3) / 2, -Real(1) / 3},
+        {Real(25) / 12, -4, 3, -Real(4) / 3, Real(1) / 4},
+    };
+    std::vector<Real> unit(count, Real(0));
+    unit[0] = 1;
+    for (unsigned steps = 2; steps <= 4; ++steps) {
+        const std::string name = std::to_string(steps) + " steps";
+        const std::vector<Real>& known = differences[steps - 2];
+        std::vector<Real> whole(count, Real(0));
+        std::transform(known.begin(), known.end(), whole.begin(), [&](const Real& a) { return Real(a / known[0]); });
+        expect_same(reference::bdf_weights(steps, 1, count), whole, name);
+        const std::vector<Real> a = reference::bdf_weights(steps, Real("0.3"), count);
+        expect_same(product_of(a, reference::bdf_weights(steps, Real("0.7"), count)), whole, name);
+        expect_same(product_of(a, reference::bdf_weights(steps, Real("-0.3"), count)), unit, name);
+        std::vector<Real> sums(count);
+        std::partial_sum(a.begin(), a.end(), sums.begin());
+        expect_same(reference::bdf_increment_weights(steps, Real("0.3"), count), sums, name);
+        EXPECT_LT(
+            static_cast<double>(abs(pow(known[0], Real("0.3")) - reference::bdf_first_weight(steps, Real("0.3")))),
+            1e-48);
+        expect_same(reference::bdf_weights(steps, Real("0.3"), 2), {a[0], a[1]}, name);
+    }
+    for (const unsigned steps : {0U, 1U, 5U}) {
+        EXPECT_THROW((void)reference::bdf_weights(steps, 1, 3), std::domain_error);
+    }
 }
 
 }  // namespace

@@ -172,4 +172,25 @@ TEST_P(CallCounter, RefusesToBeTrustedWhenItCannotKnow) {
     }
 }
 
+// A log is as long as a program's may be, and what is refused is shown as far as a line is wide.
+TEST(CallCounterLog, LinesHaveALimitAndMessagesToo) {
+    const auto refused = [](const std::string& text) -> std::string {
+        std::istringstream in(text);
+        try {
+            (void)qemu::read_call_log(in);
+        } catch (const std::runtime_error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const std::string longest = "reached 256 258" + std::string((16U << 20) - 15, ' ');
+    EXPECT_EQ(refused(longest + "\nend\n"), "");
+    EXPECT_EQ(refused(longest + " \nend\n").substr(0, 50), "call log: larger than any program's: reached 256 2");
+    EXPECT_EQ(refused(std::string(300, 'x') + "\n"), "call log: " + std::string(200, 'x'));
+    EXPECT_EQ(refused("calls 256\n"), "call log: damaged line: calls 256");
+    EXPECT_EQ(refused("reached 1x\n"), "call log: damaged line: reached 1x");
+    EXPECT_EQ(refused("calls 256 1 1 1 1 1\n"), "call log: cut short: the emulator ended before it was written");
+    EXPECT_EQ(refused("end\n"), "");
+}
+
 }  // namespace

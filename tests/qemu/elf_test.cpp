@@ -34,7 +34,8 @@ TEST(Elf, RefusesWhatIsNoArmExecutable) {
 }
 
 // An ELF without any bytes of its own: `sections` sections that are the same `bytes` zeros of a sparse file.
-void write_sparse_elf(const std::filesystem::path& path, std::uint16_t sections, std::uint32_t bytes) {
+void write_sparse_elf(const std::filesystem::path& path, std::uint16_t sections, std::uint32_t bytes,
+                      std::uint32_t type = SHT_PROGBITS) {
     Elf32_Ehdr header{};
     std::memcpy(header.e_ident, ELFMAG, SELFMAG);
     header.e_ident[EI_CLASS] = ELFCLASS32;
@@ -51,8 +52,9 @@ void write_sparse_elf(const std::filesystem::path& path, std::uint16_t sections,
     out.write(reinterpret_cast<const char*>(&header), sizeof header);
     Elf32_Shdr section{};
     out.write(reinterpret_cast<const char*>(&section), sizeof section);
-    section.sh_type = SHT_PROGBITS;
+    section.sh_type = type;
     section.sh_flags = SHF_ALLOC;
+    section.sh_entsize = sizeof(Elf32_Sym);
     section.sh_offset = 1 << 16;
     section.sh_size = bytes;
     for (std::uint16_t i = 0; i < sections; ++i) {
@@ -71,6 +73,28 @@ TEST(Elf, RefusesWhatWouldFillTheMemory) {
     write_sparse_elf(folder.file("large.elf"), 1, 257 << 20);
     expect_refused(folder.file("large.elf"), "no regular file of at most 268435456 bytes");
     expect_refused("/dev/zero", "no regular file");
+}
+
+// At its bounds a file is read: what is wrong with these is that they have no names.
+TEST(Elf, ReadsWhatIsAtItsBounds) {
+    const qemu::Scratch folder;
+    const auto path = folder.file("a.elf");
+    write_sparse_elf(path, 4, 16 << 20);
+    expect_refused(path, "without symbols");
+    write_sparse_elf(path, 4, (16 << 20) + 1);
+    expect_refused(path, "more than 67108864 bytes in its sections");
+    write_sparse_elf(path, 1, 1 << 20);
+    std::filesystem::resize_file(path, 256 << 20);
+    expect_refused(path, "without symbols");
+    std::filesystem::resize_file(path, (256 << 20) + 1);
+    expect_refused(path, "no regular file of at most 268435456 bytes");
+    constexpr std::uint32_t symbols = 1000000 * sizeof(Elf32_Sym);
+    write_sparse_elf(path, 1, symbols, SHT_SYMTAB);
+    expect_refused(path, "without symbols");
+    write_sparse_elf(path, 1, symbols + sizeof(Elf32_Sym), SHT_SYMTAB);
+    expect_refused(path, "more than 1000000 symbols");
+    write_sparse_elf(path, 2, symbols / 2 + sizeof(Elf32_Sym), SHT_SYMTAB);  // of all its tables
+    expect_refused(path, "more than 1000000 symbols");
 }
 
 TEST(Elf, FindsSymbolsFunctionsAndWords) {

@@ -109,4 +109,57 @@ TEST_F(MeasuredTruncation, WithoutTheRecordThereIsNoneAndItSaysWhy) {
     }
 }
 
+// Records of 2 to 20 000 samples, and a thousand pairs of order and signal: beyond, a page would take too long.
+TEST_F(MeasuredTruncation, BoundsAreMadeUpToTheirLimits) {
+    const auto row = [](const std::string& order, const std::string& rest) {
+        return bench::make_row("gl/shift_plain_f64/order:" + order + rest, 1);
+    };
+    const auto missing = [&](const bench::Json& samples, std::size_t orders, const bench::Json& seed = 1) {
+        std::vector<bench::Json> rows;
+        for (std::size_t i = 0; i < orders; ++i) {
+            rows.push_back(row("0." + std::to_string(1000 + i), "/taps:1/accuracy/signal:step"));
+        }
+        return bench::truncation_bounds({{"n_samples", samples}, {"seed", seed}}, rows, 1).missing;
+    };
+    EXPECT_EQ(missing(2, 1), "");
+    EXPECT_EQ(missing(2, 1, 0), "");
+    EXPECT_EQ(missing(1, 1), "records of 1 samples; bounds are made for up to 20000");
+    EXPECT_EQ(missing(20000, 0), "");
+    EXPECT_EQ(missing(20001, 0), "records of 20001 samples; bounds are made for up to 20000");
+    EXPECT_EQ(missing(2, 1000), "");
+    EXPECT_EQ(missing(2, 1001), "1001 pairs of order and signal; bounds are made for up to 1000");
+    for (const bench::Json& bad : {bench::Json(-1), bench::Json("2"), bench::Json(2.5)}) {
+        EXPECT_NE(missing(bad, 1).find("cannot be made again"), std::string::npos) << bad;
+        EXPECT_NE(missing(2, 1, bad).find("cannot be made again"), std::string::npos) << bad;
+    }
+    // Of full scale, of our signals, windows and orders alone.
+    const std::vector<bench::Json> rows = {row("0.5", "/taps:2/accuracy/signal:step"),
+                                           row("0.5", "/taps:3/accuracy/signal:step"),
+                                           row("0.5", "/taps:2/accuracy/signal:step/amplitude:0.0625"),
+                                           row("0.5", "/taps:2/accuracy/signal:other"),
+                                           row("0.5", "/taps:2/host"),
+                                           row("0.5", "/taps:2+7/accuracy/signal:ramp"),
+                                           row("2.5", "/taps:2/accuracy/signal:ramp")};
+    const auto bounds = bench::truncation_bounds({{"n_samples", 4}, {"seed", 1}}, rows, 1);
+    ASSERT_EQ(bounds.of.size(), 1U);
+    ASSERT_EQ(bounds.of.at("0.5").size(), 1U);
+    const auto& of_step = bounds.of.at("0.5").at("step");
+    ASSERT_EQ(of_step.size(), 2U);
+    // |a_2| = 1/8 and |a_3| = 1/16 of the peak, which is the largest sum; a little more for the rounding.
+    EXPECT_GT(of_step.at("2"), 0.1875);
+    EXPECT_NEAR(of_step.at("2"), 0.1875 * (1.0 + 1e-9), 1e-12);
+    EXPECT_NEAR(of_step.at("3"), 0.0625 * (1.0 + 1e-9), 1e-12);
+}
+
+TEST(TruncationBound, TheWorstSignalCountsAtEachLength) {
+    bench::TruncationBounds bounds;
+    bounds.of["0.5"]["step"] = {{"2", 0.5}, {"3", 0.25}};
+    bounds.of["0.5"]["ramp"] = {{"2", 0.125}, {"3", 0.375}};
+    bounds.of["1"]["step"] = {{"2", 0.75}};
+    const auto worst = bench::worst_of_signals(bounds);
+    EXPECT_EQ(worst.at("0.5").at("2"), 0.5);
+    EXPECT_EQ(worst.at("0.5").at("3"), 0.375);
+    EXPECT_EQ(worst.at("1").at("2"), 0.75);
+}
+
 }  // namespace
