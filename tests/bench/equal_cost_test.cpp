@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
 #include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "bench/oustaloup.hpp"
 #include "bench/signals.hpp"
@@ -260,6 +262,122 @@ TEST(EqualCost, TheTableIsOfTheRowsItIsGiven) {
               "\nOrder 0.5, against the exact derivative, where the signal has a formula\n"
               "  multiplications  way                          step    worst\n"
               "               24  window                    5.0e-01  5.0e-01\n");
+}
+
+using Complex = std::complex<double>;
+
+// The filter's transfer function at z = e^(i w h), by its impulse response, which has died out by then.
+Complex transfer_of(Oustaloup filter, double w) {
+    Complex sum = 0.0;
+    for (int k = 0; k < 6000; ++k) {
+        sum += filter.step(k == 0 ? 1.0 : 0.0) * std::polar(1.0, -w * h * k);
+    }
+    return sum;
+}
+
+// s^r ~ w_h^r prod_k (s + w'_k)/(s + w_k), with w'_k and w_k at (k + (1 -+ r)/2) / P of the band's decades.
+Complex product_of(Complex s, double r, std::size_t poles, Band band) {
+    Complex product = std::pow(band.high_rad_s, r);
+    for (std::size_t k = 0; k < poles; ++k) {
+        const auto at = [&](double shift) {
+            const double share = (static_cast<double>(k) + shift) / static_cast<double>(poles);
+            return band.low_rad_s * std::pow(band.high_rad_s / band.low_rad_s, share);
+        };
+        product *= (s + at((1.0 - r) / 2.0)) / (s + at((1.0 + r) / 2.0));
+    }
+    return product;
+}
+
+TEST(Oustaloup, IsTheProductOfItsPolesAndZeros) {
+    const Band band{10.0, 5000.0};
+    for (const std::size_t poles : {1U, 2U, 3U, 6U}) {
+        for (const double r : {0.5, -0.5, 0.9, 0.2}) {
+            const Oustaloup tustin(r, h, poles, band, Mapping::tustin);
+            for (const double w : {30.0, 300.0, 2000.0}) {
+                const Complex z = std::polar(1.0, w * h);
+                const Complex wanted = std::pow(h, r) * product_of(2.0 / h * (z - 1.0) / (z + 1.0), r, poles, band);
+                EXPECT_NEAR(std::abs(transfer_of(tustin, w) / wanted - 1.0), 0.0, 1e-10) << poles << ' ' << r;
+            }
+            // Poles and zeros at e^(-w h), and the product's own gain in the middle of the band.
+            const Oustaloup matched(r, h, poles, band, Mapping::matched);
+            const double middle = std::sqrt(band.low_rad_s * band.high_rad_s);
+            const double gain = std::pow(h, r) * std::abs(product_of({0.0, middle}, r, poles, band));
+            EXPECT_NEAR(std::abs(transfer_of(matched, middle)) / gain, 1.0, 1e-10) << poles << ' ' << r;
+            const auto shape = [&](double w) {  // but for the gain
+                Complex product = 1.0;
+                for (std::size_t k = 0; k < poles; ++k) {
+                    const auto factor = [&](double shift) {
+                        const double share = (static_cast<double>(k) + shift) / static_cast<double>(poles);
+                        const double root = 10.0 * std::pow(500.0, share);
+                        return 1.0 - std::exp(-root * h) * std::polar(1.0, -w * h);
+                    };
+                    product *= factor((1.0 - r) / 2.0) / factor((1.0 + r) / 2.0);
+                }
+                return product;
+            };
+            EXPECT_NEAR(
+                std::abs(transfer_of(matched, 40.0) / transfer_of(matched, 900.0) / shape(40.0) * shape(900.0) - 1.0),
+                0.0, 1e-10)
+                << poles << ' ' << r;
+        }
+    }
+    EXPECT_EQ(to_text(Mapping::matched), "matched");
+    EXPECT_EQ(to_text(Mapping::tustin), "Tustin");
+}
+
+// Of its own outputs a filter is found again: on the grid, of two points a decade below the Nyquist frequency and four
+// above it, and between its points by steps that are halved.
+TEST(Oustaloup, IsFoundAgainFromItsOutputs) {
+    const double nyquist = std::log10(3.14 / h);
+    std::vector<double> record = bench::make_signal("noise", 120, 7);
+    for (const Mapping mapping : both) {
+        for (const auto& [below, above] :
+             {std::pair(4.0, 1.0), std::pair(2.5, 0.25), std::pair(3.875, 0.75), std::pair(3.5, 0.6875)}) {
+            const Band band{std::pow(10.0, nyquist - below), std::pow(10.0, nyquist + above)};
+            bench::FilterTarget target{record, {}, 1.0};
+            Oustaloup filter(0.5, h, 3, band, mapping);
+            for (std::size_t k = 0; k < record.size(); ++k) {
+                target.wanted.emplace_back(k, filter.step(record[k]));
+            }
+            const bench::TunedOustaloup found = bench::tune_oustaloup(0.5, h, 3, {&target, 1});
+            EXPECT_LT(found.error, 1e-12) << below << ' ' << above << to_text(mapping);
+            EXPECT_NEAR(found.band.low_rad_s / band.low_rad_s, 1.0, 1e-9) << below << ' ' << above;
+            EXPECT_NEAR(found.band.high_rad_s / band.high_rad_s, 1.0, 1e-9) << below << ' ' << above;
+            EXPECT_EQ(found.mapping, mapping);
+        }
+    }
+}
+
+// No edge a little elsewhere is better, for the worst of two records.
+TEST(Oustaloup, ATunedBandIsTheBestNearby) {
+    std::vector<bench::FilterTarget> targets;
+    for (const char* signal : {"step", "sine5"}) {
+        bench::FilterTarget target{bench::make_signal(signal, 300, 1), {}, 0.0};
+        for (std::size_t k = 0; k < target.record.size(); ++k) {
+            double sum = 0.0;
+            double weight = 1.0;
+            for (std::size_t j = 0; j <= k; ++j) {
+                sum += weight * target.record[k - j];
+                weight *= 1.0 - 1.5 / static_cast<double>(j + 1);
+            }
+            target.wanted.emplace_back(k, sum);
+            target.peak = std::max(target.peak, std::fabs(sum));
+        }
+        targets.push_back(target);
+    }
+    const auto error = [&](Band band, Mapping mapping) {
+        const Oustaloup filter(0.5, h, 4, band, mapping);
+        return std::max(bench::error_of(filter, targets[0]), bench::error_of(filter, targets[1]));
+    };
+    const bench::TunedOustaloup found = bench::tune_oustaloup(0.5, h, 4, targets);
+    EXPECT_EQ(found.error, error(found.band, found.mapping));
+    const double step = std::pow(10.0, 0.25 / 128.0);  // the last one tried
+    for (const double low : {1.0 / step, 1.0, step}) {
+        for (const double high : {1.0 / step, 1.0, step}) {
+            EXPECT_GE(error({found.band.low_rad_s * low, found.band.high_rad_s * high}, found.mapping),
+                      found.error * (1.0 - 1e-9));
+        }
+    }
 }
 
 }  // namespace

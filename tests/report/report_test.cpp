@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <limits>
+#include <string>
+#include <vector>
 
 #include "bench/files.hpp"
 #include "bench/gnuplot.hpp"
@@ -385,6 +390,165 @@ TEST(Report, OfAFileWithoutAccuracyHasNoPictures) {
     input.results.rows = {bench::make_row("BM_other/8", 1)};
     EXPECT_EQ(write_report(input, nullptr, folder / "page.html").size(), 3U);
     std::filesystem::remove_all(folder);
+}
+
+TEST(Columns, WiderIndicesForMoreValues) {
+    const auto bits = [](std::size_t distinct) {
+        std::vector<std::string> texts;
+        for (std::size_t i = 0; i < distinct; ++i) {
+            texts.push_back(std::to_string(i));
+        }
+        return encode_texts(texts)["bits"].get<int>();
+    };
+    EXPECT_EQ(bits(2), 6);
+    EXPECT_EQ(bits(256), 8);
+    EXPECT_EQ(bits(257), 16);
+    EXPECT_EQ(bits(65536), 16);
+    EXPECT_EQ(bits(65537), 32);
+    // Bytes in threes, and what is missing to three is filled.
+    for (const unsigned count : {66U, 67U, 68U}) {
+        std::vector<std::string> texts;
+        for (unsigned i = 0; i < count; ++i) {
+            texts.push_back(std::to_string(i));
+        }
+        const std::string at = encode_texts(texts)["at"];
+        EXPECT_EQ(at.size(), (count + 2) / 3 * 4) << count;
+        EXPECT_EQ(std::count(at.begin(), at.end(), '='), (3 - count % 3) % 3) << count;
+    }
+}
+
+// Floats where half of all numbers are others, 256 at least; errors in three bytes beyond 4096 values.
+TEST(Columns, RepeatedNumbersStayValues) {
+    const auto numbers = [](std::size_t distinct, std::size_t all) {
+        std::vector<double> column;
+        for (std::size_t i = 0; i < all; ++i) {
+            column.push_back(static_cast<double>(i % distinct) + 1.0);
+        }
+        return column;
+    };
+    EXPECT_TRUE(encode_numbers(numbers(300, 600)).contains("values"));
+    EXPECT_TRUE(encode_numbers(numbers(300, 599)).contains("float32"));
+    EXPECT_TRUE(encode_numbers(numbers(256, 256)).contains("values"));
+    EXPECT_TRUE(encode_numbers(numbers(257, 257)).contains("float32"));
+    EXPECT_TRUE(encode_errors(numbers(4096, 8192)).contains("values"));
+    EXPECT_TRUE(encode_errors(numbers(4097, 8194)).contains("float24"));
+    EXPECT_TRUE(encode_errors(numbers(300, 300)).contains("float24"));
+    // Beyond a float's range as far as it goes, and seven digits of what is in it.
+    const bench::Json values = encode_numbers({1e300, -1e300, 0.1, 1.0 / 3.0})["values"];
+    EXPECT_EQ(values[0].get<float>(), std::numeric_limits<float>::max());
+    EXPECT_EQ(values[1].get<float>(), -std::numeric_limits<float>::max());
+    EXPECT_EQ(values[2].dump(), "0.1");
+    EXPECT_EQ(values[3].dump(), "0.33333334");
+    std::vector<double> errors = numbers(300, 300);
+    errors[0] = 1e300;
+    errors[1] = -1e300;
+    EXPECT_EQ(encode_errors(errors)["float24"].get<std::string>().substr(0, 8), "AAB/AAD/");  // 2^127: 00007f, 0000ff
+}
+
+TEST(Columns, LongTextsAreCutBetweenCharacters) {
+    const auto shown = [](const std::string& label) {
+        bench::Json row = bench::make_row("gl/a_b_c/order:0.5/taps:50/host", 1);
+        row["label"] = label;
+        return to_tables({row})[0]["texts"]["label"]["values"][0].get<std::string>();
+    };
+    EXPECT_EQ(shown(std::string(300, 'x')), std::string(300, 'x'));
+    EXPECT_EQ(shown(std::string(301, 'x')), std::string(300, 'x') + " ...");
+    EXPECT_EQ(shown(std::string(299, 'x') + "\u00fc."), std::string(299, 'x') + " ...");
+    EXPECT_EQ(shown(std::string(298, 'x') + "\u00fc."), std::string(298, 'x') + "\u00fc ...");
+}
+
+TEST(Columns, CellsThatARowLacksAreEmpty) {
+    std::vector<bench::Json> rows(3, bench::make_row("gl/a_b_c/order:0.5/taps:50/m7:x", 1));
+    rows[0]["error_max"] = 0.5;
+    rows[1]["stall_b"] = 2.0;
+    rows[1]["label"] = "second";
+    rows[2]["error_occurred"] = true;
+    rows[2]["not_known"] = 1.0;
+    for (int i = 0; i < 63; ++i) {
+        rows[0]["stall_" + std::to_string(i)] = 1.0;  // 64 with the other one: as many as there may be
+    }
+    const bench::Json table = to_tables(rows)[0];
+    EXPECT_EQ(table["rows"], 3);
+    EXPECT_EQ(table["numbers"]["error_max"]["values"], (bench::Json{0.5, nullptr}));
+    EXPECT_EQ(table["numbers"]["error_max"]["at"], "ABB");
+    EXPECT_EQ(table["numbers"]["stall_b"]["at"], "ABA");
+    EXPECT_EQ(table["texts"]["label"]["values"], (bench::Json{"", "second"}));
+    EXPECT_EQ(table["texts"]["label"]["at"], "ABA");
+    EXPECT_EQ(table["texts"]["fault"]["values"], (bench::Json{"", "no reason given"}));
+    EXPECT_FALSE(table["numbers"].contains("not_known"));
+    EXPECT_FALSE(table["texts"].contains("name"));
+}
+
+// A line for each kernel and length: what it errs, the bound of that, what it costs, whether it is on each front.
+TEST(Curves, AreWrittenAsAFileOfAllPoints) {
+    std::vector<bench::Json> rows;
+    const auto row = [&](const std::string& name) -> bench::Json& {
+        return rows.emplace_back(bench::make_row("gl/" + name, 1));
+    };
+    bench::Json& accuracy = row("a_b_c/order:0.5/taps:50/accuracy/signal:step");
+    accuracy["error_max"] = 0.5;
+    accuracy["rounding_error_max"] = 0.25;
+    accuracy["truncation_error_max"] = 0.375;
+    accuracy["effective_taps"] = 49;
+    bench::Json& model = row("a_b_c/order:0.5/taps:50/m7:f746");
+    model["instructions_per_sample"] = 100;
+    model["model_cycles_per_sample"] = 60;
+    model["model_cycles_low"] = 55;
+    model["model_cycles_high"] = 66;
+    model["state_bytes"] = 200;
+    model["coefficient_bytes"] = 196;
+    row("d_e_f/order:0.5/taps:50/accuracy/signal:step")["error_max"] = 0.125;
+    bench::mark_error(row("g_h_i/order:0.5/taps:60/accuracy/signal:step"), "not, finite");
+    row("a_b_c/order:0.5/taps:50/host")["real_time"] = 7.5;
+    const auto groups = bench::group(rows);
+    const auto costs = costs_of(groups);
+    bench::WorstBounds bounds;
+    bounds["0.5"]["50"] = 0.4375;
+    bounds["0.7"]["60"] = 1.0;
+    const auto path = std::filesystem::path(testing::TempDir()) / "report_curves.csv";
+    write_curves(path, curve_points(groups, costs), costs, bounds);
+    EXPECT_EQ(bench::read_file(path, 10000),
+              "order,kernel,taps,error_max,rounding_error_max,truncation_error_max,truncation_bound,effective_taps,"
+              "host_ns,instructions,model_cycles:f746,model_cycles_low:f746,model_cycles_high:f746,bytes,"
+              "front:host_ns,front:instructions,front:model_cycles:f746,front:bytes,fault\n"
+              "0.5,a_b_c,50,0.5,0.25,0.375,0.4375,49,7.5,100,60,55,66,396,1,1,1,1,\n"
+              "0.5,d_e_f,50,0.125,,,0.4375,,,,,,,,0,0,0,0,\n"
+              "0.5,g_h_i,60,,,,,,,,,,,,0,0,0,0,\"accuracy: not, finite\"\n");
+    std::filesystem::remove(path);
+}
+
+// Repetitions by their median; a row that is wrong in one of the two is a difference of its own.
+TEST(Differences, AreOfMediansAndOfWhatIsWrong) {
+    const auto timed = [](std::initializer_list<double> times) {
+        std::vector<bench::Json> rows;
+        for (const double ns : times) {
+            rows.push_back(bench::make_row("gl/a_b_c/order:0.5/taps:50/host", 1));
+            rows.back()["real_time"] = ns;
+            rows.back()["cpu_time"] = ns;
+            rows.back()["repetition_index"] = rows.size();
+        }
+        rows.push_back(bench::make_row("gl/a_b_c/order:0.5/taps:50/host", 1));
+        rows.back()["run_type"] = "aggregate";
+        rows.back()["real_time"] = 1e9;
+        return rows;
+    };
+    auto found = differences(timed({30.0, 10.0, 20.0}), timed({50.0, 10.0, 70.0, 30.0}));
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_EQ(found[0].counter, "real_time");
+    EXPECT_EQ(found[0].a, 20.0);
+    EXPECT_EQ(found[0].b, 40.0);
+    EXPECT_NEAR(found[0].size(), std::log(2.0), 1e-12);
+    auto wrong = timed({20.0});
+    bench::mark_error(wrong[0], "wrong");
+    EXPECT_EQ(differences(wrong, timed({20.0})).at(0).note, "wrong in A");
+    EXPECT_EQ(differences(timed({20.0}), wrong).at(0).note, "wrong in B");
+    EXPECT_TRUE(differences(wrong, wrong).empty());
+    const Difference to_nothing{"x", "c", 4.0, 0.0, ""};
+    EXPECT_TRUE(std::isinf(to_nothing.size()));
+    EXPECT_EQ(to_csv({to_nothing}), "name,counter,a,b,ratio,note\nx,c,4,0,0,\n");
+    EXPECT_TRUE(std::isinf((Difference{"x", "c", -4.0, 2.0, ""}).size()));
+    EXPECT_TRUE(std::isinf((Difference{"x", "", {}, {}, "only in A"}).size()));
+    EXPECT_NEAR((Difference{"x", "c", 4.0, 2.0, ""}).size(), std::log(2.0), 1e-12);
 }
 
 }  // namespace
