@@ -198,11 +198,23 @@ TEST(Gate, FindsWhatGetsWorse) {
         EXPECT_EQ(finding.counter, test.counter);
         EXPECT_NEAR(finding.change.value(), test.factor - 1.0, 1e-9);
         EXPECT_FALSE(finding.reason.empty());
+        const LayerCount& count = verdict.count(test.layer);
+        EXPECT_EQ(count.failed, test.level == Level::fail ? 1u : 0u) << test.counter;
+        EXPECT_EQ(count.warned, test.level == Level::warn ? 1u : 0u) << test.counter;
+        EXPECT_EQ(count.better, 0u) << test.counter;
+        if (test.layer != Layer::host_time) {
+            EXPECT_NEAR(finding.current.value() / finding.baseline.value(), test.factor, 1e-9) << test.counter;
+        } else {
+            EXPECT_LE(finding.change_low.value(), finding.change.value());
+            EXPECT_GE(finding.change_high.value(), finding.change.value());
+        }
         // The other way round it is an improvement, and no reason to fail.
         const Verdict back = judge(current, run(), rules());
         EXPECT_EQ(back.status, Exit::good);
         ASSERT_EQ(back.findings.size(), 1u) << test.counter << to_table(back, false);
         EXPECT_EQ(back.findings.front().level, Level::improvement) << test.counter;
+        EXPECT_EQ(back.count(test.layer).better, 1u) << test.counter;
+        EXPECT_EQ(back.count(test.layer).failed + back.count(test.layer).warned, 0u) << test.counter;
     }
 }
 

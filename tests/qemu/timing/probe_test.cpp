@@ -120,6 +120,11 @@ constexpr Probe probes[] = {
     {"9.11", "1: .rept 19; strh.w r0,[r1],#2; .endr; strh.w r0,[r1],#-38; bne 1b", 40, "stm32f746-itcm", How::turns},
     {"9.8", "str.w r0,[r1,#1]", 4},
     {"9.9", "str.w r0,[r1]; ldr.w r2,[r1]", 4},
+    // In the fourth cycle behind the store of its word, however many others came between, and of another word at once.
+    {"9.12", "str.w r0,[r1],#4; ldr.w r2,[r1,#-4]", 4},
+    {"9.13", "str.w r0,[r1],#4; str.w r0,[r1],#4; ldr.w r2,[r1,#-8]", 4},
+    {"9.14", "str.w r0,[r1],#4; str.w r0,[r1],#4; str.w r0,[r1],#4; ldr.w r2,[r1,#-12]", 4},
+    {"9.15", "str.w r0,[r1],#8; ldr.w r2,[r1,#-4]", 1},
     // 10: single precision
     {"10.1", "vadd.f32 s0,s1,s2; vmul.f32 s3,s4,s5", 2},
     {"10.2", "vadd.f32 s0,s1,s2; add.w r0,r1,r2", 1},
