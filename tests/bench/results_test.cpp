@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "bench/sweep.hpp"
 #include "bench/table.hpp"
 
@@ -117,6 +122,139 @@ TEST(Results, AWrongRowIsNeverRanked) {
     EXPECT_FALSE(entry(groups, "fast").host_front);
     EXPECT_TRUE(entry(groups, "right").host_front);
     EXPECT_NE(bench::to_table(groups, false).find("wrong answer"), std::string::npos);
+}
+
+TEST(Results, NamesHaveTheirLengths) {
+    const auto reads = [](const std::string& kernel, const std::string& taps = "50", const std::string& aspect = "host",
+                          const std::string& rest = "") {
+        return bench::parse_key("gl/" + kernel + "/order:0.5/taps:" + taps + '/' + aspect + rest).has_value();
+    };
+    EXPECT_TRUE(reads(std::string(64, 'k')));
+    EXPECT_FALSE(reads(std::string(65, 'k')));
+    EXPECT_FALSE(reads("k\x80"));
+    EXPECT_TRUE(reads("k", "123456789012345678"));
+    EXPECT_FALSE(reads("k", "1234567890123456789"));
+    EXPECT_FALSE(reads("k", "+5"));
+    EXPECT_TRUE(reads("k", "5+6"));
+    EXPECT_TRUE(reads("k", "full"));
+    EXPECT_FALSE(reads("k", "fuller"));
+    EXPECT_FALSE(reads("k", "50", ""));
+    EXPECT_TRUE(reads("k", "50", "accuracy", "/signal:step/amplitude:0.0625"));
+    EXPECT_FALSE(reads("k", "50", "accuracy", "/amplitude:0.0625/signal:step"));
+    EXPECT_FALSE(reads("k", "50", "accuracy", "/signal:step/amplitude:small"));
+    EXPECT_EQ(bench::taps_number("7"), 7.0);
+    EXPECT_EQ(bench::taps_number("1"), 1.0);
+    EXPECT_EQ(bench::taps_number("2+7+4"), 13.0);
+    EXPECT_EQ(bench::taps_number("0+0"), std::nullopt);
+}
+
+// What an entry holds of its rows: of accuracy the worst of each counter, of the target what its last row says.
+TEST(Results, EachCounterHasItsPlace) {
+    bench::Json step = accuracy("a", 1e-3);
+    bench::Json ramp = accuracy("a", 5e-4, "ramp");
+    step["truncation_error_max"] = 1e-4;
+    ramp["truncation_error_max"] = 2e-4;
+    step["effective_taps"] = 48;
+    ramp["effective_taps"] = 49;
+    bench::Json host = timing("a", "host", 20.0);
+    host["cycles_per_sample"] = 60.0;
+    host["state_bytes"] = 7;
+    host["coefficient_bytes"] = 8;
+    bench::Json model = timing("a", "m7:f746", 300.0);
+    model["worst_instructions"] = 310.0;
+    model["model_cycles_per_sample"] = 200.0;
+    model["model_cycles_low"] = 190.0;
+    model["model_cycles_high"] = 220.0;
+    model["state_bytes"] = 100;
+    model["coefficient_bytes"] = 96;
+    model["label"] = "double in software";
+    for (const bool turned : {false, true}) {
+        std::vector<bench::Json> rows = {step, ramp, host, model};
+        if (turned) {
+            std::reverse(rows.begin(), rows.end());
+        }
+        const auto groups = bench::group(rows);
+        ASSERT_EQ(groups.size(), 1U);
+        const bench::Entry& found = entry(groups, "a");
+        EXPECT_EQ(found.error_max, 1e-3);
+        EXPECT_EQ(found.rounding_error_max, 5e-4);
+        EXPECT_EQ(found.truncation_error_max, 2e-4);
+        EXPECT_EQ(found.effective_taps, 49.0);
+        EXPECT_EQ(found.host_ns, 20.0);
+        EXPECT_EQ(found.host_cycles, 60.0);
+        EXPECT_EQ(found.target_instructions, 300.0);
+        EXPECT_EQ(found.target_worst, 310.0);
+        EXPECT_EQ(found.model_cycles.at("f746").median, 200.0);
+        EXPECT_EQ(found.model_cycles.at("f746").low, 190.0);
+        EXPECT_EQ(found.model_cycles.at("f746").high, 220.0);
+        EXPECT_TRUE(found.software_double);
+        EXPECT_EQ(found.bytes, 196.0);  // the target's, where there are any
+    }
+    EXPECT_EQ(entry(bench::group({host}), "a").bytes, 15.0);
+    // The amplitude sweep, means and other rows are no part of it; one order's times are those of every order.
+    bench::Json scaled = accuracy("a", 0.5);
+    scaled["name"] = scaled["name"].get<std::string>() + "/amplitude:0.0625";
+    bench::Json mean = host;
+    mean["run_type"] = "aggregate";
+    mean["real_time"] = 1.0;
+    bench::Json other_order = accuracy("a", 1e-4);
+    other_order["name"] = "gl/a/order:0.7/taps:50/accuracy/signal:step";
+    const auto groups = bench::group({step, scaled, mean, other_order, host, bench::make_row("BM_other", 1)});
+    ASSERT_EQ(groups.size(), 2U);
+    EXPECT_EQ(groups[0].order, "0.5");
+    EXPECT_EQ(groups[1].order, "0.7");
+    for (const bench::Group& group : groups) {
+        ASSERT_EQ(group.entries.size(), 1U);
+        EXPECT_EQ(group.entries[0].host_ns, 20.0);
+        EXPECT_EQ(group.taps, "50");
+    }
+    EXPECT_EQ(groups[0].entries[0].error_max, 1e-3);
+}
+
+TEST(Results, WithinOnePercentItIsTheSameError) {
+    for (const auto& [factor, beaten] : {std::pair(1.009, true), std::pair(1.011, false)}) {
+        const auto groups = bench::group({accuracy("exact", 1e-6), timing("exact", "host", 50),
+                                          accuracy("near", factor * 1e-6), timing("near", "host", 40)});
+        EXPECT_EQ(entry(groups, "exact").host_front, !beaten) << factor;
+        EXPECT_TRUE(entry(groups, "near").host_front);
+    }
+    // Of modelled cores the first by name decides, of equal costs none beats the other.
+    bench::Json one = timing("one", "m7:b", 1.0);
+    one["model_cycles_per_sample"] = 10.0;
+    bench::Json two = timing("one", "m7:a", 1.0);
+    two["model_cycles_per_sample"] = 30.0;
+    bench::Json other = timing("other", "m7:a", 1.0);
+    other["model_cycles_per_sample"] = 20.0;
+    const auto groups = bench::group({accuracy("one", 1e-6), accuracy("other", 1e-6), one, two, other});
+    EXPECT_FALSE(entry(groups, "one").target_front);
+    EXPECT_TRUE(entry(groups, "other").target_front);
+    const auto same =
+        bench::group({accuracy("a", 1e-6), timing("a", "host", 5), accuracy("b", 1e-6), timing("b", "host", 5)});
+    EXPECT_TRUE(entry(same, "a").host_front);
+    EXPECT_TRUE(entry(same, "b").host_front);
+}
+
+// A column for each field but the bookkeeping, in the order in which they are met; cells that a row lacks are empty.
+TEST(Results, ACsvHasAColumnForEachField) {
+    bench::Json first = accuracy("a", 0.5);
+    first["signal"] = "x";
+    bench::Json second = bench::make_row("BM_other/8", 7);
+    second["extra"] = true;
+    second["threads"] = 4;
+    const std::string csv = bench::to_csv({first, second});
+    const std::string head = csv.substr(0, csv.find('\n'));
+    EXPECT_TRUE(head.starts_with("name,kernel,order,taps,aspect,signal,amplitude,")) << head;
+    for (const char* field : {"threads", "run_type", "repetition_index", "family_index", "time_unit", "run_name"}) {
+        EXPECT_EQ(head.find(field), std::string::npos) << head;
+    }
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 3);
+    const std::string behind = csv.substr(csv.find('\n') + 1);
+    const std::string last = behind.substr(behind.find('\n') + 1);
+    EXPECT_TRUE(last.starts_with("BM_other/8,,,,,,,")) << last;
+    EXPECT_NE(last.find(",true"), std::string::npos) << last;
+    const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+    EXPECT_EQ(commas(head), commas(last));
+    EXPECT_EQ(commas(head), commas(behind.substr(0, behind.find('\n'))));
 }
 
 }  // namespace

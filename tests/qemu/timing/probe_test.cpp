@@ -325,4 +325,47 @@ TEST(Probe, EveryRowOfACoreFileMovesOne) {
     }
 }
 
+// What each wait is called, in half cycles: of instructions that go half a cycle apart where nothing holds them.
+TEST(Probe, LossesHaveTheNameOfTheirCause) {
+    struct Case {
+        const char* text;
+        const char* losses;
+        const char* core = "stm32f746-itcm";
+    };
+    constexpr const char* nops = "nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w";
+    constexpr Case cases[] = {
+        {nops, ""},
+        {nops, "icache_misses 24", "stm32f746-flash"},                          // 12 cycles, one line
+        {nops, "flash_wait_states 48", "stm32f746-flash-nocache"},              // 12, then 4 for each of three words
+        {nops, "flash_wait_states 16", "stm32f746-flash-art"},                  // 8 without the bus
+        {"sdiv r0,r1,r2; nop.w", "result_latency 13"},                          // 7 cycles
+        {"eor.w r0,r0,r1; eor.w r0,r0,r2", "result_latency 1"},                 // the next cycle
+        {"ldr.w r0,[r0]; ldr.w r0,[r0]", "load_use 5"},                         // 3
+        {"mul r0,r0,r1; mul r0,r0,r1", "mac_latency 3"},                        // 2
+        {"vadd.f32 s0,s0,s1; vadd.f32 s0,s0,s1", "fpu_latency 5"},              // 3
+        {"vfma.f32 s0,s1,s2; vldr s3,[r0]", "fpu_latency 7"},                   // barred for 3: the fourth behind it
+        {"vfma.f32 s0,s1,s2; vstr s3,[r0]", "single_issue 1"},                  // barred from nothing but its cycle
+        {"uxtb.w r0,r1; uxtb.w r2,r3", "single_issue 1"},                       // one bit field a cycle
+        {"ldm r0,{r1,r2,r3,r4}; nop.w", "single_issue 3"},                      // two cycles
+        {"ldr.w r0,[r1]; ldr.w r2,[r3,#8]", "load_bank_conflict 1"},            // the next cycle
+        {"vstr s0,[r0]; nop.w; ldr.w r2,[r1]; nop.w", "load_bank_conflict 2"},  // one cycle
+        {"str.w r0,[r1]; ldr.w r2,[r1]", "store_buffer 7"},                     // 4
+        {"ldr.w r0,[r1,#1]; nop.w", "unaligned_access 7"},                      // 3 more in the older slot
+        {"b 9f; nop.w; 9: nop.w", "branch_mispredict 5"},                       // met for the first time: 2 more
+        {"ldr.w r0,[r1]; ldr.w r2,[r1,#64]; nop.w", "icache_misses 36 dcache_misses 58", "stm32h747-axi"},
+        {"ldr.w r0,[pc,#64]; nop.w; eor.w r2,r0,r3", "icache_misses 24 dcache_misses 25", "stm32f746-flash"},
+    };
+    for (const Case& test : cases) {
+        const probe::Outcome outcome = probe::run(lines_of(test.text), probe::core(test.core));
+        std::string losses;
+        for (std::size_t effect = 0; effect < timing::effect_count; ++effect) {
+            if (outcome.losses[effect] != 0) {
+                losses += (losses.empty() ? "" : " ") + std::string(timing::effect_names[effect]) + ' ' +
+                          std::to_string(outcome.losses[effect]);
+            }
+        }
+        EXPECT_EQ(losses, test.losses) << test.text << " on " << test.core;
+    }
+}
+
 }  // namespace
