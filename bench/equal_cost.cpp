@@ -83,9 +83,9 @@ std::vector<Json> filter_rows(const EqualCost& wanted, const std::vector<Targets
                               std::size_t cost) {
     const std::size_t poles = (cost - 1) / 2;
     const auto row_of = [&](std::string_view way, std::size_t signal) {
-        Json row = make_row(fmt::format("filter/{}/order:{}/poles:{}/accuracy/signal:{}", way, order, poles,
-                                        wanted.signals[signal]),
-                            wanted.samples);
+        Json row = make_row(
+            fmt::format("filter/{}/order:{}/poles:{}/accuracy/signal:{}", way, order, poles, wanted.signals[signal]),
+            wanted.samples);
         row["macs_per_sample"] = Oustaloup::multiplications(poles);
         row["cost"] = cost;
         row["way"] = way;
@@ -126,7 +126,7 @@ std::vector<Json> filter_rows(const EqualCost& wanted, const std::vector<Targets
 
 std::vector<Json> measure_filters(const EqualCost& wanted) {
     std::vector<double> orders = wanted.orders;
-    std::erase_if(orders, [](double v) { return !(v > -1.0 && v < 2.0) || v == std::floor(v); });
+    std::erase_if(orders, [](double v) { return !Oustaloup::takes(v); });
     Progress progress("filters", orders.size());
     std::vector<std::vector<Json>> of_orders(orders.size());
     parallel_for(orders.size(), wanted.jobs, [&](std::size_t i) {

@@ -10,8 +10,7 @@ std::string to_text(Mapping mapping) { return mapping == Mapping::matched ? "mat
 
 Oustaloup::Oustaloup(double order, double step_s, std::size_t poles, Band band, Mapping mapping)
     : differs_(order > 1.0) {
-    if (!(order > -1.0 && order < 2.0) || order == std::floor(order) || poles == 0 || !(step_s > 0.0) ||
-        !(band.low_rad_s > 0.0 && band.high_rad_s > band.low_rad_s)) {
+    if (!takes(order) || poles == 0 || !(step_s > 0.0) || !(band.low_rad_s > 0.0 && band.high_rad_s > band.low_rad_s)) {
         throw std::invalid_argument("Oustaloup: order, poles, step or band out of range");
     }
     const double r = differs_ ? order - 1.0 : order;
@@ -52,6 +51,8 @@ Oustaloup::Oustaloup(double order, double step_s, std::size_t poles, Band band, 
         sections_.push_back({-(zeros_z[k] + zero), zeros_z[k] * zero, -(poles_z[k] + pole), poles_z[k] * pole});
     }
 }
+
+bool Oustaloup::takes(double order) { return order > -1.0 && order < 2.0 && order != std::floor(order); }
 
 double Oustaloup::step(double sample) {
     double value = gain_ * (differs_ ? sample - before_ : sample);

@@ -27,10 +27,13 @@ struct Band {
 /// before it.
 class Oustaloup {
 public:
-    /// \param order   v in (-1, 2), not a whole number
+    /// \param order   v, as `takes` has it
     /// \param step_s  h > 0
     /// \param poles   P >= 1
     Oustaloup(double order, double step_s, std::size_t poles, Band band, Mapping mapping);
+
+    /// Whether there is a filter of an order: in (-1, 2), and not a whole number.
+    [[nodiscard]] static bool takes(double order);
 
     /// \return h^v times the derivative of order v: what S_k is an approximation of too
     double step(double sample);

@@ -74,6 +74,12 @@ TEST(Oustaloup, AboveOneADifferenceGoesBefore) {
 }
 
 TEST(Oustaloup, RefusesWhatItCannotBe) {
+    for (const double order : {-0.995, -0.5, 0.5, 1.5, 1.995}) {
+        EXPECT_TRUE(Oustaloup::takes(order)) << order;
+    }
+    for (const double order : {-1.005, -1.0, 0.0, 1.0, 2.0, 2.005, std::nan("")}) {
+        EXPECT_FALSE(Oustaloup::takes(order)) << order;
+    }
     for (const double order : {-1.0, 0.0, 1.0, 2.0, 2.5, std::nan("")}) {
         EXPECT_THROW(Oustaloup(order, h, 3, {0.1, 100.0}, Mapping::matched), std::invalid_argument) << order;
     }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -118,6 +119,19 @@ TEST(Files, AreWrittenIntoFoldersThatAreMade) {
     bench::write_file(path, "new");
     EXPECT_EQ(content(path), "new");
     EXPECT_EQ(bench::partial_name("out.json"), "./out.json.partial-" + std::to_string(getpid()));
+}
+
+// For everybody to read and write, as far as the user's mask allows, and not to run; of an earlier try nothing is left.
+TEST(Files, AreWrittenAfresh) {
+    const qemu::Scratch folder;
+    const auto path = folder.file("out.json");
+    const mode_t mask = umask(0);
+    bench::write_file(path, "old");
+    EXPECT_EQ(std::filesystem::status(path).permissions(), static_cast<std::filesystem::perms>(0666));
+    std::ofstream(bench::partial_name(path)) << "longer than what follows";
+    bench::write_file(path, "new");
+    umask(mask);
+    EXPECT_EQ(content(path), "new");
 }
 
 // A run that is still at work keeps its own; what is no run's is nobody's to remove.
