@@ -338,6 +338,37 @@ TEST(Gate, OfCoresThatOnlyOneRunModelledTheFileDoesNotMatter) {
     EXPECT_EQ(verdict.headline(), "core_file: f746 sha256:1 in the baseline, f746 sha256:9 now");
     current.context["core_file"] = "none";
     EXPECT_EQ(judge(baseline, current, rules()).status, Exit::not_comparable);
+    baseline.context["core_file"] = "a-core sha256:1, f746 sha256:2";  // told apart by their whole names
+    current.context["core_file"] = "b-core sha256:9, f746 sha256:2";
+    EXPECT_EQ(judge(baseline, current, rules()).status, Exit::good);
+}
+
+TEST(Gate, AWrongRowSaysWhy) {
+    const auto headline = [](const std::function<void(Json&)>& how) {
+        Results current = run();
+        change(current, count_row, how);
+        return judge(run(), current, rules()).headline();
+    };
+    const std::string row = std::string("right_answer: ") + count_row + ": ";
+    EXPECT_EQ(headline([](Json& one) { one["error_occurred"] = true; }), row + "marked as wrong");
+    EXPECT_EQ(headline([](Json& one) {
+                  one["error_occurred"] = true;
+                  one["error_message"] = 7;
+              }),
+              row + "marked as wrong");
+    EXPECT_EQ(headline([](Json& one) { bench::mark_error(one, "other bits"); }), row + "other bits");
+    Results good = run();
+    change(good, count_row, [](Json& one) { one["error_occurred"] = false; });
+    EXPECT_EQ(judge(run(), good, rules()).status, Exit::good);
+    // What is right now and was wrong is an improvement.
+    Results wrong = run();
+    change(wrong, count_row, [](Json& one) { bench::mark_error(one, "other bits"); });
+    const Verdict back = judge(wrong, run(), rules());
+    EXPECT_EQ(back.status, Exit::good);
+    ASSERT_EQ(back.findings.size(), 1u);
+    EXPECT_EQ(back.findings[0].level, Level::improvement);
+    EXPECT_EQ(back.findings[0].what, "right now; wrong in the baseline");
+    EXPECT_EQ(judge(wrong, wrong, rules()).headline(), row + "other bits (in the baseline too)");
 }
 
 TEST(Gate, ConditionsOfRowsThatAreNotThereDoNotMatter) {

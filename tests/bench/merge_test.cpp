@@ -10,6 +10,7 @@
 #include <set>
 
 #include "bench/pieces.hpp"
+#include "bench/run.hpp"
 #include "bench/signals.hpp"
 #include "bench/target_plan.hpp"
 #include "qemu/failure.hpp"
@@ -233,6 +234,39 @@ TEST(Merge, MixedHostsAreMarked) {
     EXPECT_EQ(merged.context["mixed_hosts"], "true");
     EXPECT_EQ(merged.context["shards"][0]["cpu"], "x");
     EXPECT_EQ(merged.context["shards"][1]["cpu"], "y");
+}
+
+// A sweep in shards, put together again, is the sweep: the same rows in the same order, of accuracy to the last bit.
+TEST(Run, ShardsAreTheWhole) {
+    bench::Sweep small;
+    small.kernels = {"shift_plain_f32", "ring_plain_q15"};
+    small.orders = {0.5, 0.9};
+    small.lengths = {{5}, {20}};
+    small.signals = {"step", "noise"};
+    small.samples = 60;
+    small.targets = {"host"};
+    const std::vector<std::string> quick = {"--benchmark_min_time=0.0001"};
+    const bench::Results whole = bench::measure(small, std::nullopt, nullptr, quick);
+    EXPECT_FALSE(whole.context.contains("shard"));
+    ASSERT_EQ(whole.rows.size(), 4U * 4U + 4U);
+    std::vector<bench::NamedResults> shards;
+    for (const std::size_t index : {1U, 2U}) {
+        shards.push_back({"shard", bench::measure(small, bench::Shard{index, 2}, nullptr, quick)});
+        const bench::Json& shard = shards.back().results.context.at("shard");
+        EXPECT_EQ(shard.at("index"), index);
+        EXPECT_EQ(shard.at("count"), 2);
+        EXPECT_EQ(shard.at("pieces"), 5);
+    }
+    const bench::Results merged = bench::merge(std::move(shards), false);
+    ASSERT_EQ(merged.rows.size(), whole.rows.size());
+    for (std::size_t i = 0; i < whole.rows.size(); ++i) {
+        EXPECT_EQ(merged.rows[i].at("name"), whole.rows[i].at("name"));
+        if (whole.rows[i].contains("error_max")) {
+            EXPECT_EQ(merged.rows[i], whole.rows[i]);
+        } else {
+            EXPECT_TRUE(whole.rows[i].at("name").get<std::string>().ends_with("/host"));
+        }
+    }
 }
 
 }  // namespace
