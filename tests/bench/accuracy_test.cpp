@@ -8,7 +8,9 @@
 #include <numeric>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "bench/derivative_limits.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signal_derivatives.hpp"
 #include "bench/signals.hpp"
@@ -117,6 +119,56 @@ TEST(Accuracy, ShortRecordsAreMeasured) {
         }
     }
     EXPECT_FALSE(discretisation(0.5, {"step"}, 1).front().has_value());
+}
+
+// At up to 200 samples from the first to the last, each as much later than the one before; late from the middle on.
+TEST(DerivativeLimits, LieFromTheFirstSampleToTheLast) {
+    const auto samples_of = [](std::size_t samples) {
+        std::vector<std::size_t> found;
+        for (const bench::DerivativeLimit& limit : bench::derivative_limits("ramp", samples, 0.5)) {
+            found.push_back(limit.sample);
+            EXPECT_EQ(limit.late, 2 * limit.sample >= samples) << limit.sample;
+        }
+        return found;
+    };
+    EXPECT_EQ(samples_of(5), (std::vector<std::size_t>{1, 2, 3, 4}));
+    EXPECT_EQ(samples_of(2), std::vector<std::size_t>{1});
+    EXPECT_TRUE(samples_of(1).empty());
+    const auto many = samples_of(100000);
+    EXPECT_LE(many.size(), 200U);
+    EXPECT_EQ(many.front(), 1U);
+    EXPECT_EQ(many.back(), 99999U);
+    EXPECT_EQ(many[many.size() - 2], static_cast<std::size_t>(std::lround(std::pow(99999.0, 198.0 / 199.0))));
+    EXPECT_TRUE(std::is_sorted(many.begin(), many.end()));
+    EXPECT_EQ(std::adjacent_find(many.begin(), many.end()), many.end());
+    EXPECT_TRUE(bench::derivative_limits("noise", 100, 0.5).empty());
+}
+
+// h^v / w_0 times the derivative, at the place of which the weights are an approximation.
+TEST(DerivativeLimits, AreInTheUnitOfTheSum) {
+    constexpr double h = 1e-3;
+    for (const bench::DerivativeLimit& limit : bench::derivative_limits("step", 100, 0.5)) {
+        const double t = static_cast<double>(limit.sample) * h;
+        EXPECT_NEAR(limit.value, 0.9 * std::sqrt(h) / std::sqrt(std::numbers::pi * t), 1e-12) << limit.sample;
+    }
+    for (const bench::DerivativeLimit& limit : bench::derivative_limits("ramp", 101, 1.0)) {
+        EXPECT_NEAR(limit.value, 0.9 / 100.0, 1e-15);  // of sample to sample
+    }
+    for (const bench::DerivativeLimit& limit :
+         bench::derivative_limits("ramp", 101, 1.0, bench::Discretisation::bdf2)) {
+        EXPECT_NEAR(limit.value, 0.9 / 100.0 / 1.5, 1e-15);
+    }
+    for (const bench::DerivativeLimit& limit :
+         bench::derivative_limits("ramp", 101, -1.0, bench::Discretisation::shifted)) {
+        const double k = static_cast<double>(limit.sample) + 0.5;  // half a step later
+        EXPECT_NEAR(limit.value, 0.9 / 100.0 * k * k / 2.0, 1e-12) << limit.sample;
+    }
+    const std::vector<bench::DerivativeLimit> limits = {
+        {1, 2.0, false}, {5, -3.0, false}, {9, -2.5, true}, {11, 1.0, true}};
+    const bench::LimitError error =
+        bench::error_at(limits, [](const bench::DerivativeLimit& limit) { return limit.value; });
+    EXPECT_EQ(error.largest, 3.0);
+    EXPECT_EQ(error.late, 2.5);
 }
 
 }  // namespace

@@ -9,12 +9,15 @@
 #include <sstream>
 #include <string>
 
+#include "bench/host_line.hpp"
+#include "glsum/registry.hpp"
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
 #include "qemu/scratch.hpp"
 #include "qemu/software_double.hpp"
 #include "qemu/watched.hpp"
+#include "targets/firmware/output_hash.hpp"
 #include "tests/qemu/made_elf.hpp"
 
 namespace {
@@ -435,6 +438,27 @@ TEST_F(MeasureMade, WhatTheProgramMustOfferIsAskedForByName) {
         EXPECT_EQ(refusal(glsum::Exit::bad_input, [&] { (void)measure(); }),
                   folder_.file("measure.elf").string() + ": expected the symbol " + missing);
     }
+}
+
+// The same calls here: as many as the plan says, of a signal that is repeated where it is shorter.
+TEST(Replay, HereHashesEveryCall) {
+    const std::vector<double> signal = {0.5, -0.25, 0.125};
+    const auto hash_of = [&](std::size_t calls) {
+        bench::HostLine<glsum::Sum<glsum::Ring, glsum::Plain, glsum::F32>> line(glsum::Design{0.5, 4});
+        firmware::OutputHash hash;
+        for (std::size_t k = 0; k < calls; ++k) {
+            hash.add(line.step(static_cast<float>(signal[k % 3])));
+        }
+        return hash.value();
+    };
+    const qemu::Signals signals = {{1.0}, signal};
+    for (const std::size_t calls : {0U, 1U, 3U, 4U, 11U}) {
+        const qemu::ReplayedRow row = qemu::replay_here({"ring_plain_f32", 0.5, 4, 1, calls}, signals);
+        EXPECT_EQ(row.status, glsum::Status::ok);
+        EXPECT_EQ(row.hash, hash_of(calls)) << calls;
+    }
+    EXPECT_EQ(qemu::replay_here({"ring_plain_f32", 7.0, 4, 1, 5}, signals).status, glsum::Status::order_out_of_range);
+    EXPECT_THROW((void)qemu::replay_here({"no_kernel", 0.5, 4, 1, 5}, signals), std::out_of_range);
 }
 
 }  // namespace

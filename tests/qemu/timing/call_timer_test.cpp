@@ -205,6 +205,9 @@ TEST(TimingLog, IsReadAsItWasWrittenAndACutIsSeen) {
     EXPECT_EQ(log.runs[0].call.cores[0].half_cycles, p.calls[0].cores[0].half_cycles);
     EXPECT_EQ(log.runs[0].call.cores[0].losses, p.calls[0].cores[0].losses);
     EXPECT_EQ(log.unknown.at(0x100), 3U);
+    EXPECT_EQ(log.hot, timer.hot());
+    EXPECT_FALSE(log.hot.at(0).empty());
+    EXPECT_FALSE(log.unfinished);
     EXPECT_FALSE(log.recursive);
     const std::string whole = text.str();
     std::istringstream cut(whole.substr(0, whole.size() - 4));

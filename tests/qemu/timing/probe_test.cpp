@@ -42,6 +42,10 @@ constexpr Probe probes[] = {
     {"2.11", "eor.w r0,r1,r2; nop.w; ldr.w r3,[r0]; nop.w", 3},  // a late result as address: one cycle between
     {"2.12", "nop.w; add.w r4,r4,r2; ldr.w r3,[r4]; nop.w", 2},  // rule Y
     {"2.13", "nop.w; add.w r4,r4,r2; eor.w r3,r5,r4,lsl #1; nop.w", 3},
+    // What is made of a late result is late itself, be it a sum or a shift; of an early one it is not.
+    {"2.14", "eor.w r0,r1,r2; nop.w; add.w r3,r0,r4; nop.w; eor.w r5,r6,r3,lsl #2; nop.w", 4},
+    {"2.15", "eor.w r0,r1,r2; nop.w; add.w r3,r7,r4; nop.w; eor.w r5,r6,r3,lsl #2; nop.w", 3},
+    {"2.16", "eor.w r0,r1,r2; nop.w; lsl.w r3,r0,#1; nop.w; eor.w r5,r6,r3,lsl #2; nop.w", 4},
     // 3: flags
     {"3.1", "adcs.w r0,r1,r2; adcs.w r3,r4,r5", 2},
     {"3.2", "adc.w r0,r1,r2; adc.w r3,r4,r5", 1},

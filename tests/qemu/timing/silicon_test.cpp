@@ -66,6 +66,33 @@ TEST(MeasuredCycles, SaysFileLineExpectedAndFound) {
     EXPECT_NE(message_of(long_file).find("m.csv:100003: expected at most 100000 rows"), std::string::npos);
 }
 
+TEST(MeasuredCycles, AtTheirBoundsRowsAreRead) {
+    EXPECT_EQ(message_of_row("a,itcm,dtcm,0,1,1,x"), "");
+    EXPECT_EQ(message_of_row("a,itcm,dtcm,0,1000000,1000000000000,x"), "");
+    EXPECT_NE(message_of_row("a,itcm,dtcm,0,1000001,59,x").find("m.csv:3: taps"), std::string::npos);
+    EXPECT_NE(message_of_row("a,itcm,dtcm,0,5,0.99,x").find("m.csv:3: cycles"), std::string::npos);
+    EXPECT_NE(message_of_row("a,itcm,dtcm,0,5,1000000000001,x").find("m.csv:3: cycles"), std::string::npos);
+    const std::string counted = "kernel,code,data,maintenance,taps,cycles,instructions\na,itcm,dtcm,0,5,59,";
+    EXPECT_EQ(qemu::parse_measured_cycles(counted + "1000000000000\n", "m.csv").at(0).instructions, 1e12);
+    EXPECT_NE(message_of(counted + "1000000000001\n").find("m.csv:2: instructions"), std::string::npos);
+    EXPECT_NE(message_of(counted + "0.5\n").find("m.csv:2: instructions"), std::string::npos);
+    EXPECT_EQ(message_of(std::string("kernel,code,data,maintenance,taps,cycles") +
+                         [] {
+                             std::string more;
+                             for (int i = 0; i < 94; ++i) {  // a hundred columns
+                                 more += ",c" + std::to_string(i);
+                             }
+                             return more;
+                         }() +
+                         "\n"),
+              "m.csv: expected rows of measured cycles, found none");
+    std::string long_file = header;
+    for (std::size_t i = 0; i < qemu::MeasuredLimits::rows; ++i) {
+        long_file += "a,itcm,dtcm,0,5,59,x\n";
+    }
+    EXPECT_EQ(qemu::parse_measured_cycles(long_file, "m.csv").size(), 100000U);
+}
+
 TEST(MeasuredCycles, TheLineGoesThroughPointsThatLieOnOne) {
     const qemu::Line line = qemu::fit_line({5, 10, 128}, {59, 104, 1166});
     EXPECT_NEAR(line.slope, 9.0, 1e-12);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <sstream>
+#include <stdexcept>
 
 #include "qemu/failure.hpp"
 
@@ -144,6 +145,18 @@ TEST(TimingRequest, ChangesACoreFileAsItSays) {
     request.cores = {{"stm32f746-flash", "", "", true, "", {"no_effect"}}};
     EXPECT_EQ(message_of().find("no_effect: no such effect; expected one of single_issue "), 0U) << message_of();
     EXPECT_NE(message_of().find(" double_precision_in_software call_overhead"), std::string::npos) << message_of();
+}
+
+TEST(TimingLog, ACoresNumberIsAtMostAThousand) {
+    std::istringstream most("hot 1000 256 7\nend\n");
+    const timing::TimingLog log = timing::read_timing_log(most);
+    ASSERT_EQ(log.hot.size(), 1001U);
+    EXPECT_EQ(log.hot[1000].at(256), 7);
+    for (const char* damaged : {"hot 1001 256 7\nend\n", "hot 0 256\nend\n", "unknown 256\nend\n", "calls 0 1 1\nend\n",
+                                "calls 1 1\nend\n", "calls 1 1 1 core 1 5\nend\n", "else\nend\n"}) {
+        std::istringstream in(damaged);
+        EXPECT_THROW((void)timing::read_timing_log(in), std::runtime_error) << damaged;
+    }
 }
 
 }  // namespace
