@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -14,6 +15,7 @@
 #include "qemu/elf.hpp"
 #include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
+#include "qemu/model_run.hpp"
 #include "qemu/scratch.hpp"
 #include "qemu/software_double.hpp"
 #include "qemu/watched.hpp"
@@ -459,6 +461,162 @@ TEST(Replay, HereHashesEveryCall) {
     }
     EXPECT_EQ(qemu::replay_here({"ring_plain_f32", 7.0, 4, 1, 5}, signals).status, glsum::Status::order_out_of_range);
     EXPECT_THROW((void)qemu::replay_here({"no_kernel", 0.5, 4, 1, 5}, signals), std::out_of_range);
+}
+
+constexpr double some_ratios[] = {0.5, 0.25};
+constexpr double some_input[] = {1.0, -1.0, 0.5};
+
+// Steps of whole models, of a program whose table has rows of three words.
+class MeasureModel : public testing::Test {
+protected:
+    void SetUp() override {
+        MadeElf made = program();
+        made.sections[1] = {0x2000, test::bytes_of({0x1000, 14, ring + 1, 0x100E, 15, block + 1, 2})};
+        made.symbols[1] = {"glsum_watched_count", 0x2018, 4};
+        made.write(folder_.file("model.elf"));
+        std::ofstream(folder_.file("said")) << "row 0 0 ab 12 34 56\nrow 1 5\nrow 2 0 cd 13 35 57\nend 3\n";
+        log(steps_ + reached);
+        std::ofstream(folder_.file("emulate"))
+            << "#!/bin/sh\nof() { echo \"$GLSUM_QEMU_PLUGIN\" | tr , '\\n' | sed -n \"s/^$1=//p\"; }\ncd '"
+            << folder_.file("").string()
+            << "'\necho \"$GLSUM_QEMU_PLUGIN\" >plugin\nfor last; do :; done\ncp \"$last\" plan\n"
+               "cp \"$(sed -n '1s/^glsum-model-2 //p' plan)\" numbers\n"
+               "cp log \"$(of out)\"; cp \"$(of watch)\" watch\n"
+               "if [ -n \"$(of timing)\" ]; then cp times \"$(of times)\"; cp \"$(of marks)\" marks; cp \"$(of "
+               "timing)\" "
+               "request; fi\ncat said\n";
+        std::filesystem::permissions(folder_.file("emulate"), std::filesystem::perms::owner_all);
+        design_.tables = tables_;
+    }
+    void log(const std::string& text) { std::ofstream(folder_.file("log")) << text; }
+    std::vector<qemu::MeasuredRow> step(const timing::TimingRequest& timing = {}, std::size_t steps = 100) {
+        const qemu::Board board{
+            folder_.file("measure.elf"), "replay.elf", "x.so", {folder_.file("emulate"), std::chrono::seconds(20)}};
+        const std::vector<qemu::PlannedModel> plan = {{"ring_plain_f32", &design_, some_input, steps},
+                                                      {"ring_plain_f32", &design_, some_input, steps},
+                                                      {"block_plain_q31", &other_, some_input, 132}};
+        return qemu::step_models(
+            board, plan, [&] { ++done_; }, timing);
+    }
+
+    qemu::Scratch folder_;
+    const glsum::PastTable tables_[1] = {{2.0, some_ratios}};
+    glsum::ModelDesign design_{.increments = false, .delay = 7, .input = 0.5, .constant = 0.25, .tables = {}};
+    const glsum::ModelDesign other_{.half_input = true, .input_full_scale = 4.0, .tables = {}};
+    // Of 100 steps the last 32, behind which one is on the painted stack; of 132 the same.
+    const std::string steps_ = calls(ring, 1, "100 10 5 7") + calls(ring, 67, "500 90 90 90") +
+                               calls(ring, 16, "50 20 10 4") + calls(ring, 16, "70 24 10 6") +
+                               calls(ring, 1, "999 999 999 999") + calls(block, 2, "31 3 2 1") +
+                               calls(block, 99, "40 8 4 2") + calls(block, 32, "48 16 8 4");
+    std::size_t done_ = 0;
+};
+
+TEST_F(MeasureModel, CountsAreOfTheLastSteps) {
+    const auto rows = step();
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_EQ(done_, 3U);
+    EXPECT_EQ(rows[0].hash, 0xABU);
+    EXPECT_EQ(rows[0].first, (qemu::CallCounts{100, 10, 5, 7}));
+    EXPECT_DOUBLE_EQ(rows[0].instructions, 60.0);
+    EXPECT_DOUBLE_EQ(rows[0].loads, 22.0);
+    EXPECT_DOUBLE_EQ(rows[0].stores, 10.0);
+    EXPECT_DOUBLE_EQ(rows[0].branches, 5.0);
+    EXPECT_EQ(rows[0].worst_instructions, 500U);  // of all steps but the last
+    EXPECT_EQ(rows[0].code_bytes, 0x20U + 0x10U);
+    EXPECT_EQ(rows[1].status, static_cast<glsum::Status>(5));
+    EXPECT_EQ(rows[1].first, qemu::CallCounts{});
+    EXPECT_EQ(rows[2].first.instructions, 31U);
+    EXPECT_DOUBLE_EQ(rows[2].instructions, (1.0 * 40.0 + 31.0 * 48.0) / 32.0);
+    EXPECT_EQ(rows[2].worst_instructions, 48U);
+    EXPECT_EQ(rows[2].code_bytes, 0x30U);
+    EXPECT_EQ(text_of(folder_.file("watch")), "1088\n1024\n");
+    EXPECT_EQ(text_of(folder_.file("plugin")).find("timing="), std::string::npos);
+}
+
+// What the program is told: each number to the last bit, each table and input once.
+TEST_F(MeasureModel, ThePlanHoldsTheDesigns) {
+    (void)step();
+    const std::string plan = text_of(folder_.file("plan"));
+    const std::string half = "3fe0000000000000";
+    const std::string one = "3ff0000000000000";
+    const std::string first = "ring_plain_f32 0 0 7 100 0 3 " + half + " 3fd0000000000000 " + one + ' ' + one + ' ' +
+                              one + " 1 4000000000000000 3 2 ";
+    EXPECT_EQ(plan.find("glsum-model-2 "), 0U);
+    const std::string behind = plan.substr(plan.find('\n') + 1);
+    EXPECT_EQ(behind.substr(0, first.size()), first) << behind;
+    const std::string last =
+        "block_plain_q31 1 1 0 132 0 3 " + one + " 0000000000000000 4010000000000000 " + one + ' ' + one + " 0\n";
+    EXPECT_TRUE(behind.ends_with('\n' + last)) << behind;
+    const std::string numbers = text_of(folder_.file("numbers"));
+    ASSERT_EQ(numbers.size(), 5 * sizeof(double));
+    double read[5];
+    std::memcpy(read, numbers.data(), sizeof read);
+    EXPECT_EQ(std::vector<double>(read, read + 5), (std::vector<double>{1.0, -1.0, 0.5, 0.5, 0.25}));
+}
+
+TEST_F(MeasureModel, CyclesAreThoseOfEachRowsLog) {
+    std::ofstream times(folder_.file("times"));
+    std::string losses;
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        losses += " 0";
+    }
+    for (const auto& [steps, first, cycles] : {std::tuple(100U, 100, 30), std::tuple(132U, 31, 40)}) {
+        const firmware::TimedCalls timed = firmware::timed_steps(steps, false);
+        std::size_t count = 0;
+        for (std::size_t call = 0; call < steps; ++call) {
+            count += timed.contains(call) ? 1 : 0;
+        }
+        times << "calls " << count << " 1024 " << first << " core 3 " << 2 * cycles << ' ' << cycles << ' '
+              << 3 * cycles << losses << " 0\nunknown " << 500 + steps << " 9\nend\n";
+    }
+    times.close();
+    timing::TimingRequest request;
+    request.cores_folder = TEST_CORES;
+    request.cores = {{"m7-ideal", "", ""}};
+    const auto rows = step(request);
+    ASSERT_EQ(rows[0].cores.size(), 1U);
+    EXPECT_NEAR(rows[0].cores[0].cycles, 30.0, 1e-12);
+    EXPECT_NEAR(rows[0].cores[0].low, 15.0, 1e-12);
+    EXPECT_NEAR(rows[0].cores[0].high, 45.0, 1e-12);
+    EXPECT_EQ(rows[0].unknown_encodings, std::vector<std::uint32_t>{600});
+    EXPECT_TRUE(rows[1].cores.empty());
+    EXPECT_NEAR(rows[2].cores.at(0).cycles, 40.0, 1e-12);
+    EXPECT_EQ(text_of(folder_.file("marks")), "1536 1552 1568\n");
+    EXPECT_NE(text_of(folder_.file("request")).find("core m7-ideal "), std::string::npos);
+    request.cores = {{"no-core", "", ""}};
+    std::filesystem::remove(folder_.file("plugin"));
+    EXPECT_THROW((void)step(request), glsum::Failure);
+    EXPECT_FALSE(std::filesystem::exists(folder_.file("plugin")));
+}
+
+TEST_F(MeasureModel, OtherStepsThanWereMadeAreNotBelieved) {
+    const auto fault = [&] { return refusal(glsum::Exit::check_failed, [&] { (void)step(); }); };
+    log(steps_ + calls(ring, 1, "1 1 1 1") + reached);
+    EXPECT_EQ(fault(), "the instrument saw more steps than the program made");
+    log(calls(block, 1, "1 1 1 1") + steps_ + reached);
+    EXPECT_EQ(fault(), "the instrument saw other steps than the program made");
+    log(calls(ring, 100, "1 1 1 1") + reached);
+    EXPECT_EQ(fault(), "the instrument saw other steps than the program made");
+    EXPECT_EQ(refusal(glsum::Exit::bad_input, [&] { (void)step({}, 99); }), "expected at least 100 steps to count");
+    std::filesystem::remove(folder_.file("model.elf"));
+    EXPECT_EQ(refusal(glsum::Exit::missing, [&] { (void)step(); }),
+              folder_.file("model.elf").string() + ": not found; expected from the firmware's build");
+}
+
+// x_k = u_(k-3) / 2 - x_(k-1): a table of one tap, two whole steps of delay, the input repeated.
+TEST(MeasureHere, AModelIsSteppedAsItsDesignSays) {
+    const glsum::PastTable tables[] = {{1.0, {}}};
+    const glsum::ModelDesign design{.increments = false, .delay = 2, .input = 0.5, .tables = tables};
+    const qemu::SteppedModel stepped = qemu::step_model_here({"ring_plain_f32", &design, some_input, 6});
+    ASSERT_EQ(stepped.status, glsum::Status::ok);
+    EXPECT_EQ(stepped.output, (std::vector<double>{0.0, 0.0, 0.0, 0.5, -1.0, 1.25, -0.75}));
+    EXPECT_EQ(stepped.saturations, 0U);
+    firmware::OutputHash hash;
+    for (const float output : {0.0F, 0.0F, 0.0F, 0.5F, -1.0F, 1.25F, -0.75F}) {
+        hash.add(output);
+    }
+    EXPECT_EQ(stepped.hash, hash.value());
+    EXPECT_THROW((void)qemu::step_model_here({"no_kernel", &design, some_input, 6}), std::out_of_range);
 }
 
 }  // namespace
