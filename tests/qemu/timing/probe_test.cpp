@@ -89,6 +89,8 @@ constexpr Probe probes[] = {
     {"6.16", "mul r0,r1,r2; nop.w; ldr.w r3,[r0]; nop.w", 5},
     {"6.17", "sdiv r0,r1,r2", 7},
     {"6.18", "sdiv r0,r1,r2; nop.w", 8},
+    {"6.19", "sdiv r0,r1,r2; ldr.w r3,[r0]", 9},  // as of any late result: one cycle between it and an address
+    {"6.20", "sdiv r0,r1,r2; ldr.w r3,[r4]", 8},
     // 7: loads
     {"7.1", "ldr.w r0,[r1]; nop.w; eor.w r2,r0,r3; nop.w", 2},
     {"7.2", "ldrb.w r0,[r1]; nop.w; eor.w r2,r0,r3; nop.w", 3},
