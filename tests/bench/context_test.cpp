@@ -1,0 +1,129 @@
+// What a result file says of its run, and what a row says of modelled cycles.
+#include "bench/context.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <regex>
+#include <string>
+
+#include "bench/target_rows.hpp"
+#include "qemu/timing/core_file.hpp"
+#include "qemu/timing/effects.hpp"
+
+namespace {
+
+bench::Sweep small() {
+    bench::Sweep sweep;
+    sweep.kernels = {"ring_plain_f32"};
+    sweep.peers = {"peer_std_f32"};
+    sweep.orders = {0.5, -0.25};
+    sweep.lengths = {{50}, {600, true}};
+    sweep.signals = {"step", "noise"};
+    sweep.targets = {"host"};
+    sweep.cores = {"count"};
+    sweep.design_errors = {1e-3};
+    sweep.samples = 600;
+    sweep.seed = 77;
+    return sweep;
+}
+
+std::string processor() {
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        if (line.starts_with("model name\t: ")) {
+            return line.substr(13);
+        }
+    }
+    return "";
+}
+
+TEST(Context, SaysWhatWasRunWhereAndOfWhichBuild) {
+    const bench::Json context = bench::make_context({}, small(), nullptr);
+    const auto text = [&](const char* field) { return context.at(field).get<std::string>(); };
+    EXPECT_EQ(text("schema"), "glsum-results-1");
+    EXPECT_TRUE(std::regex_match(text("date"), std::regex("20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\d[+-]\\d{4}")));
+    EXPECT_FALSE(text("host_name").empty());
+    EXPECT_EQ(text("host_name").find('\n'), std::string::npos);
+    EXPECT_EQ(text("executable"), "glsum bench");
+    EXPECT_EQ(text("library_build_type"), "release");
+    EXPECT_TRUE(std::regex_match(text("glsum_version"), std::regex("\\d+\\.\\d+.*"))) << text("glsum_version");
+    EXPECT_TRUE(std::regex_match(text("commit"), std::regex("[0-9a-f]{40}|unknown"))) << text("commit");
+    EXPECT_TRUE(std::regex_match(text("dirty"), std::regex("true|false|unknown")));
+    EXPECT_EQ(text("dirty") == "unknown", text("commit") == "unknown");
+    EXPECT_NE(text("compiler").find('.'), std::string::npos);
+    EXPECT_NE(text("flags").find("-O"), std::string::npos) << text("flags");
+    EXPECT_FALSE(text("contraction").empty());
+    EXPECT_NE(text("peer_flags").find("-ffast-math"), std::string::npos);
+    if (!processor().empty()) {
+        EXPECT_EQ(text("cpu"), processor());
+    }
+    EXPECT_EQ(text("core_file"), "none");
+    EXPECT_EQ(text("weights"), "gl");
+    for (const char* of_a_board : {"target_compiler", "target_flags", "qemu_version", "elf_sha256", "placement"}) {
+        EXPECT_FALSE(context.contains(of_a_board)) << of_a_board;
+    }
+    EXPECT_EQ(context.at("n_samples"), 600);
+    EXPECT_EQ(context.at("seed"), 77);
+    EXPECT_EQ(context.at("first_weights"), bench::Json::parse(R"({"0.5": 1.0, "-0.25": 1.0})"));
+    EXPECT_EQ(context.at("sweep"), bench::Json::parse(R"({
+        "kernels": ["ring_plain_f32"], "peers": ["peer_std_f32"], "orders": [0.5, -0.25], "taps": ["50", "full"],
+        "signals": ["step", "noise"], "targets": ["host"], "cores": ["count"], "design_errors": [0.001]})"));
+    bench::Sweep other = small();
+    other.weights = bench::Discretisation::bdf2;
+    EXPECT_EQ(bench::make_context({}, other, nullptr).at("weights"), "bdf2");
+    EXPECT_NEAR(bench::make_context({}, other, nullptr).at("first_weights").at("0.5").get<double>(), std::sqrt(1.5),
+                1e-12);
+}
+
+// What Google Benchmark says of the machine stays.
+TEST(Context, OfATimingIsAddedTo) {
+    const bench::Json context = bench::make_context({{"date", "then"}, {"caches", {1, 2}}}, small(), nullptr);
+    EXPECT_EQ(context.at("date"), "then");
+    EXPECT_EQ(context.at("caches"), bench::Json({1, 2}));
+    EXPECT_FALSE(context.contains("host_name"));
+    EXPECT_EQ(context.at("schema"), "glsum-results-1");
+}
+
+TEST(TargetRows, HoldTheModelsFigures) {
+    qemu::ModelledCall call{};
+    call.cycles = 300.0;
+    call.low = 290.0;
+    call.high = 330.0;
+    call.first_cycles = 900.0;
+    call.worst_cycles = 310.0;
+    call.latency_cycles = 120.0;
+    call.double_in_software = 40.0;
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        call.lost[e] = 1.0 + static_cast<double>(e);
+    }
+    bench::Json row;
+    bench::add_modelled(row, call, 200e6);
+    EXPECT_DOUBLE_EQ(row.at("real_time").get<double>(), 1500.0);  // ns, of 5 each
+    EXPECT_EQ(row.at("cpu_time"), row.at("real_time"));
+    EXPECT_EQ(row.at("model_cycles_per_sample"), 300.0);
+    EXPECT_EQ(row.at("model_cycles_low"), 290.0);
+    EXPECT_EQ(row.at("model_cycles_high"), 330.0);
+    EXPECT_EQ(row.at("first_model_cycles"), 900.0);
+    EXPECT_EQ(row.at("worst_model_cycles"), 310.0);
+    EXPECT_EQ(row.at("latency_model_cycles"), 120.0);
+    EXPECT_EQ(row.at("stall_double_precision_in_software"), 40.0);
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        EXPECT_EQ(row.at("stall_" + std::string(timing::effect_names[e])), 1.0 + static_cast<double>(e));
+    }
+    EXPECT_EQ(row.size(), 9U + timing::effect_count);
+}
+
+TEST(TargetRows, AskForTheCoresByName) {
+    const auto request =
+        bench::timing_request(std::string(TEST_PROJECT) + "/qemu/cores", {"stm32f746-itcm", "m7-ideal"});
+    ASSERT_EQ(request.cores.size(), 2U);
+    EXPECT_EQ(request.cores[0].name, "stm32f746-itcm");
+    EXPECT_EQ(request.cores[1].name, "m7-ideal");
+    const std::vector<double> clocks = bench::clocks_of(request);
+    ASSERT_EQ(clocks.size(), 2U);
+    EXPECT_EQ(clocks[0], 216e6);
+}
+
+}  // namespace
