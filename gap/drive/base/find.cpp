@@ -30,6 +30,14 @@ constexpr double worth_a_quick_one = 0.97;
 // Less than this over the noise is noise: descriptions that go so far go equally far.
 constexpr double above_noise = 1.2;
 
+double longest_s(const std::vector<Record>& records) {
+    double length_s = 0.0;
+    for (const Record& record : records) {
+        length_s = std::max(length_s, record.time_s.back() - record.time_s.front());
+    }
+    return length_s;
+}
+
 std::vector<Course> rough_courses(const std::vector<Record>& records) {
     std::vector<Course> courses;
     for (const Record& record : records) {
@@ -142,10 +150,7 @@ drive::Form quick_form(Question alone, double quick_s) {
 // it such a lag is a drift, which is none of the plant's, and alone it is an integrator.
 bool outlasts(const Described& one, const std::vector<Record>& records) {
     constexpr double times = 1.5;
-    double length_s = 0.0;
-    for (const Record& record : records) {
-        length_s = std::max(length_s, record.time_s.back() - record.time_s.front());
-    }
+    const double length_s = longest_s(records);
     return std::any_of(one.form.parameters().begin(), one.form.parameters().end(),
                        [&](const drive::Parameter& parameter) {
                            return parameter.name == "a1" && !parameter.fixed && parameter.value > times * length_s;
@@ -180,10 +185,7 @@ drive::Form form_to_find() { return {drive::Kind::fopdt, drive::make_fopdt(1.0, 
 
 Starts starts_of(const Structure& structure, const std::vector<Record>& records) {
     const bool driven = is_driven(records);
-    double length_s = 0.0;
-    for (const Record& record : records) {
-        length_s = std::max(length_s, record.time_s.back() - record.time_s.front());
-    }
+    const double length_s = longest_s(records);
     const double quick_s = quick_share * length_s;
     std::vector<Coefficients> starts = filtered_estimates(structure, records, driven);
     const std::vector<Coefficients> even = even_lags(structure, records.front().usual_interval_s, length_s, driven);
