@@ -165,6 +165,7 @@ std::vector<FreeParameter> parameters_of(const Effect& effect, const Scales& sca
         all.push_back(to_free(effect.name + "." + parameter.name, value, parameter.lower, parameter.upper,
                               std::max(std::fabs(value - parameter.none), 0.02 * (parameter.upper - parameter.lower))));
         all.back().fixed = parameter.discrete || start >= parameter.free_starts;
+        all.back().unit = parameter.unit;
     }
     return all;
 }

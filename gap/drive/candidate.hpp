@@ -20,6 +20,7 @@ struct FreeParameter {
     bool moves_nothing = false;  ///< found by `add_deviations`: close by, no residual depends on it
     double low = 0.0;            ///< 95 % interval, by `add_intervals`
     double high = 0.0;
+    std::string unit = {};  ///< of an effect's number, in those of input u and output y; empty: another's
 };
 
 struct Candidate {

@@ -18,7 +18,8 @@ std::vector<Written> numbers_to_contract(const Effect& effect, std::span<const F
     std::vector<Written> written;
     for (std::size_t i = 0; i < effect.numbers.size(); ++i) {
         if (effect.numbers[i].given != Number::Given::never) {
-            written.push_back({effect.numbers[i].name, fitted[i].value, {{fitted[i].low, fitted[i].high}}});
+            written.push_back(
+                {effect.numbers[i].name, fitted[i].value, {{fitted[i].low, fitted[i].high}}, fitted[i].unit});
         }
     }
     return written;

@@ -29,6 +29,7 @@ struct Fitted {
     double value;
     double low;
     double high;
+    std::string unit = {};
 };
 
 /// Each number by its name, those that files leave out apart. \param fitted  in the order of the effect's numbers

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 #include "drive/model_file.hpp"
 #include "gap/verdict/written_json.hpp"
@@ -13,9 +15,10 @@ namespace {
 
 Fitted fitted_of(const FreeParameter& parameter) {
     if (parameter.fixed && parameter.deviation == 0.0) {
-        return {parameter.value, parameter.value, parameter.value};
+        return {parameter.value, parameter.value, parameter.value, parameter.unit};
     }
-    return {parameter.value, std::min(parameter.low, parameter.value), std::max(parameter.high, parameter.value)};
+    return {parameter.value, std::min(parameter.low, parameter.value), std::max(parameter.high, parameter.value),
+            parameter.unit};
 }
 
 // The numbers of one of a candidate's effects, as the contract has them.
@@ -43,11 +46,25 @@ double shrink_of(const Decision& decision, double after) {
     return most > 0.0 ? std::clamp((decision.base_gap - after) / most, -1.0, 1.0) : 0.0;
 }
 
-std::vector<Cause> causes_in(const Decision& decision, const Ranked& ranked) {
+// What the others leave without one of them; nothing: they were not tried by themselves.
+std::optional<double> gap_without(const std::vector<Ranked>& ranking, const Effect* left_out,
+                                  std::vector<const Effect*> others) {
+    std::erase(others, left_out);
+    for (const Ranked& ranked : ranking) {
+        if (std::ranges::is_permutation(ranked.trained.effects, others)) {
+            return ranked.gap_after;
+        }
+    }
+    return std::nullopt;
+}
+
+std::vector<Cause> causes_in(const Answer& answer, const Ranked& ranked) {
+    const Decision& decision = answer.decision;
     std::vector<Cause> causes;
     for (const Effect* effect : ranked.trained.effects) {
         causes.push_back({effect->name, written_of(ranked, *effect), decision.base_gap, ranked.gap_after,
-                          shrink_of(decision, ranked.gap_after), decision.confidence});
+                          shrink_of(decision, ranked.gap_after), decision.confidence,
+                          gap_without(answer.ranking, effect, ranked.trained.effects)});
     }
     return causes;
 }
@@ -121,7 +138,7 @@ OfDrive of_drive(const Answer& answer) {
                .confidence = decision.confidence,
                .split = answer.split};
     for (const std::size_t i : decision.effects) {
-        of.alternatives.push_back(causes_in(decision, answer.ranking[i]));
+        of.alternatives.push_back(causes_in(answer, answer.ranking[i]));
     }
     if (decision.suspect) {
         of.suspect = suspect_of(decision, answer.ranking[*decision.suspect]);

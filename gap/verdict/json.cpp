@@ -35,6 +35,9 @@ Json json_of(const Cause& cause, std::optional<std::size_t> alternative) {
     one["gap_after"] = cause.gap_after;
     one["shrink"] = cause.shrink;
     one["confidence"] = cause.confidence;
+    if (cause.gap_without) {
+        one["gap_without"] = *cause.gap_without;
+    }
     return one;
 }
 

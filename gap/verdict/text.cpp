@@ -33,6 +33,21 @@ std::string shown_intervals(const Written& number) {
     return fmt::format("  [{}]", all);
 }
 
+std::string shown_unit(const Written& number) {
+    return number.unit.empty() || number.unit == "1" ? "" : "  " + number.unit;
+}
+
+// What a cause takes of the squared gap, beside the others that are named with it.
+std::string share_text(const Cause& cause, std::size_t named) {
+    if (!cause.gap_without || !(cause.gap_before > 0.0)) {
+        return "";
+    }
+    const auto squared = [](double gap) { return gap * gap; };
+    const double share = (squared(*cause.gap_without) - squared(cause.gap_after)) / squared(cause.gap_before);
+    return fmt::format("  {} takes {:.0f} % of the squared gap{}\n", cause.effect, 100.0 * std::max(0.0, share),
+                       named > 1 ? fmt::format("; without it {:.4f} is left", *cause.gap_without) : "");
+}
+
 // How much of the measured output's variance is explained where a gap is left.
 double explained_percent(double gap) { return 100.0 * std::max(0.0, 1.0 - gap * gap); }
 
@@ -115,9 +130,10 @@ std::string text_of(const Verdict& verdict, const OfDrive& of) {
     for (const std::vector<Cause>& causes : of.alternatives) {
         for (const Cause& cause : causes) {
             for (const Written& number : cause.parameters) {
-                text += fmt::format("  {}.{} = {}{}\n", cause.effect, number.name, shown(number.value),
-                                    shown_intervals(number));
+                text += fmt::format("  {}.{} = {}{}{}\n", cause.effect, number.name, shown(number.value),
+                                    shown_intervals(number), shown_unit(number));
             }
+            text += share_text(cause, causes.size());
         }
     }
     text += ranking_text(verdict.ranking) + where_text(of.where);

@@ -21,6 +21,8 @@ struct Cause {
     double gap_after;
     double shrink;  ///< of what can be closed
     double confidence;
+    std::optional<double> gap_without =
+        {};  ///< of a drive: what is left beside the others that are named, if it was tried
 };
 
 /// In place of effects in a ranking: what is judged, as it is.

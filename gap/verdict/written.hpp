@@ -15,6 +15,7 @@ struct Written {
     std::string name;
     ContractValue value;
     std::vector<std::pair<double, double>> intervals = {};  ///< of the number, or of each of the list; empty: none
+    std::string unit = {};  ///< u and y: those of input and output; "1" or empty: it has none
 };
 
 }  // namespace gap

@@ -67,8 +67,8 @@ TEST(CandidateBase, HasNoNumbersUnlessItIsFitted) {
     expect_range(named(base, "gain"), 2.0, -58.0, 62.0, 2.0);
     EXPECT_NEAR(named(base, "time_constant_s").upper, 93.0, 1e-9);
     EXPECT_GE(named(base, "time_constant_s").lower, 0.0);
-    // A dead time up to half of the record; of none the steps are a time constant.
-    expect_range(named(base, "delay_s"), 0.0, 0.0, 15.0, 3.0);
+    // A dead time up to a fifth of the record; of none the steps are a time constant.
+    expect_range(named(base, "delay_s"), 0.0, 0.0, 6.0, 3.0);
 }
 
 TEST(CandidateState, OfARecordThatRestsIsItsLevel) {

@@ -118,6 +118,31 @@ TEST(VerdictFile, SaysWhichCausesStandTogether) {
                       HasSubstr("no validation record: parts of the training record"), Not(HasSubstr("base: "))));
 }
 
+// What a cause takes is what the others leave without it, squared, over the squared gap.
+TEST(VerdictFile, SaysWhatEachCauseTakes) {
+    gap::OfDrive of = of_drive();
+    gap::Cause drift = backlash();
+    drift.effect = "sensor_drift";
+    drift.gap_without = 0.2;  // (0.04 - 0.01) / 0.25
+    drift.parameters[0].unit = "y/s";
+    of.alternatives = {{backlash(), drift}};
+    const gap::Verdict both = verdict_of(of);
+    EXPECT_FALSE(file_of(both)["effects"][0].contains("gap_without"));
+    EXPECT_EQ(file_of(both)["effects"][1]["gap_without"], 0.2);
+    EXPECT_THAT(gap::to_text(both),
+                AllOf(HasSubstr("  sensor_drift.gap = 0.25  [0.2, 0.3]  y/s\n"),
+                      HasSubstr("  sensor_drift takes 12 % of the squared gap; without it 0.2000 is left\n"),
+                      Not(HasSubstr("backlash takes"))));
+    drift.gap_without = 0.5;
+    drift.parameters[0].unit = "1";
+    of.alternatives = {{drift}};
+    EXPECT_THAT(gap::to_text(verdict_of(of)), AllOf(HasSubstr("  sensor_drift.gap = 0.25  [0.2, 0.3]\n"),
+                                                    HasSubstr("  sensor_drift takes 96 % of the squared gap\n")));
+    drift.gap_without = 0.05;  // others hide it: nothing, not less
+    of.alternatives = {{drift}};
+    EXPECT_THAT(gap::to_text(verdict_of(of)), HasSubstr("takes 0 % of the squared gap\n"));
+}
+
 // A word has no interval, a number may have none, a list one for each.
 TEST(VerdictFile, HasIntervalsOfWhatHasSome) {
     gap::OfDrive of = of_drive();

@@ -87,7 +87,7 @@ std::vector<Written> to_contract(const Effect&, std::span<const Fitted> fitted) 
             size_intervals.emplace_back(fitted[jump + 1].low, fitted[jump + 1].high);
         }
     }
-    return {{"at_s", times, time_intervals}, {"sizes", sizes, size_intervals}};
+    return {{"at_s", times, time_intervals, "s"}, {"sizes", sizes, size_intervals, "y"}};
 }
 
 std::vector<double> from_contract(const Effect&, const Contracted& contracted) {
