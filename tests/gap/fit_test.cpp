@@ -1,0 +1,193 @@
+// Fits whose result is known: of offsets and drifts, which are linear, by least squares; at bounds; of events.
+#include "gap/drive/fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "gap/drive/start.hpp"
+
+namespace {
+
+struct Made {
+    std::vector<gap::Record> records;
+    gap::Study study;
+    explicit Made(std::size_t count = 1, bool refit = false)
+        : study{{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)), refit}, {}, {}, {}, 0.01, 0.001, 0} {
+        gap::Record record;
+        record.name = "made";
+        record.usual_interval_s = 0.1;
+        for (int i = 0; i < 300; ++i) {
+            record.time_s.push_back(0.1 * i);
+            record.input.push_back((i / 60) % 2 == 0 ? 0.0 : 1.0);
+            record.output.push_back(0.0);
+        }
+        records.assign(count, record);
+        study.counts = gap::all_count(records);
+        for (const gap::Record& one : records) {
+            study.courses.emplace_back(one, 1);
+        }
+        const auto plain = simulated();
+        for (gap::Record& one : records) {
+            one.output = plain;
+        }
+        study.scales = gap::scales_of(gap::model_of(study.base.form), records, {});
+    }
+    [[nodiscard]] std::vector<double> simulated() const {
+        gap::Scenario plain;
+        plain.model = gap::model_of(study.base.form);
+        return gap::simulate(plain, study.courses[0]);
+    }
+    // Adds to each reading of a record.
+    template <class Added>
+    void add(const Added& added, std::size_t record = 0) {
+        for (std::size_t i = 0; i < records[record].size(); ++i) {
+            records[record].output[i] += added(records[record].time_s[i]);
+        }
+    }
+};
+
+const gap::Effect& offset() { return gap::effect_named("sensor_offset"); }
+const gap::Effect& drift() { return gap::effect_named("sensor_drift"); }
+
+TEST(Fit, OfWhatIsLinearIsExact) {
+    Made made;
+    made.add([](double t) { return 0.3 - 0.02 * t; });
+    const gap::Candidate found = gap::fit(made.study, {&offset(), &drift()}, {}, nullptr);
+    EXPECT_NEAR(found.lasting[0][0].value, 0.3, 1e-6);
+    EXPECT_NEAR(found.lasting[1][0].value, -0.02, 1e-7);
+    EXPECT_LT(found.cost, 1e-9);
+    // Half the squares of what is left.
+    const gap::Candidate none = gap::fit(made.study, {}, {}, nullptr);
+    double squares = 0.0;
+    for (const double t : made.records[0].time_s) {
+        squares += 0.5 * std::pow(0.3 - 0.02 * t, 2);
+    }
+    EXPECT_NEAR(none.cost, squares, 1e-9);
+    EXPECT_TRUE(none.lasting.empty());
+}
+
+// What is cut off at its bound stays there, and the others go on: the best drift beside an offset that is 1 too small.
+TEST(Fit, HoldsWhatLiesAtItsBound) {
+    Made made;
+    const double bound = made.study.scales.output_span;
+    made.add([&](double) { return bound + 1.0; });
+    const gap::Candidate found = gap::fit(made.study, {&offset(), &drift()}, {}, nullptr);
+    EXPECT_NEAR(found.lasting[0][0].value, bound, 1e-5);
+    double along = 0.0;
+    double square = 0.0;
+    for (const double t : made.records[0].time_s) {
+        along += t;
+        square += t * t;
+    }
+    EXPECT_NEAR(found.lasting[1][0].value, std::min(along / square, found.lasting[1][0].upper), 1e-4);
+}
+
+TEST(Fit, PassesOverWhatDoesNotCount) {
+    Made made;
+    made.add([](double t) { return t < 10.0 ? 7.0 : 0.3; });
+    for (std::size_t i = 0; i < 300; ++i) {
+        made.study.counts[0][i] = made.records[0].time_s[i] < 10.0 - 1e-9 ? 0 : 1;
+    }
+    const gap::Candidate found = gap::fit(made.study, {&offset()}, {}, nullptr);
+    EXPECT_NEAR(found.lasting[0][0].value, 0.3, 1e-6);
+    EXPECT_LT(found.cost, 1e-9);
+}
+
+// Whitened by half of the sample before, an offset leaves half of itself.
+TEST(Fit, CountsWhitenedResiduals) {
+    Made made;
+    made.add([](double) { return 0.3; });
+    gap::Whitener whitener;
+    whitener.coefficients = {0.5};
+    whitener.deviation = 0.1;
+    whitener.stationary_deviation = 0.2;
+    const gap::Candidate none = gap::fit(made.study, {}, {}, &whitener);
+    EXPECT_NEAR(none.cost, 0.5 * (std::pow(0.3 / 0.2, 2) + 299.0 * std::pow(0.15 / 0.1, 2)), 1e-6);
+    EXPECT_NEAR(gap::fit(made.study, {&offset()}, {}, &whitener).lasting[0][0].value, 0.3, 1e-6);
+}
+
+TEST(Fit, BeginsWhereTheStartIs) {
+    Made made;
+    made.add([](double) { return 0.3; });
+    gap::Candidate start = gap::fit(made.study, {&offset()}, {}, nullptr);
+    start.lasting[0][0].value = 0.125;
+    const gap::Candidate there = gap::fit(made.study, {&offset()}, start, nullptr, {0, 1, 0});
+    EXPECT_EQ(there.lasting[0][0].value, 0.125);
+    EXPECT_NEAR(there.cost, 0.5 * 300.0 * 0.175 * 0.175, 1e-9);
+    // Another effect beside it begins at its own start.
+    const gap::Candidate both = gap::fit(made.study, {&drift(), &offset()}, start, nullptr, {0, 1, 0});
+    EXPECT_EQ(both.lasting[1][0].value, 0.125);
+    EXPECT_EQ(both.lasting[0][0].value, gap::parameters_of(drift(), made.study.scales, 0)[0].value);
+    // What is hopeless by then goes no further.
+    const gap::Candidate hopeless = gap::fit(made.study, {&offset()}, start, nullptr, {0, 1, 25, 1e-9});
+    EXPECT_EQ(hopeless.lasting[0][0].value, 0.125);
+    EXPECT_NEAR(gap::fit(made.study, {&offset()}, start, nullptr, {0, 1, 25, 1e9}).lasting[0][0].value, 0.3, 1e-6);
+}
+
+// Of two starts the better one.
+TEST(Fit, TakesTheBestOfAnEffectsStarts) {
+    Made made;
+    const gap::Effect& gain = gap::effect_named("gain_error");
+    ASSERT_EQ(gap::starts_of(gain, made.study.scales), 2U);
+    gap::Scenario truth;
+    truth.model = gap::model_of(made.study.base.form);
+    gain.add_to(truth, std::vector{1.35});
+    made.records[0].output = gap::simulate(truth, made.study.courses[0]);
+    const gap::Candidate first = gap::fit(made.study, {&gain}, {}, nullptr, {0, 1, 0});
+    EXPECT_EQ(first.lasting[0][0].value, 1.4);  // of 0.7 and 1.4
+    EXPECT_NEAR(gap::fit(made.study, {&gain}, {}, nullptr).lasting[0][0].value, 1.35, 1e-5);
+}
+
+// A base that is fitted: with any effect a fit goes as far as what it was begun from.
+TEST(Fit, OfAFittedBaseIsNeverWorseThanWithoutTheEffect) {
+    Made made(1, true);
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> normal(0.0, 0.05);
+    made.add([&](double) { return normal(engine); });
+    const gap::Candidate none = gap::fit(made.study, {}, {}, nullptr);
+    EXPECT_NEAR(none.base[0].value, 2.0, 0.05);
+    EXPECT_NEAR(none.base[1].value, 1.0, 0.1);
+    for (const char* effect : {"input_saturation", "backlash"}) {
+        EXPECT_LE(gap::fit(made.study, {&gap::effect_named(effect)}, none, nullptr).cost, none.cost * (1.0 + 1e-9))
+            << effect;
+    }
+}
+
+// Events happen at times of their own in each record; what lasts keeps its number.
+TEST(CarriedOver, KeepsWhatLastsAndFindsEventsAnew) {
+    Made train(2);
+    const gap::Effect& disturbance = gap::effect_named("load_disturbance");
+    const auto with = [&](Made& made, std::size_t record, double from_s, double to_s) {
+        gap::Scenario truth;
+        truth.model = gap::model_of(made.study.base.form);
+        truth.forces.pushes.push_back({from_s, to_s, 0.4});
+        const auto moved = gap::simulate(truth, made.study.courses[record]);
+        const auto plain = made.simulated();
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            made.records[record].output[i] += moved[i] - plain[i] + 0.2;
+        }
+    };
+    with(train, 0, 5.0, 9.0);
+    with(train, 1, 12.0, 20.0);
+    const gap::Candidate fitted = gap::fit(train.study, {&disturbance, &offset()}, {}, nullptr);
+    EXPECT_NEAR(fitted.lasting[0][0].value, 0.2, 0.01);
+    const auto expect_event = [](const std::vector<gap::FreeParameter>& own, double from_s, double to_s) {
+        EXPECT_NEAR(own[0].value, from_s, 0.1);
+        EXPECT_NEAR(own[1].value, to_s, 0.1);
+        EXPECT_NEAR(own[2].value, 0.4, 0.02);
+    };
+    expect_event(fitted.own[0], 5.0, 9.0);
+    expect_event(fitted.own[1], 12.0, 20.0);
+    Made other;
+    with(other, 0, 15.0, 22.0);
+    const gap::Candidate carried = gap::carried_over(other.study, fitted, nullptr);
+    EXPECT_EQ(carried.lasting[0][0].value, fitted.lasting[0][0].value);
+    ASSERT_EQ(carried.own.size(), 1U);
+    expect_event(carried.own[0], 15.0, 22.0);
+    EXPECT_LT(carried.cost, 0.05);
+}
+
+}  // namespace
