@@ -159,6 +159,13 @@ std::string to_html(const Verdict& verdict, const OfDrive& of, const std::vector
     for (const std::string& line : {base_line(of), suspect_line(verdict, of)}) {
         html += line.empty() ? "" : fmt::format("<p>{}.</p>\n", escaped(line));
     }
+    for (const std::vector<Cause>& causes : of.alternatives) {
+        std::string items;
+        for (const std::string& line : cause_lines(causes)) {
+            items += fmt::format("<li>{}</li>", escaped(line));
+        }
+        html += items.empty() ? "" : fmt::format("<ul>{}</ul>\n", items);
+    }
     if (!of.extrapolated.empty()) {
         html += fmt::format("<p class=\"dim\">Extrapolated, as training has none of it: {}.</p>\n",
                             escaped(fmt::format("{}", fmt::join(of.extrapolated, ", "))));

@@ -44,7 +44,7 @@ std::string share_text(const Cause& cause, std::size_t named) {
     }
     const auto squared = [](double gap) { return gap * gap; };
     const double share = (squared(*cause.gap_without) - squared(cause.gap_after)) / squared(cause.gap_before);
-    return fmt::format("  {} takes {:.0f} % of the squared gap{}\n", cause.effect, 100.0 * std::max(0.0, share),
+    return fmt::format("{} takes {:.0f} % of the squared gap{}", cause.effect, 100.0 * std::max(0.0, share),
                        named > 1 ? fmt::format("; without it {:.4f} is left", *cause.gap_without) : "");
 }
 
@@ -128,12 +128,8 @@ std::string text_of(const Verdict& verdict, const OfDrive& of) {
         text += "no validation record: parts of the training record were kept aside for it\n";
     }
     for (const std::vector<Cause>& causes : of.alternatives) {
-        for (const Cause& cause : causes) {
-            for (const Written& number : cause.parameters) {
-                text += fmt::format("  {}.{} = {}{}{}\n", cause.effect, number.name, shown(number.value),
-                                    shown_intervals(number), shown_unit(number));
-            }
-            text += share_text(cause, causes.size());
+        for (const std::string& line : cause_lines(causes)) {
+            text += fmt::format("  {}\n", line);
         }
     }
     text += ranking_text(verdict.ranking) + where_text(of.where);
@@ -206,6 +202,20 @@ std::string joined(const std::vector<Cause>& causes) {
         names.push_back(cause.effect);
     }
     return fmt::format("{}", fmt::join(names, " + "));
+}
+
+std::vector<std::string> cause_lines(const std::vector<Cause>& causes) {
+    std::vector<std::string> lines;
+    for (const Cause& cause : causes) {
+        for (const Written& number : cause.parameters) {
+            lines.push_back(fmt::format("{}.{} = {}{}{}", cause.effect, number.name, shown(number.value),
+                                        shown_intervals(number), shown_unit(number)));
+        }
+        if (std::string share = share_text(cause, causes.size()); !share.empty()) {
+            lines.push_back(std::move(share));
+        }
+    }
+    return lines;
 }
 
 std::string base_line(const OfDrive& of) {

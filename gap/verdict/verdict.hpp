@@ -106,6 +106,8 @@ struct Verdict {
 /// Some lines for a terminal.
 [[nodiscard]] std::string to_text(const Verdict& verdict);
 
+/// The numbers of causes that stand together, and what each takes of the gap.
+[[nodiscard]] std::vector<std::string> cause_lines(const std::vector<Cause>& causes);
 /// The base with its numbers, how linear the records are, and each record's operating point; empty: a model was given.
 [[nodiscard]] std::string base_line(const OfDrive& of);
 /// What leads where nothing is named, and what stays unexplained; empty: something is named, or nothing leads.

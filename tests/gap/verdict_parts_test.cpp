@@ -433,11 +433,13 @@ TEST(VerdictPage, SaysWhatTheTextSays) {
     gap::Verdict verdict = verdict_of(of);
     verdict.notes = {"a \"note\" & more"};
     const std::string page = gap::to_html(verdict, of, {});
-    EXPECT_THAT(page, AllOf(HasSubstr("<h1>attributed: backlash or backlash</h1>"),
-                            HasSubstr("confidence 0.88; gap (simulation) 0.5000 before, 0.1000 after, 0.0500 at best"),
-                            HasSubstr("Extrapolated, as training has none of it: input above &lt;1&gt;."),
-                            HasSubstr("No validation log"), HasSubstr("Note: a &quot;note&quot; &amp; more."),
-                            HasSubstr("<p>base: second_order"), HasSubstr("<h2>Next</h2><p>rest.</p>")));
+    EXPECT_THAT(
+        page, AllOf(HasSubstr("<h1>attributed: backlash or backlash</h1>"),
+                    HasSubstr("confidence 0.88; gap (simulation) 0.5000 before, 0.1000 after, 0.0500 at best"),
+                    HasSubstr("Extrapolated, as training has none of it: input above &lt;1&gt;."),
+                    HasSubstr("No validation log"), HasSubstr("Note: a &quot;note&quot; &amp; more."),
+                    HasSubstr("<p>base: second_order"), HasSubstr("<ul><li>backlash.gap = 0.25  [0.2, 0.3]</li></ul>"),
+                    HasSubstr("<h2>Next</h2><p>rest.</p>")));
     of.extrapolated.clear();
     of.split = false;
     EXPECT_THAT(gap::to_html(verdict, of, {}),
