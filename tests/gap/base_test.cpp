@@ -123,6 +123,26 @@ TEST(Base, OfABentStaircaseIsAsQuickAsItsSteps) {
     EXPECT_NEAR(value_of(one_lag->form, "a1") + value_of(one_lag->form, "delay_s"), 0.17, 0.02);
 }
 
+// A sensor that drifts is no lag that outlasts the record, with a zero beside it.
+TEST(Base, OfADriftingSensorHasNoLagBeyondTheRecord) {
+    const auto plant = [](double u, double y, double speed) { return (u - y - 2.01 * speed) / 0.02; };
+    gap::Record train = run(plant, {.input = levels});
+    gap::Record validate = run(plant, {.input = other_levels, .seed = 2});
+    for (gap::Record* record : {&train, &validate}) {
+        for (std::size_t i = 0; i < record->size(); ++i) {
+            record->output[i] += 0.01 * record->time_s[i];
+        }
+    }
+    const auto all = gap::find_base(question_of(train, validate), [](const std::string&) {});
+    for (const gap::Described& one : all) {
+        const auto numbers = one.form.parameters();
+        for (const drive::Parameter& number : numbers) {
+            EXPECT_TRUE(number.name != "a1" || number.value < 90.0) << one.name << ": " << number.value;
+        }
+    }
+    EXPECT_EQ(all.front().name, "first_order");
+}
+
 TEST(Base, OfOneLagIsNoRicherOne) {
     // A second lag of 10 ms, far below the interval.
     const auto plant = [](double u, double y, double speed) { return (u - y - 2.01 * speed) / 0.02; };
