@@ -270,6 +270,26 @@ TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
     }
 }
 
+// Of more orders than anybody reads, and gnuplot has room for, the first 24 are drawn.
+TEST_F(Drawing, OfManyOrdersTheFirstAreShown) {
+    std::vector<Group> many;
+    for (int i = 1; i <= 25; ++i) {
+        Entry one = entry("a_f32", 0.5, 0.25, 0.125);
+        one.host_ns = 10.0;
+        many.push_back({"0." + std::to_string(i), "50", {one}});
+    }
+    const auto costs = bench::report::costs_of(many);
+    bench::report::plot_costs(stem(), bench::report::curve_points(many, costs), costs);
+    std::string text = sent();
+    EXPECT_EQ(count_of(text, "set title \"order "), 24U);  // of the host; bytes are not known
+    EXPECT_EQ(count_of(text, "\"order 0.25\""), 0U);
+    EXPECT_EQ(count_of(text, "\"order 0.24\""), 1U);
+    bench::plot_error(many, {}, stem());
+    text = sent();
+    EXPECT_EQ(count_of(text, ": total error\""), 24U);
+    EXPECT_EQ(count_of(text, "order 0.25: "), 0U);
+}
+
 // The table of the same points: nothing where nothing is known, the model's band beside its cycles.
 TEST_F(Drawing, IsWrittenAsATableToo) {
     Entry modelled = entry("a_f32", 0.25, 0.125, 0.0625);
