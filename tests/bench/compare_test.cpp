@@ -103,6 +103,29 @@ TEST(CompareJson, HoldsEveryPairWithItsRatioAndWhichWayIsBetter) {
     EXPECT_EQ(time.at("change"), "better");
 }
 
+// Of single times nobody judges; what counts instructions does, though it be called the same.
+TEST(CompareJson, OfTimesOnlyThoseOfTheProcessorArePaired) {
+    const auto with = [](double value) {
+        Results made = run(1e-3, 50.0, 100.0, "GNU 12.2.0", "own");
+        Json count = bench::make_row("gl/a/order:0.5/taps:50/m7:count", 32);
+        count["instructions_per_sample"] = value;
+        made.rows.push_back(count);
+        for (Json& row : made.rows) {
+            row["ns_per_sample"] = value;
+        }
+        return made;
+    };
+    const Json json =
+        Json::parse(to_json(compare(with(300.0), with(330.0), parse_rules(rules_text, "rules"), {"*"}, {"*"})));
+    std::size_t counted = 0;
+    for (const Json& pair : json.at("pairs")) {
+        const bool host = pair.at("row").get<std::string>().ends_with("/host");
+        EXPECT_EQ(host, pair.at("counter") == "cpu_time") << pair;
+        counted += pair.at("counter") == "instructions_per_sample" ? 1 : 0;
+    }
+    EXPECT_EQ(counted, 1U);
+}
+
 // What the terminal shows: the conditions that differ, a line for each counter, the largest changes first, and what one
 // run alone has.
 TEST(CompareTable, SumsEachCounterAndNamesTheLargestChanges) {
