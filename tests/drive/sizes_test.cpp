@@ -423,4 +423,52 @@ TEST(EffectSizes, OfTanksAreInTheirOwnUnits) {
     EXPECT_EQ(stiction.at("jump"), stiction.at("band"));  // it moves all the way
 }
 
+// Where each number goes: gain and dead time as they are, time scale by all that stores, and what takes away takes
+// away.
+TEST(EffectSizes, GoToTheirPlaceInOvensAndTanks) {
+    for (const blind::Family* family : {&blind::thermal_family(), &blind::hydraulic_family()}) {
+        Chance chance(11, 3);
+        const auto rig = family->draw({}, chance);
+        const blind::Held full = held_at(*rig, rig->full_input);
+        const auto plain = rig->read({}, full, {}, 1);
+        const auto with = [&](const char* effect, Parameters parameters) {
+            return rig->read(std::vector{blind::Fault{effect, std::move(parameters)}}, full, {}, 1);
+        };
+        const double rise = plain.back() - plain.front();
+        EXPECT_NEAR((with("gain_error", {{"gain", 1.25}}).back() - plain.front()) / rise, 1.25, 1e-4) << family->domain;
+        const auto late = with("dead_time_error", {{"extra_s", 10.0 * rig->clock.interval_s}});
+        for (std::size_t k = 10; k < 400; ++k) {
+            EXPECT_NEAR(late[k], plain[k - 10], 2e-3 * rise) << family->domain << ' ' << k;
+        }
+        // How long it takes for half of the rise grows evenly with the scale.
+        const auto half_way = [&](const std::vector<double>& readings) {
+            const double half = 0.5 * (readings.front() + readings.back());
+            return static_cast<double>(
+                std::find_if(readings.begin(), readings.end(), [&](double z) { return z > half; }) - readings.begin());
+        };
+        const double once = half_way(plain);
+        const double twice = half_way(with("time_scale_error", {{"scale", 2.0}}));
+        const double thrice = half_way(with("time_scale_error", {{"scale", 3.0}}));
+        EXPECT_GT(twice, once + 5.0);
+        EXPECT_NEAR((thrice - twice) / (twice - once), 1.0, 0.1) << family->domain;
+        // Lags come later to half of the rise, and end where it does.
+        for (const char* lag : {"actuator_lag", "sensor_lag"}) {
+            const auto lagging = with(lag, {{"tau_s", rig->tau_s}});
+            EXPECT_GT(half_way(lagging), once + 5.0) << lag;
+            EXPECT_NEAR(lagging.back(), plain.back(), 2e-3 * rise) << lag;
+        }
+        const auto ends = [&](const char* effect, Parameters parameters) {
+            return (with(effect, std::move(parameters)).back() - plain.front()) / rise;
+        };
+        const double u = rig->full_input;
+        EXPECT_NEAR(ends("input_saturation", {{"limit", 0.6 * u}}), 0.6, 1e-3);
+        EXPECT_NEAR(ends("input_dead_zone", {{"width", 0.2 * u}}), 0.8, 1e-3);
+        EXPECT_NEAR(ends("start_up_threshold", {{"threshold", 1.1 * u}}), 0.0, 1e-3);
+        EXPECT_NEAR(ends("input_curve", {{"curvature", 0.5}, {"reference", 2.0 * u}}), 0.75, 1e-3);
+        EXPECT_GT(ends("gain_drift", {{"per_s", 0.1 / full.time_s.back()}}), 1.08);
+        EXPECT_LT(ends("gain_drift", {{"per_s", 0.1 / full.time_s.back()}}), 1.101);
+        EXPECT_GT(half_way(with("rate_limit", {{"per_s", u / (4.0 * rig->tau_s)}})), once + 20.0);
+    }
+}
+
 }  // namespace
