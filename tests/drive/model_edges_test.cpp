@@ -243,6 +243,22 @@ TEST(Swings, AreThePolesNearTheAxis) {
         EXPECT_NEAR(found[0].decay_per_s, 3.0 * damping, 1e-8);
     }
     EXPECT_TRUE(swings(0.9).empty());
+    // Each once and none for another, however fast or slow they are.
+    for (const double w : {1e-5, 1.0, 1e7}) {
+        const double one = w * w;
+        const double other = 9.0 * w * w;
+        const double slow = 2.0 * 0.05 * w;
+        const double fast = 2.0 * 0.05 * 3.0 * w;
+        const auto both = drive::swings_of({{1.0, 4.0},
+                                            {slow + fast, 3.0},
+                                            {one + other + slow * fast, 2.0},
+                                            {slow * other + fast * one, 1.0},
+                                            {one * other, 0.0}});
+        ASSERT_EQ(both.size(), 2U) << w;
+        EXPECT_NEAR(both[0].radians_per_s / (w * std::sqrt(1.0 - 0.0025)), 1.0, 1e-7);
+        EXPECT_NEAR(both[1].radians_per_s / (3.0 * w * std::sqrt(1.0 - 0.0025)), 1.0, 1e-7);
+        EXPECT_NEAR(both[1].decay_per_s / (0.15 * w), 1.0, 1e-6);
+    }
     EXPECT_TRUE(drive::swings_of({{1.0, 1.0}, {1.0, 0.0}}).empty());
     EXPECT_TRUE(drive::swings_of({{1.0, 1.0}}).empty());
     const std::vector<drive::Swing> two{{2.0, 1.0}, {5.0, 10.0}};
