@@ -162,7 +162,7 @@ TEST(Drawn, LinearPlantsLieBetweenTheirBounds) {
 
 // What a family's own effects are measured by tells what its plant is.
 TEST(Drawn, OvensLieBetweenTheirBounds) {
-    Seen tau, rise, input, ambient, samples, length;
+    Seen tau, rise, input, ambient, samples, length, alone, with_wall;
     std::set<std::string> kinds, inputs, outputs;
     bool percent = false;
     bool one = false;
@@ -181,6 +181,8 @@ TEST(Drawn, OvensLieBetweenTheirBounds) {
         const double rise_k = std::fabs(drawn("sensor_offset").at("offset")) / (0.06 * vary);
         rise(rise_k);
         ambient(drawn("sensor_saturation").at("limit") - rise_k * (1.0 - 0.4 * vary));
+        const double loss_w_per_k = std::fabs(drawn("load_disturbance").at("size")) / (0.2 * vary) / rise_k;
+        (rig->plant == "body" ? alone : with_wall)(loss_w_per_k);
         if (rig->input == "duty") {
             EXPECT_EQ(rig->full_input, 1.0);
         } else if (rig->full_input == 100.0 || rig->full_input == 1.0) {
@@ -194,6 +196,10 @@ TEST(Drawn, OvensLieBetweenTheirBounds) {
     }
     expect_between(tau, 20.0, 2000.0, "time constant");
     expect_between(rise, 20.0, 350.0, "rise");
+    expect_between(alone, 0.2, 20.0, "loss");
+    EXPECT_GT(with_wall.least, 0.2);  // what goes through the wall besides, at most as much as the wall lets out
+    EXPECT_LT(with_wall.most, 20.0 * (1.0 + 1.0 / (1.0 / 3.0 + 1.0 / 2.0)));
+    EXPECT_GT(with_wall.most, 20.0);
     expect_between(ambient, 5.0, 30.0, "ambient");
     expect_between(input, 5.0, 230.0, "full input");
     expect_between(samples, 20.0, 40.0, "samples in a time constant");
@@ -205,7 +211,7 @@ TEST(Drawn, OvensLieBetweenTheirBounds) {
 }
 
 TEST(Drawn, TanksLieBetweenTheirBounds) {
-    Seen tau, full, zero, input, samples, length;
+    Seen tau, full, zero, input, samples, length, area;
     std::set<std::string> kinds;
     bool ten = false;
     bool percent = false;
@@ -221,6 +227,8 @@ TEST(Drawn, TanksLieBetweenTheirBounds) {
         const double vary = drawn("dead_time_error").at("extra_s") / (0.15 * rig->tau_s);
         const double full_cm = std::fabs(drawn("sensor_offset").at("offset")) / (0.06 * vary);
         full(full_cm);
+        const double outflow = -drawn("load_disturbance").at("size") / (0.16 * vary) / full_cm;
+        area(outflow * rig->tau_s);
         const double zero_cm = drawn("sensor_saturation").at("limit") - full_cm * (1.0 - 0.4 * vary);
         if (std::fabs(zero_cm) > 1e-6 * full_cm) {
             zero(zero_cm / full_cm);
@@ -235,6 +243,7 @@ TEST(Drawn, TanksLieBetweenTheirBounds) {
     }
     expect_between(tau, 4.0, 400.0, "time constant");
     expect_between(full, 5.0, 200.0, "level at the full input");
+    expect_between(area, 10.0, 2000.0, "area");
     expect_between(zero, -0.3, 0.6, "the gauge's zero");
     expect_between(input, 2.0, 24.0, "full input");
     expect_between(samples, 20.0, 40.0, "samples in a time constant");
