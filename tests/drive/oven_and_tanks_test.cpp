@@ -247,6 +247,17 @@ TEST(Tanks, OverflowAndAreNeverLessThanEmpty) {
     EXPECT_EQ(filled(tanks, levels({{0.0, 1.0}, {3.0, 0.0}}), 20.0), 0.0);
 }
 
+// Of a disturbance its beginning counts and its end does not: by Heun's one step from one to the other.
+TEST(Tanks, AreDisturbedFromTheFirstMomentToBeforeTheLast) {
+    Tanks tanks = closed;
+    tanks.start_cm = 10.0;
+    tanks.disturbance_cm3_per_s = 10.0;
+    tanks.disturbance_to_s = 99.0;
+    EXPECT_DOUBLE_EQ(filled(tanks, levels({{0.0, 0.0}}), 1.0, 1.0), 9.0);
+    tanks.disturbance_to_s = 1.0;
+    EXPECT_DOUBLE_EQ(filled(tanks, levels({{0.0, 0.0}}), 1.0, 1.0), 9.5);
+}
+
 TEST(Tanks, PrimeTheirPumpWheneverItStarts) {
     Tanks tanks = closed;
     tanks.priming_s = 1.5;
