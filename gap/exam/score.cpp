@@ -8,6 +8,7 @@
 #include <map>
 
 #include "gap/exam/fields.hpp"
+#include "gap/exam/manifest.hpp"
 
 namespace gap::exam {
 namespace {
