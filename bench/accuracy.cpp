@@ -7,12 +7,12 @@
 #include <map>
 #include <optional>
 
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "bench/derivative_limits.hpp"
 #include "bench/designs.hpp"
 #include "bench/exact_weights.hpp"
 #include "bench/host_line.hpp"
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
 #include "bench/reference/dropped.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signals.hpp"
@@ -194,8 +194,8 @@ std::vector<std::vector<Json>> measure_accuracy(const Sweep& sweep, const std::v
     const std::size_t signals = sweep.signals.size();
     std::vector<std::vector<Json>> rows(cases.size());
     const std::vector<Kernel> all = kernels();
-    Progress progress("accuracy", cases.size());
-    parallel_for(cases.size(), sweep.jobs, [&](std::size_t i) {
+    base::Progress progress("accuracy", cases.size());
+    base::parallel_for(cases.size(), sweep.jobs, [&](std::size_t i) {
         Case test(sweep, sweep.orders.at(cases[i] / signals), sweep.signals[cases[i] % signals]);
         for (const Kernel& kernel : all) {
             if (std::find(sweep.kernels.begin(), sweep.kernels.end(), kernel.name) == sweep.kernels.end()) {

@@ -7,14 +7,14 @@
 #include <fstream>
 #include <memory>
 
+#include "base/files.hpp"
+#include "base/scratch.hpp"
+#include "base/sha256.hpp"
 #include "bench/build_info.hpp"
-#include "bench/files.hpp"
-#include "bench/sha256.hpp"
 #include "bench/target_build.hpp"
 #include "bench/target_plan.hpp"
 #include "bench/target_rows.hpp"
 #include "glsum/registry.hpp"
-#include "qemu/scratch.hpp"
 
 namespace bench {
 namespace {
@@ -50,11 +50,12 @@ std::string now() {
 
 // "NAME sha256:HASH" of each core, the hash over its file and those that it is based on; "none" without any.
 std::string core_files(const qemu::Board& board, const std::vector<std::string>& cores) {
-    const qemu::Scratch scratch;
+    const base::Scratch scratch;
     std::string text;
     for (const timing::CoreFile& core : timing::cores_of(timing_request(board.cores, cores))) {
-        write_file(scratch.file("core"), core.text);
-        text += fmt::format("{}{} sha256:{}", text.empty() ? "" : ", ", core.name, sha256_of(scratch.file("core")));
+        base::write_file(scratch.file("core"), core.text);
+        text +=
+            fmt::format("{}{} sha256:{}", text.empty() ? "" : ", ", core.name, base::sha256_of(scratch.file("core")));
     }
     return text.empty() ? "none" : text;
 }
@@ -88,11 +89,11 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
     context["core_file"] = board != nullptr ? core_files(*board, sweep.modelled_cores()) : "none";
     if (board != nullptr) {
         const std::filesystem::path info = board->measure_elf.parent_path() / "build_info.json";
-        const TargetBuild target = parse_target_build(read_file(info, std::size_t{1} << 20), info.string());
+        const TargetBuild target = parse_target_build(base::read_file(info, std::size_t{1} << 20), info.string());
         context["target_compiler"] = target.compiler;
         context["target_flags"] = target.flags;
         context["qemu_version"] = qemu::emulator_version();
-        context["elf_sha256"] = sha256_of(board->measure_elf);
+        context["elf_sha256"] = base::sha256_of(board->measure_elf);
         context["target_count_order"] = fmt::format("{}", count_order(sweep));
         context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
     }

@@ -9,12 +9,12 @@
 #include <optional>
 #include <set>
 
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "bench/accuracy.hpp"
 #include "bench/derivative_limits.hpp"
 #include "bench/designs.hpp"
 #include "bench/host_line.hpp"
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
 #include "bench/signals.hpp"
 #include "bench/sweep.hpp"
 #include "bench/tuned_oustaloup.hpp"
@@ -127,9 +127,9 @@ std::vector<Json> filter_rows(const EqualCost& wanted, const std::vector<Targets
 std::vector<Json> measure_filters(const EqualCost& wanted) {
     std::vector<double> orders = wanted.orders;
     std::erase_if(orders, [](double v) { return !Oustaloup::takes(v); });
-    Progress progress("filters", orders.size());
+    base::Progress progress("filters", orders.size());
     std::vector<std::vector<Json>> of_orders(orders.size());
-    parallel_for(orders.size(), wanted.jobs, [&](std::size_t i) {
+    base::parallel_for(orders.size(), wanted.jobs, [&](std::size_t i) {
         std::vector<Targets> targets;
         for (const std::string& signal : wanted.signals) {
             targets.push_back(targets_of(signal, orders[i], wanted.samples));

@@ -48,7 +48,7 @@ inline constexpr std::string_view oustaloup_of_derivative = "oustaloupown_f64";
 /// and way, a column for each signal, and the worst of them.
 [[nodiscard]] std::string to_table(const EqualCost& wanted, const std::vector<Json>& rows);
 
-/// Writes `stem`.svg and `stem`.png: a panel for each order and signal. \throws as `draw`
+/// Writes `stem`.svg and `stem`.png: a panel for each order and signal. \throws as `base::draw`
 void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, const std::filesystem::path& stem);
 
 }  // namespace bench

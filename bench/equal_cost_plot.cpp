@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
+#include "base/gnuplot.hpp"
 #include "bench/equal_cost.hpp"
 #include "bench/equal_cost_errors.hpp"
-#include "bench/gnuplot.hpp"
 
 namespace bench {
 namespace {
@@ -59,15 +59,15 @@ void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, con
                 data += data.empty() ? fmt::format("{} NaN\n", wanted.costs.front()) : "";
                 script += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
                 lines.push_back(fmt::format(
-                    "$d{} using 1:2 with linespoints lw 1.5 pt {} ps 0.7 lc rgb \"{}\" {}", i, 4 + i, palette[i],
+                    "$d{} using 1:2 with linespoints lw 1.5 pt {} ps 0.7 lc rgb \"{}\" {}", i, 4 + i, base::palette[i],
                     key ? fmt::format("title \"{}\" noenhanced", drawn_here[i].label) : "notitle"));
             }
             const bool last = row + 1 == wanted.orders.size();
             script += fmt::format(
                 "set title \"order {}: {}\" offset 0,-0.6\nset yrange {}\nset xlabel \"{}\" offset 0,0.4\n{}\nplot "
                 "{}\n",
-                gnuplot_text(order), gnuplot_text(signal), largest > 0.0 ? log_range(smallest, largest) : "[1e-3:1]",
-                last ? "multiplications a sample" : "",
+                base::gnuplot_text(order), base::gnuplot_text(signal),
+                largest > 0.0 ? base::log_range(smallest, largest) : "[1e-3:1]", last ? "multiplications a sample" : "",
                 key ? fmt::format("set key at screen {:.4f}, screen {:.4f} left top Left reverse spacing 1.4",
                                   1.0 - 205.0 / wide, 1.0 - 75.0 / tall)
                     : "unset key",
@@ -75,7 +75,7 @@ void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, con
             key = false;
         }
     }
-    draw({script + "unset multiplot\n", width, height}, stem);
+    base::draw({script + "unset multiplot\n", width, height}, stem);
 }
 
 }  // namespace bench

@@ -17,19 +17,19 @@
 #include <tuple>
 #include <utility>
 
+#include "base/failure.hpp"
+#include "base/progress.hpp"
 #include "bench/cycle_counter.hpp"
 #include "bench/designs.hpp"
 #include "bench/exact_weights.hpp"
 #include "bench/host_line.hpp"
 #include "bench/peer_numbers.hpp"
-#include "bench/progress.hpp"
 #include "bench/reference/dropped.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signals.hpp"
 #include "bench/timed_rows.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
-#include "qemu/failure.hpp"
 
 namespace bench {
 namespace {
@@ -261,7 +261,7 @@ public:
     [[nodiscard]] Json json() const { return Json::parse(out_.str()); }
 
 private:
-    Progress progress_;
+    base::Progress progress_;
     std::ostringstream out_;
     std::ostringstream errors_;
 };

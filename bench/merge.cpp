@@ -9,8 +9,8 @@
 #include <set>
 #include <utility>
 
+#include "base/failure.hpp"
 #include "bench/shard.hpp"
-#include "qemu/failure.hpp"
 
 namespace bench {
 namespace {

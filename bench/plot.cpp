@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "bench/gnuplot.hpp"
+#include "base/gnuplot.hpp"
 
 namespace bench {
 namespace {
@@ -23,7 +23,7 @@ struct Series {
 
 // Up to eight kernels have a colour each; of more, those of one number format share theirs.
 std::string label_of(const std::string& kernel, std::size_t kernels) {
-    return kernels <= std::size(palette) ? kernel : kernel.substr(kernel.rfind('_') + 1);
+    return kernels <= std::size(base::palette) ? kernel : kernel.substr(kernel.rfind('_') + 1);
 }
 
 std::vector<Series> series_of(const std::vector<std::string>& kernels, std::optional<double> Entry::*member) {
@@ -34,8 +34,8 @@ std::vector<Series> series_of(const std::vector<std::string>& kernels, std::opti
         const std::string label = label_of(kernel, kernels.size());
         const auto found = std::find(labels.begin(), labels.end(), label);
         const auto index = static_cast<std::size_t>(found - labels.begin());
-        series.push_back({value, kernel, found == labels.end() ? label : "", palette[index % std::size(palette)],
-                          4 + static_cast<int>(index)});
+        series.push_back({value, kernel, found == labels.end() ? label : "",
+                          base::palette[index % std::size(base::palette)], 4 + static_cast<int>(index)});
         if (found == labels.end()) {
             labels.push_back(label);
         }
@@ -126,7 +126,7 @@ std::string tics(const std::vector<Group>& groups) {
                                   });
             if (has_room && (group.taps.find('+') == std::string::npos) == windows) {
                 marked.push_back(*taps);
-                marks.push_back(fmt::format("\"{}\" {}", gnuplot_text(group.taps), *taps));
+                marks.push_back(fmt::format("\"{}\" {}", base::gnuplot_text(group.taps), *taps));
             }
         }
     }
@@ -143,8 +143,9 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
         if (data.empty()) {
             continue;
         }
-        const std::string key_entry =
-            series[i].title.empty() ? "notitle" : fmt::format("title \"{}\" noenhanced", gnuplot_text(series[i].title));
+        const std::string key_entry = series[i].title.empty()
+                                          ? "notitle"
+                                          : fmt::format("title \"{}\" noenhanced", base::gnuplot_text(series[i].title));
         blocks += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
         lines.push_back(fmt::format("$d{} using 1:2 with linespoints lw 1.5 dt {} pt {} ps 0.6 lc rgb \"{}\" {}", i,
                                     series[i].dash, series[i].shape, series[i].colour, key_entry));
@@ -153,7 +154,7 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
         return "set multiplot next\n";
     }
     return blocks + fmt::format("set title \"{}\"\nset yrange {}\n{}\nplot {}\n", title,
-                                log_range(range.smallest, range.largest),
+                                base::log_range(range.smallest, range.largest),
                                 key ? "set key at screen 0.995, screen 0.93" : "unset key",
                                 fmt::join(lines, ", \\\n  "));
 }
@@ -186,9 +187,10 @@ std::string script(const std::vector<Group>& groups, const std::vector<std::stri
                 series.push_back({[&bounds](const Group& group, const Entry&) { return bound_of(bounds, group); }, "",
                                   bounds.empty() ? "" : "truncation bound", "#000000", -1, 4});
             }
-            text += panel(groups, order, series,
-                          fmt::format("order {}: {}", gnuplot_text(order), rounding ? "rounding error" : "total error"),
-                          !rounding && key);
+            text += panel(
+                groups, order, series,
+                fmt::format("order {}: {}", base::gnuplot_text(order), rounding ? "rounding error" : "total error"),
+                !rounding && key);
             key = key && rounding;
         }
     }
@@ -205,7 +207,7 @@ void plot_error(const std::vector<Group>& groups, const WorstBounds& bounds, con
     orders.resize(std::min(orders.size(), most_orders));
     kernels.resize(std::min(kernels.size(), most_kernels));
     const std::size_t height = 140 + 330 * orders.size();
-    draw({script(groups, orders, kernels, bounds, static_cast<double>(height)), 1200, height}, stem);
+    base::draw({script(groups, orders, kernels, bounds, static_cast<double>(height)), 1200, height}, stem);
 }
 
 }  // namespace bench

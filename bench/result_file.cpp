@@ -9,8 +9,8 @@
 #include <unordered_set>
 #include <utility>
 
-#include "bench/files.hpp"
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
 
 namespace bench {
 namespace {
@@ -303,14 +303,14 @@ Results parse_results(const std::string& text, const std::string& name) {
 }
 
 Results read_results(const std::filesystem::path& path) {
-    return parse_results(read_file(path, ResultLimits::bytes), path.string());
+    return parse_results(base::read_file(path, ResultLimits::bytes), path.string());
 }
 
 void write_results(const std::filesystem::path& path, const Json& context, const std::vector<Json>& rows) {
     Json file;
     file["context"] = context;
     file["benchmarks"] = rows;
-    write_file(path, file.dump(2) + "\n");
+    base::write_file(path, file.dump(2) + "\n");
 }
 
 }  // namespace bench

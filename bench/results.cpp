@@ -13,7 +13,7 @@
 #include <system_error>
 #include <unordered_map>
 
-#include "bench/files.hpp"
+#include "base/files.hpp"
 
 namespace bench {
 namespace {
@@ -227,7 +227,9 @@ std::string to_csv(const std::vector<Json>& rows) {
     return text;
 }
 
-void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) { write_file(path, to_csv(rows)); }
+void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
+    base::write_file(path, to_csv(rows));
+}
 
 std::vector<Group> group(const std::vector<Json>& rows) {
     std::vector<Group> groups;

@@ -5,7 +5,7 @@
 #include <charconv>
 #include <system_error>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace bench {
 

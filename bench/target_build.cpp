@@ -2,8 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/failure.hpp"
 #include "bench/row.hpp"
-#include "qemu/failure.hpp"
 
 namespace bench {
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "bench/deal.hpp"
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
 #include "bench/signals.hpp"
 #include "bench/target_plan.hpp"
 
@@ -30,7 +30,7 @@ std::vector<Compared<Outcome>> run_in_shares(const std::vector<qemu::PlannedRow>
     }
     const auto shares = deal(costs, jobs);
     std::vector<Compared<Outcome>> compared(plan.size());
-    parallel_for(shares.size(), jobs, [&](std::size_t s) {
+    base::parallel_for(shares.size(), jobs, [&](std::size_t s) {
         const std::vector<Outcome> outcomes = run(pick(plan, shares[s]));
         for (std::size_t i = 0; i < outcomes.size(); ++i) {
             const std::size_t at = shares[s][i];
@@ -136,7 +136,7 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
         replay_plan.push_back(replay.planned);
     }
 
-    Progress progress("emulated Cortex-M7", plan.counts.size() + replay_plan.size());
+    base::Progress progress("emulated Cortex-M7", plan.counts.size() + replay_plan.size());
     const auto done = [&] { progress.advance(); };
     const timing::TimingRequest request = timing_request(board.cores, sweep.modelled_cores());
     const std::vector<double> clocks = clocks_of(request);

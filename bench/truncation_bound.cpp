@@ -8,7 +8,7 @@
 #include <optional>
 #include <set>
 
-#include "bench/parallel.hpp"
+#include "base/parallel.hpp"
 #include "bench/results.hpp"
 #include "bench/signals.hpp"
 #include "glsum/weights.hpp"
@@ -132,7 +132,7 @@ TruncationBounds truncation_bounds(const Json& context, const std::vector<Json>&
             fmt::format("{} pairs of order and signal; bounds are made for up to {}", cases.size(), most_cases);
         return bounds;
     }
-    parallel_for(cases.size(), jobs, [&](std::size_t i) {
+    base::parallel_for(cases.size(), jobs, [&](std::size_t i) {
         const std::vector<std::size_t> lengths(cases[i].lengths.begin(), cases[i].lengths.end());
         cases[i].bounds = truncation_bounds(*to_number<double>(cases[i].order), cases[i].signal, lengths,
                                             samples->get<std::size_t>(), seed->get<std::uint64_t>());

@@ -8,7 +8,8 @@
 #include <optional>
 #include <thread>
 
-#include "bench/files.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
 #include "bench/peers/peer.hpp"
 #include "bench/run.hpp"
 #include "bench/signals.hpp"
@@ -19,7 +20,6 @@
 #include "cli/command.hpp"
 #include "cli/finish_run.hpp"
 #include "glsum/registry.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -188,7 +188,7 @@ void run(const Options& options, const std::vector<std::string>& flags) {
     const std::optional<bench::Shard> shard =
         options.shard ? std::optional(bench::parse_shard(*options.shard)) : std::nullopt;
     const std::filesystem::path out = options.out.empty() ? default_out(shard) : options.out;
-    bench::check_writable(out);
+    base::check_writable(out);
     std::optional<qemu::Board> board;
     if (sweep.wants("m7")) {
         board = built_board();

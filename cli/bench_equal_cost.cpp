@@ -6,9 +6,9 @@
 #include <memory>
 #include <thread>
 
+#include "base/files.hpp"
 #include "bench/context.hpp"
 #include "bench/equal_cost.hpp"
-#include "bench/files.hpp"
 #include "bench/result_file.hpp"
 #include "bench/signals.hpp"
 #include "bench/sweep.hpp"
@@ -35,7 +35,7 @@ void run(const Options& options) {
     wanted.signals = options.signals;
     wanted.samples = options.quick ? 1000 : wanted.samples;
     wanted.jobs = options.jobs;
-    bench::check_writable(options.out);
+    base::check_writable(options.out);
     const std::vector<bench::Json> rows = bench::measure_equal_cost(wanted);
     fmt::print(
         "Largest error in {} samples, relative to the largest exact sum, in double. A window of L taps takes L - 1 "

@@ -7,12 +7,13 @@
 #include <map>
 #include <optional>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/gnuplot.hpp"
+#include "base/progress.hpp"
 #include "base/rounded_up.hpp"
 #include "bench/context.hpp"
-#include "bench/files.hpp"
-#include "bench/gnuplot.hpp"
 #include "bench/host_line.hpp"
-#include "bench/progress.hpp"
 #include "bench/result_file.hpp"
 #include "bench/signals.hpp"
 #include "bench/sweep.hpp"
@@ -25,7 +26,6 @@
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
 
 namespace cli {
@@ -104,7 +104,7 @@ double error_on(const Cost& cost, const std::vector<double>& record, const std::
 
 // Every design on every signal. A record is made once, and its sums once for each order.
 void measure_errors(std::vector<Cost>& all, const std::vector<double>& orders, const std::vector<std::size_t>& horizons) {
-    bench::Progress progress("errors", horizons.size() * std::size(bench::signal_names) * orders.size());
+    base::Progress progress("errors", horizons.size() * std::size(bench::signal_names) * orders.size());
     for (const std::size_t samples : horizons) {
         for (const std::string_view signal : bench::signal_names) {
             const std::vector<double> record = bench::make_signal(signal, samples, bench::Sweep().seed);
@@ -195,7 +195,7 @@ void plot(const std::vector<double>& orders, const std::vector<Cost>& all, const
                 script += fmt::format("$d{} << EOD\n{}EOD\n", way, data_of(way, order, error));
                 lines.push_back(
                     fmt::format("$d{} using 1:2 with linespoints lw 1.8 pt {} ps 0.8 lc rgb \"{}\" title \"{}\"", way,
-                                5 + 2 * way, bench::palette[way], titles[way]));
+                                5 + 2 * way, base::palette[way], titles[way]));
             }
             script += fmt::format(
                 "set title \"order {}, error 10^{{{:.0f}}}\" offset 0,-0.6\nset xlabel \"{}\" offset 0,0.4\n{}\nplot "
@@ -205,7 +205,7 @@ void plot(const std::vector<double>& orders, const std::vector<Cost>& all, const
             key = "unset key";
         }
     }
-    bench::draw({script + "unset multiplot\n", width, height}, stem);
+    base::draw({script + "unset multiplot\n", width, height}, stem);
 }
 
 // Modelled cycles of the designs in single precision. What was measured once is known.
@@ -219,7 +219,7 @@ void measure_cycles(std::vector<Cost>& all, const std::string& core) {
                             qemu::calls_to_measure(kernel, cost.modes->length()), cost.modes->modes});
         }
     }
-    bench::Progress progress("emulated Cortex-M7", plan.size());
+    base::Progress progress("emulated Cortex-M7", plan.size());
     const auto measured = qemu::measure(
         built_board(), plan, {bench::make_signal("noise", 1000, bench::Sweep().seed)}, [&] { progress.advance(); },
         qemu::Counting::blocks, bench::timing_request(cores_folder(), {core}));
@@ -239,9 +239,9 @@ void run(const Options& options) {
                           fmt::format("--orders: expected orders in (-1, 2) that are not whole, found {}", order));
         }
     }
-    bench::check_writable(options.out);
+    base::check_writable(options.out);
     std::vector<Cost> all;
-    bench::Progress progress("designs", orders.size() * horizons.size() * std::size(errors));
+    base::Progress progress("designs", orders.size() * horizons.size() * std::size(errors));
     for (const double order : orders) {
         const std::vector<double> weights = drive::record_weights(order, horizons.back() + 1);
         for (const double error : errors) {

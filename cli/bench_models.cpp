@@ -14,9 +14,10 @@
 #include <optional>
 #include <thread>
 
+#include "base/failure.hpp"
+#include "base/progress.hpp"
 #include "bench/build_info.hpp"
 #include "bench/context.hpp"
-#include "bench/progress.hpp"
 #include "bench/result_file.hpp"
 #include "bench/results.hpp"
 #include "bench/target_rows.hpp"
@@ -27,7 +28,6 @@
 #include "drive/realtime.hpp"
 #include "drive/response.hpp"
 #include "drive/simulation.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/model_run.hpp"
 
 namespace cli {
@@ -379,7 +379,7 @@ void run(const Options& options) {
                 drive::realtime_name("ring_...", drive::Writing::apart), fmt::join(options.kernels, ", ")));
     }
     {
-        bench::Progress progress("models here", cases.size());
+        base::Progress progress("models here", cases.size());
         for (Case& one : cases) {
             run_here(one);
             progress.advance();
@@ -392,7 +392,7 @@ void run(const Options& options) {
                 chosen.push_back(i);
             }
         }
-        bench::Progress progress("models on the emulated Cortex-M7", chosen.size());
+        base::Progress progress("models on the emulated Cortex-M7", chosen.size());
         // As many at once as the firmware has room for.
         constexpr std::size_t at_once = 20;
         for (std::size_t first = 0; first < chosen.size(); first += at_once) {

@@ -11,11 +11,12 @@
 #include <memory>
 #include <optional>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/progress.hpp"
 #include "bench/context.hpp"
-#include "bench/files.hpp"
 #include "bench/host_line.hpp"
 #include "bench/peers/fftw.hpp"
-#include "bench/progress.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/result_file.hpp"
 #include "bench/signals.hpp"
@@ -26,7 +27,6 @@
 #include "drive/real_transform.hpp"
 #include "drive/whole_record.hpp"
 #include "glsum/registry.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -183,7 +183,7 @@ void measure_errors(double order, const std::vector<std::string>& signals, std::
     for (const Size& size : sizes) {
         work += signals.size() * points_of(size.samples).size();
     }
-    bench::Progress progress(fmt::format("exact sums of order {}", order), work);
+    base::Progress progress(fmt::format("exact sums of order {}", order), work);
     const std::vector<reference::Real> exact_weights = reference::weights(reference::Real(order), sizes.back().samples);
     for (Size& size : sizes) {
         for (const std::string& signal : signals) {
@@ -295,7 +295,7 @@ void run(const Options& options) {
         to_rising(options.records, {"--records", "samples", fewest_samples, most_samples});
     const std::vector<double>& orders = options.orders;
     const std::vector<std::string>& signals = options.signals;
-    bench::check_writable(options.out);
+    base::check_writable(options.out);
     std::string text = fmt::format(
         "Sums with full memory over whole records in double: median of {} interleaved turns, processor time; {}.\n"
         "Planning is outside the timing. Errors relative to the largest sum, against 50 digits at {} samples of each "
@@ -317,7 +317,7 @@ void run(const Options& options) {
             size.hows = make_hows(order, size.samples);
         }
         measure_errors(order, signals, sizes);
-        bench::Progress progress(fmt::format("turns at order {}", order), options.repetitions * sizes.size());
+        base::Progress progress(fmt::format("turns at order {}", order), options.repetitions * sizes.size());
         for (unsigned turn = 0; turn < options.repetitions; ++turn) {
             for (Size& size : sizes) {
                 for (How& how : size.hows) {

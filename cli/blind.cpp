@@ -5,15 +5,15 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "bench/files.hpp"
-#include "bench/progress.hpp"
-#include "bench/sha256.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/progress.hpp"
+#include "base/sha256.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/facts.hpp"
 #include "drive/stand/blind/without_model.hpp"
 #include "gap/drive/start.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 
@@ -40,16 +40,16 @@ void write_set(const std::string& sealed, const std::vector<Folder>& cases, std:
                const std::filesystem::path& folder) {
     std::error_code error;
     std::filesystem::create_directories(folder, error);
-    bench::write_file(folder / "truth.sealed.json", sealed);
-    const std::string hash = bench::sha256_of(folder / "truth.sealed.json");
-    bench::write_file(folder / "truth.sha256", bench::sha256_line(hash, "truth.sealed.json"));
+    base::write_file(folder / "truth.sealed.json", sealed);
+    const std::string hash = base::sha256_of(folder / "truth.sealed.json");
+    base::write_file(folder / "truth.sha256", base::sha256_line(hash, "truth.sealed.json"));
     fmt::print("sha256 of the sealed truth: {}\n", hash);
     std::fflush(stdout);
     for (std::size_t i = 0; i < cases.size(); ++i) {
         const auto place = folder / stand::blind::name_of_case(i + 1);
         std::filesystem::create_directories(place, error);
         for (const auto& [name, text] : cases[i].files) {
-            bench::write_file(place / name, text);
+            base::write_file(place / name, text);
         }
     }
     fmt::print("{} cases, seed {}, in {}\n", cases.size(), seed, folder.string());
@@ -78,7 +78,7 @@ void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, con
     std::vector<stand::blind::Truth> truths;
     std::vector<Folder> folders;
     {
-        bench::Progress progress("blind cases", count);
+        base::Progress progress("blind cases", count);
         for (auto& made : stand::blind::make_cases(count, seed, jobs, [&] { progress.advance(); })) {
             truths.push_back(std::move(made.truth));
             folders.push_back({{{"model.json", std::move(made.model)},
@@ -94,7 +94,7 @@ void write_open_cases(std::size_t count, std::uint64_t seed, unsigned jobs, cons
     std::vector<stand::blind::OpenTruth> truths;
     std::vector<Folder> folders;
     {
-        bench::Progress progress("blind cases", count);
+        base::Progress progress("blind cases", count);
         for (auto& made : stand::blind::make_open_cases(count, seed, jobs, [&] { progress.advance(); })) {
             truths.push_back(std::move(made.truth));
             Folder& own = folders.emplace_back(Folder{std::move(made.records)});
@@ -125,7 +125,7 @@ gap::Question blind_question(const std::filesystem::path& folder) {
     }
     constexpr std::size_t most_bytes = 1U << 16U;
     const auto told = folder / "case.json";
-    const auto facts = stand::blind::parse_facts(bench::read_file(told, most_bytes), told.string());
+    const auto facts = stand::blind::parse_facts(base::read_file(told, most_bytes), told.string());
     return question_without_model(facts, logs("train"), logs("validate"));
 }
 

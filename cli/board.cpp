@@ -1,8 +1,8 @@
 #include "cli/board.hpp"
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
 #include "bench/build_info.hpp"
-#include "bench/files.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 
@@ -27,7 +27,7 @@ std::optional<qemu::Board> board_if_there() {
 }
 
 std::vector<qemu::MeasuredCycles> read_measured_cycles(const std::filesystem::path& path) {
-    return qemu::parse_measured_cycles(bench::read_file(path, qemu::MeasuredLimits::bytes), path.string());
+    return qemu::parse_measured_cycles(base::read_file(path, qemu::MeasuredLimits::bytes), path.string());
 }
 
 }  // namespace cli

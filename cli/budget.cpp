@@ -7,11 +7,11 @@
 #include <memory>
 #include <thread>
 
+#include "base/failure.hpp"
 #include "bench/build_info.hpp"
 #include "bench/signals.hpp"
 #include "cli/board.hpp"
 #include "glsum/weights.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/failure.hpp"
 #include "bench/build_info.hpp"
 #include "bench/signals.hpp"
 #include "glsum/weights.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 

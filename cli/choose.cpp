@@ -5,13 +5,13 @@
 #include <memory>
 #include <optional>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
 #include "bench/choose/brute_force.hpp"
 #include "bench/choose/report.hpp"
-#include "bench/files.hpp"
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -49,12 +49,12 @@ void run(const Budget& budget, const std::string& json) {
     }
     const choose::Question question = to_question(budget);
     if (!json.empty()) {
-        bench::check_writable(json);
+        base::check_writable(json);
     }
     const choose::Answer answer = choose::answer(question, board_for(question));
     fmt::print("{}", choose::to_table(answer, isatty(STDOUT_FILENO) == 1));
     if (!json.empty()) {
-        bench::write_file(json, choose::to_json(answer).dump(2) + "\n");
+        base::write_file(json, choose::to_json(answer).dump(2) + "\n");
     }
     if (!answer.choice.chosen) {
         throw glsum::Failure(glsum::Exit::check_failed, choose::nearest_miss(answer));

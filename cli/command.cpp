@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <optional>
 
+#include "base/failure.hpp"
 #include "cli/help_page.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {

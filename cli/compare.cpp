@@ -4,11 +4,11 @@
 #include <memory>
 #include <optional>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
 #include "bench/build_info.hpp"
-#include "bench/files.hpp"
 #include "bench/gate/compare.hpp"
 #include "cli/command.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -42,7 +42,7 @@ void run(const Options& options) {
         return;
     }
     if (options.json->given()) {
-        bench::write_file(options.json_file, bench::gate::to_json(comparison));
+        base::write_file(options.json_file, bench::gate::to_json(comparison));
     }
     fmt::print("compare: A is {}, B is {}\n{}", options.a.string(), options.b.string(),
                bench::gate::to_table(comparison, options.shown));

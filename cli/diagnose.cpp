@@ -6,9 +6,10 @@
 #include <optional>
 #include <thread>
 
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
-#include "bench/sha256.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "base/sha256.hpp"
 #include "cli/blind.hpp"
 #include "cli/command.hpp"
 #include "cli/diagnose_cycles.hpp"
@@ -17,7 +18,6 @@
 #include "gap/drive/diagnose.hpp"
 #include "gap/drive/start.hpp"
 #include "gap/drive/verdict.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -90,8 +90,8 @@ void run_batch(const std::filesystem::path& set, unsigned jobs) {
     std::vector<std::string> verdicts(cases.size());
     std::vector<std::string> failures(cases.size());
     {
-        bench::Progress progress("cases", cases.size());
-        bench::parallel_for(cases.size(), jobs, [&](std::size_t i) {
+        base::Progress progress("cases", cases.size());
+        base::parallel_for(cases.size(), jobs, [&](std::size_t i) {
             try {
                 const gap::Answer answer = gap::diagnose(blind_question(cases[i]), [](const std::string&) {});
                 put(gap::to_json(answer), cases[i] / "verdict.json");
@@ -112,7 +112,7 @@ void run_batch(const std::filesystem::path& set, unsigned jobs) {
             continue;
         }
         fmt::print("{}  {}\n", name, verdicts[i]);
-        hashes += bench::sha256_line(bench::sha256_of(cases[i] / "verdict.json"), name + "/verdict.json");
+        hashes += base::sha256_line(base::sha256_of(cases[i] / "verdict.json"), name + "/verdict.json");
     }
     put(hashes, set / "verdicts.sha256");
     if (failed > 0) {

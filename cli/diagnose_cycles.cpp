@@ -9,13 +9,13 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/sha256.hpp"
+#include "base/failure.hpp"
+#include "base/sha256.hpp"
 #include "cli/board.hpp"
 #include "cli/drive_files.hpp"
 #include "gap/cycles/blind.hpp"
 #include "gap/cycles/explain.hpp"
 #include "gap/cycles/verdict.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
 #include "qemu/silicon.hpp"
 
@@ -189,7 +189,7 @@ void run_blind(const Options& options) {
     }
     put(truths.dump(2) + "\n", options.out / "truth.json");
     fmt::print("{} cases of {}, sealed: sha256 {}\n\n  {:<10} {:<10} {:<44} {}\n", secrets.size(), core,
-               bench::sha256_of(options.out / "truth.json"), "case", "kind", "was done", "was found");
+               base::sha256_of(options.out / "truth.json"), "case", "kind", "was done", "was found");
     std::map<std::string, std::pair<std::size_t, std::size_t>> right;  // of each kind, of how many
     for (std::size_t c = 0; c < secrets.size(); ++c) {
         const std::filesystem::path file = options.out / (names[c] + ".csv");

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "bench/files.hpp"
+#include "base/files.hpp"
 #include "drive/model_file.hpp"
 #include "drive/stability.hpp"
 
@@ -36,11 +36,11 @@ void add_other_column_options(Command& command, drive::Columns& columns) {
 }  // namespace
 
 drive::Model read_model(const std::filesystem::path& path) {
-    return drive::parse_model(bench::read_file(path, drive::most_model_bytes), path.string());
+    return drive::parse_model(base::read_file(path, drive::most_model_bytes), path.string());
 }
 
 drive::Log read_log(const std::filesystem::path& path, const drive::Columns& columns) {
-    drive::Log log = drive::parse_log(bench::read_file(path, drive::LogLimits::bytes), path.string(), columns);
+    drive::Log log = drive::parse_log(base::read_file(path, drive::LogLimits::bytes), path.string(), columns);
     for (const std::string& warning : log.warnings) {
         fmt::print(stderr, "glsum: warning: {}\n", warning);
     }
@@ -106,7 +106,7 @@ void put(const std::string& text, const std::filesystem::path& path) {
     if (path.empty()) {
         std::fputs(text.c_str(), stdout);
     } else {
-        bench::write_file(path, text);
+        base::write_file(path, text);
     }
 }
 

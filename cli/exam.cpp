@@ -5,15 +5,15 @@
 
 #include <map>
 
-#include "bench/files.hpp"
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
-#include "bench/sha256.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "base/sha256.hpp"
 #include "cli/drive_files.hpp"
 #include "gap/drive/diagnose.hpp"
 #include "gap/exam/ask.hpp"
 #include "gap/exam/score.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -52,17 +52,17 @@ double cpu_seconds() {
 const char* answer(const exam::Asked& asked, const path& data, const path& folder) {
     try {
         const gap::Question question = exam::to_question(asked, read_given(asked, data), 1);
-        bench::write_file(folder / verdict_file,
-                          exam::to_answer(asked, gap::diagnose(question, [](const std::string&) {})));
+        base::write_file(folder / verdict_file,
+                         exam::to_answer(asked, gap::diagnose(question, [](const std::string&) {})));
         return verdict_file;
     } catch (const glsum::Failure& failure) {
-        bench::write_file(folder / refusal_file, fmt::format("{}\n", failure.what()));
+        base::write_file(folder / refusal_file, fmt::format("{}\n", failure.what()));
         return refusal_file;
     }
 }
 
 exam::Reply read_reply(const path& file) {
-    std::string text = bench::read_file(file, exam::Limits::bytes);
+    std::string text = base::read_file(file, exam::Limits::bytes);
     if (file.filename() == verdict_file) {
         return exam::parse_reply(text, file.string());
     }
@@ -76,7 +76,7 @@ void run_exam(const path& manifest, const path& data, const path& out, unsigned 
         throw glsum::Failure(glsum::Exit::bad_input, "diagnose --exam: expected --out DIR for the answers");
     }
     const std::vector<exam::Asked> asked =
-        exam::parse_manifest(bench::read_file(manifest, exam::Limits::bytes), manifest.string());
+        exam::parse_manifest(base::read_file(manifest, exam::Limits::bytes), manifest.string());
     std::error_code error;
     if (std::filesystem::exists(out, error) && !std::filesystem::is_empty(out, error)) {
         throw glsum::Failure(
@@ -89,8 +89,8 @@ void run_exam(const path& manifest, const path& data, const path& out, unsigned 
     std::vector<std::string> files(asked.size());
     std::vector<double> cpu_s(asked.size());
     {
-        bench::Progress progress("questions", asked.size());
-        bench::parallel_for(asked.size(), jobs, [&](std::size_t i) {
+        base::Progress progress("questions", asked.size());
+        base::parallel_for(asked.size(), jobs, [&](std::size_t i) {
             const double began_s = cpu_seconds();
             files[i] = answer(asked[i], data.empty() ? manifest.parent_path() : data, out / asked[i].name);
             cpu_s[i] = cpu_seconds() - began_s;
@@ -103,10 +103,10 @@ void run_exam(const path& manifest, const path& data, const path& out, unsigned 
         const exam::Reply reply = read_reply(out / file);
         fmt::print("{}  {}{}  ({:.1f} CPU s)\n", asked[i].name, reply.verdict,
                    reply.reason.empty() ? "" : ": " + reply.reason, cpu_s[i]);
-        hashes += bench::sha256_line(bench::sha256_of(out / file), file);
+        hashes += base::sha256_line(base::sha256_of(out / file), file);
     }
-    bench::write_file(out / hashes_file, hashes);
-    fmt::print("sha256 of the answers' hashes: {}\n", bench::sha256_of(out / hashes_file));
+    base::write_file(out / hashes_file, hashes);
+    fmt::print("sha256 of the answers' hashes: {}\n", base::sha256_of(out / hashes_file));
 }
 
 void score_exam(const path& answers, const path& truth, const path& json) {
@@ -117,7 +117,7 @@ void score_exam(const path& answers, const path& truth, const path& json) {
     const path noted = answers / hashes_file;
     std::map<std::string, exam::Reply> replies;
     for (const auto& [hash, file] :
-         bench::parse_sha256_lines(bench::read_file(noted, exam::Limits::bytes), noted.string())) {
+         base::parse_sha256_lines(base::read_file(noted, exam::Limits::bytes), noted.string())) {
         const path place(file);
         const path name = place.filename();
         if (std::distance(place.begin(), place.end()) != 2 || *place.begin() == ".." ||
@@ -125,7 +125,7 @@ void score_exam(const path& answers, const path& truth, const path& json) {
             throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: expected NAME/{} or NAME/{}, found {}",
                                                                      noted.string(), verdict_file, refusal_file, file));
         }
-        const std::string found = bench::sha256_of(answers / place);
+        const std::string found = base::sha256_of(answers / place);
         if (found != hash) {
             throw glsum::Failure(glsum::Exit::bad_input,
                                  fmt::format("{}: expected the sha256 {} of {}, found {}: it was changed since",
@@ -137,7 +137,7 @@ void score_exam(const path& answers, const path& truth, const path& json) {
         }
     }
     std::vector<exam::Scored> scored;
-    for (const exam::Truth& known : exam::parse_truth(bench::read_file(truth, exam::Limits::bytes), truth.string())) {
+    for (const exam::Truth& known : exam::parse_truth(base::read_file(truth, exam::Limits::bytes), truth.string())) {
         const auto reply = replies.find(known.name);
         if (reply == replies.end()) {
             throw glsum::Failure(glsum::Exit::bad_input,
@@ -152,7 +152,7 @@ void score_exam(const path& answers, const path& truth, const path& json) {
     }
     fmt::print("{}", exam::to_text(scored));
     if (!json.empty()) {
-        bench::write_file(json, exam::to_json(scored));
+        base::write_file(json, exam::to_json(scored));
     }
 }
 

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/failure.hpp"
 #include "bench/discretisation_table.hpp"
 #include "bench/plot.hpp"
 #include "bench/results.hpp"
 #include "bench/table.hpp"
 #include "bench/truncation_bound.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 

@@ -8,13 +8,13 @@
 #include <optional>
 #include <utility>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
 #include "bench/build_info.hpp"
-#include "bench/files.hpp"
 #include "bench/gate/baseline.hpp"
 #include "bench/gate/gate.hpp"
 #include "bench/gate/outputs.hpp"
 #include "cli/command.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -122,7 +122,7 @@ void run(const Options& options, const std::vector<Output>& outputs) {
             to_stdout = true;
             fmt::print("{}", output.text(verdict));
         } else {
-            bench::write_file(output.file, output.text(verdict));
+            base::write_file(output.file, output.text(verdict));
         }
     }
     if (!to_stdout && verdict.refusal.empty()) {

@@ -7,9 +7,10 @@
 #include <memory>
 #include <optional>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
 #include "bench/choose/report.hpp"
 #include "bench/designs.hpp"
-#include "bench/files.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/generate/provenance.hpp"
 #include "bench/generate/verify.hpp"
@@ -17,7 +18,6 @@
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -115,7 +115,7 @@ void run(const Options& options, Budget budget, const std::string& command) {
         refuse("--out: expected a file to write (or --verify alone)");
     }
     if (!options.out.empty()) {
-        bench::check_writable(options.out);
+        base::check_writable(options.out);
     }
     std::vector<generate::Spec> specs;
     std::optional<choose::Answer> answer;
@@ -147,7 +147,7 @@ void run(const Options& options, Budget budget, const std::string& command) {
     if (!options.out.empty()) {
         specs.front().provenance = generate::provenance(*answer, command);
         const std::string header = generate::make_header(specs.front());
-        bench::write_file(options.out, header);
+        base::write_file(options.out, header);
         const generate::Spec& spec = specs.front();
         fmt::print("{} with {} taps in {}\n", spec.kernel,
                    bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(), options.out);

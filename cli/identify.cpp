@@ -11,9 +11,10 @@
 #include <optional>
 #include <thread>
 
-#include "bench/files.hpp"
-#include "bench/gnuplot.hpp"
-#include "bench/progress.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/gnuplot.hpp"
+#include "base/progress.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/coverage.hpp"
@@ -22,7 +23,6 @@
 #include "drive/model_file.hpp"
 #include "drive/pictures.hpp"
 #include "drive/static_characteristic.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -183,7 +183,7 @@ void show_coverage(const Options& options) {
     const drive::Model truth = read_model(options.start);
     drive::Coverage found;
     {
-        bench::Progress progress("fitting", options.coverage);
+        base::Progress progress("fitting", options.coverage);
         found = drive::measure_coverage(truth, to_kind(options.form), options.acquisition, options.coverage,
                                         options.fit.seed, options.fit.jobs, [&] { progress.advance(); });
     }
@@ -236,12 +236,12 @@ void show_characteristic(const Options& options) {
         found.intercept, found.slope, 100.0 * found.largest_bend);
     fmt::print("{}", text);
     if (!options.out.empty()) {
-        bench::write_file(options.out, drive::to_csv(found));
+        base::write_file(options.out, drive::to_csv(found));
     }
     if (!options.plot.empty()) {
-        bench::draw(drive::picture_of_characteristic(
-                        found, "Static characteristic of " + options.logs.front().filename().string()),
-                    options.plot);
+        base::draw(drive::picture_of_characteristic(
+                       found, "Static characteristic of " + options.logs.front().filename().string()),
+                   options.plot);
     }
 }
 
@@ -250,7 +250,7 @@ void run(const Options& given) {
     options.fit.prediction_error = options.method == "prediction-error";
     options.fit.profile = options.intervals == "profile";
     // Intervals of a long log take most of a minute.
-    std::optional<bench::Progress> intervals;
+    std::optional<base::Progress> intervals;
     const auto begin = std::chrono::steady_clock::now();
     options.fit.on_interval_end = [&](std::size_t done, std::size_t all) {
         if (intervals) {
@@ -277,7 +277,7 @@ void run(const Options& given) {
     }
     std::optional<drive::Model> controller;
     if (!options.controller.empty()) {
-        controller = drive::parse_controller(bench::read_file(options.controller, drive::most_model_bytes),
+        controller = drive::parse_controller(base::read_file(options.controller, drive::most_model_bytes),
                                              options.controller.string());
         options.columns.takes_reference = true;
     } else if (!options.columns.reference.empty()) {
@@ -334,8 +334,7 @@ void run(const Options& given) {
         const std::vector<drive::Curve> curves{{"measured", record.time_s, record.output, true},
                                                {"start", record.time_s, drive::respond_to(start, record)},
                                                {"fitted", record.time_s, fitted}};
-        bench::draw(drive::picture_of_curves(curves, "fitted: " + drive::short_text(fit.model), "output"),
-                    options.plot);
+        base::draw(drive::picture_of_curves(curves, "fitted: " + drive::short_text(fit.model), "output"), options.plot);
     }
 }
 

@@ -5,11 +5,11 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/indices.hpp"
 #include "drive/response.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {

@@ -5,8 +5,8 @@
 #include <exception>
 #include <string_view>
 
+#include "base/failure.hpp"
 #include "cli/command.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -3,8 +3,8 @@
 
 #include <memory>
 
+#include "base/files.hpp"
 #include "bench/build_info.hpp"
-#include "bench/files.hpp"
 #include "cli/command.hpp"
 #include "cli/finish_run.hpp"
 
@@ -19,7 +19,7 @@ struct Options {
 };
 
 void run(const Options& options) {
-    bench::check_writable(options.out);
+    base::check_writable(options.out);
     std::vector<bench::NamedResults> shards;
     for (const auto& path : options.shards) {
         shards.push_back({path.string(), bench::read_results(path)});

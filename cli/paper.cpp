@@ -4,8 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/gnuplot.hpp"
 #include "bench/build_info.hpp"
-#include "bench/gnuplot.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/paper.hpp"
@@ -69,8 +69,8 @@ void run(const Options& options) {
         put(text, options.out);
     }
     if (!options.plots.empty()) {
-        bench::draw(drive::picture_of_step_responses(models), options.plots / "step_responses");
-        bench::draw(drive::picture_of_precisions(models.niopdt), options.plots / "precision");
+        base::draw(drive::picture_of_step_responses(models), options.plots / "step_responses");
+        base::draw(drive::picture_of_precisions(models.niopdt), options.plots / "precision");
     }
 }
 

@@ -6,14 +6,14 @@
 #include <optional>
 #include <thread>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
 #include "bench/build_info.hpp"
-#include "bench/files.hpp"
 #include "bench/report/best.hpp"
 #include "bench/report/classic.hpp"
 #include "bench/report/report.hpp"
 #include "bench/result_file.hpp"
 #include "cli/command.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -48,7 +48,7 @@ void run(Options options) {
         throw glsum::Failure(glsum::Exit::bad_input,
                              fmt::format("--out: expected a name that ends in .html, found {}", options.out.string()));
     }
-    bench::check_writable(options.out);
+    base::check_writable(options.out);
     const bench::report::Input input = read(options.files[0], options.jobs);
     const auto other = options.files.size() > 1 ? std::optional(read(options.files[1], options.jobs)) : std::nullopt;
     const auto written = bench::report::write_report(input, other ? &*other : nullptr, options.out);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <charconv>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace cli {
 

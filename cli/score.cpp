@@ -8,17 +8,17 @@
 #include <optional>
 #include <thread>
 
-#include "bench/files.hpp"
-#include "bench/gnuplot.hpp"
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
-#include "bench/sha256.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/gnuplot.hpp"
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "base/sha256.hpp"
 #include "cli/blind.hpp"
 #include "cli/exam.hpp"
 #include "drive/stand/blind/judge.hpp"
 #include "drive/stand/blind/score.hpp"
 #include "gap/drive/oracle.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -43,17 +43,17 @@ struct Options {
 
 // The text of a file that has the hash which was written down for it.
 std::string read_hashed(const std::filesystem::path& path, const std::string& expected, const std::string& noted_in) {
-    const std::string found = bench::sha256_of(path);
+    const std::string found = base::sha256_of(path);
     if (found != expected) {
         throw Failure(Exit::bad_input, fmt::format("{}: expected the sha256 {} of {}, found {}: it was changed since",
                                                    path.string(), expected, noted_in, found));
     }
-    return bench::read_file(path, most_bytes);
+    return base::read_file(path, most_bytes);
 }
 
 std::vector<blind::SealedCase> open_truth(const Options& options) {
     const auto noted = options.folder / "truth.sha256";
-    const auto lines = bench::parse_sha256_lines(bench::read_file(noted, most_bytes), noted.string());
+    const auto lines = base::parse_sha256_lines(base::read_file(noted, most_bytes), noted.string());
     if (lines.size() != 1 || lines[0].second != "truth.sealed.json") {
         throw Failure(Exit::bad_input, fmt::format("{}: expected one line, of truth.sealed.json, found {}",
                                                    noted.string(), lines.size()));
@@ -69,7 +69,7 @@ std::vector<blind::SealedCase> open_truth(const Options& options) {
 std::vector<blind::Answer> open_verdicts(const Options& options, const std::vector<blind::SealedCase>& truths) {
     const auto noted = options.folder / "verdicts.sha256";
     std::map<std::string, std::string> hashes;
-    for (const auto& [hash, file] : bench::parse_sha256_lines(bench::read_file(noted, most_bytes), noted.string())) {
+    for (const auto& [hash, file] : base::parse_sha256_lines(base::read_file(noted, most_bytes), noted.string())) {
         if (!hashes.emplace(file, hash).second) {
             throw Failure(Exit::bad_input, fmt::format("{}: {} is there twice", noted.string(), file));
         }
@@ -99,8 +99,8 @@ std::vector<std::optional<gap::Foresight>> foresee_all(const Options& options,
                                                        const std::vector<blind::SealedCase>& truths) {
     std::vector<std::optional<gap::Foresight>> all(truths.size());
     std::vector<std::string> faults(truths.size());
-    bench::Progress progress("true effects refitted", truths.size());
-    bench::parallel_for(truths.size(), options.jobs, [&](std::size_t i) {
+    base::Progress progress("true effects refitted", truths.size());
+    base::parallel_for(truths.size(), options.jobs, [&](std::size_t i) {
         try {
             all[i] = gap::foresee(blind_question(options.folder / truths[i].name), truths[i].effects);
         } catch (const Failure& failure) {
@@ -149,10 +149,10 @@ void tell_goals(const Options& options, const std::vector<std::string>& missed) 
 
 void write_results(const Options& options, const std::string& json, const std::vector<blind::Claim>& claims) {
     if (!options.json.empty()) {
-        bench::write_file(options.json, json);
+        base::write_file(options.json, json);
     }
     if (!options.plot.empty()) {
-        bench::draw(blind::picture_of_calibration(claims), options.plot);
+        base::draw(blind::picture_of_calibration(claims), options.plot);
     }
 }
 

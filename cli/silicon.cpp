@@ -6,10 +6,10 @@
 #include <map>
 #include <memory>
 
+#include "base/failure.hpp"
 #include "bench/build_info.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
 #include "qemu/silicon.hpp"
 

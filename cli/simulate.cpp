@@ -8,14 +8,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "bench/gnuplot.hpp"
+#include "base/failure.hpp"
+#include "base/gnuplot.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/exact_step_response.hpp"
 #include "drive/pictures.hpp"
 #include "drive/response.hpp"
 #include "drive/simulation.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -110,7 +110,7 @@ bool tell_of_effects(const drive::Model& model, drive::Log record, const Options
         put(drive::to_csv(record), options.out);
     }
     if (!options.plot.empty()) {
-        bench::draw(
+        base::draw(
             drive::picture_of_curves({{"with effects", record.time_s, record.output}}, drive::to_text(model), "output"),
             options.plot);
     }
@@ -204,7 +204,7 @@ void run(Options options) {
         if (compared) {
             curves.push_back({"exact", record.time_s, exact});
         }
-        bench::draw(drive::picture_of_curves(curves, drive::to_text(model), "output"), options.plot);
+        base::draw(drive::picture_of_curves(curves, drive::to_text(model), "output"), options.plot);
     }
     if (!std::isfinite(record.output.back())) {
         throw Failure(Exit::check_failed,

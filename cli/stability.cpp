@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "bench/gnuplot.hpp"
+#include "base/failure.hpp"
+#include "base/gnuplot.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/pictures.hpp"
 #include "drive/stability.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -67,7 +67,7 @@ void run(const Options& options) {
         put(text, options.out);
     }
     if (!options.plot.empty()) {
-        bench::draw(drive::picture_of_roots(judged, drive::to_text(model)), options.plot);
+        base::draw(drive::picture_of_roots(judged, drive::to_text(model)), options.plot);
     }
     if (!judged.agree()) {
         throw glsum::Failure(

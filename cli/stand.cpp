@@ -9,14 +9,14 @@
 #include <cstdio>
 #include <memory>
 
-#include "bench/files.hpp"
-#include "bench/gnuplot.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/gnuplot.hpp"
 #include "cli/blind.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/pictures.hpp"
 #include "drive/stand/experiment.hpp"
-#include "qemu/failure.hpp"
 
 namespace cli {
 namespace {
@@ -54,7 +54,7 @@ double to_number(const std::string& text, const std::string& word) {
 stand::Stand build_stand(const Options& options) {
     stand::Stand built;
     if (!options.stand.empty()) {
-        built = stand::parse_stand(bench::read_file(options.stand, 1U << 20U), options.stand.string());
+        built = stand::parse_stand(base::read_file(options.stand, 1U << 20U), options.stand.string());
     }
     for (const std::string& effect : options.without) {
         stand::remove_effect(built, effect);
@@ -91,7 +91,7 @@ void run(const Options& options) {
     }
     const stand::Stand built = build_stand(options);
     if (!options.model.empty()) {
-        bench::write_file(options.model, stand::linear_model_json(built));
+        base::write_file(options.model, stand::linear_model_json(built));
     }
     if (options.show) {
         put(stand::to_toml(built), options.out);
@@ -138,8 +138,8 @@ void run(const Options& options) {
             }
             curves.push_back({"true angle", records[0].time_s, angle});
         }
-        bench::draw(drive::picture_of_curves(curves, "Virtual stand: " + options.experiment.name, "angle [rad]"),
-                    options.plot);
+        base::draw(drive::picture_of_curves(curves, "Virtual stand: " + options.experiment.name, "angle [rad]"),
+                   options.plot);
     }
 }
 

@@ -6,14 +6,14 @@
 #include <map>
 #include <memory>
 
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/sha256.hpp"
 #include "bench/build_info.hpp"
-#include "bench/files.hpp"
 #include "bench/row.hpp"
-#include "bench/sha256.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
 #include "qemu/elf.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/timed_program.hpp"
 
 namespace cli {
@@ -116,7 +116,7 @@ void run(const Options& options) {
     elf.check_runs_on_cortex_m7();
     const qemu::Function function = elf.function(options.function);
     if (!options.json.empty()) {
-        bench::check_writable(options.json);
+        base::check_writable(options.json);
     }
     const qemu::Emulator emulator{source / "targets" / "mps2-an500" / "emulate", std::chrono::seconds(options.timeout),
                                   std::chrono::seconds(10)};
@@ -152,7 +152,7 @@ void run(const Options& options) {
 
     Json json;
     json["schema"] = "glsum-time-1";
-    json["elf_sha256"] = bench::sha256_of(options.elf);
+    json["elf_sha256"] = base::sha256_of(options.elf);
     json["function"] = function.name;
     json["core"] = core.name;
     json["placement"] = {{"code", timing::name_of(core.placement.code)},
@@ -226,7 +226,7 @@ void run(const Options& options) {
         fmt::print("{} calls itself: the inner calls count as part of the outer\n", function.name);
     }
     if (!options.json.empty()) {
-        bench::write_file(options.json, json.dump(1) + "\n");
+        base::write_file(options.json, json.dump(1) + "\n");
     }
 }
 

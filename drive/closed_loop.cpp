@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/swings.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

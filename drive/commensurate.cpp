@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <numeric>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace drive {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <map>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace drive {
 namespace {

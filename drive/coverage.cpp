@@ -7,9 +7,9 @@
 #include <numbers>
 #include <random>
 
-#include "bench/parallel.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
 #include "drive/quantiles.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {
@@ -109,7 +109,7 @@ Coverage measure_coverage(const Model& truth, Kind kind, const Acquisition& acqu
         return (sum - found.sum_of_squares) / (parameters * variance) <= fisher_f_quantile(parameters, freedom, 0.95);
     };
     std::mutex mutex;
-    bench::parallel_for(runs, jobs, [&](std::size_t run) {
+    base::parallel_for(runs, jobs, [&](std::size_t run) {
         try {
             const Record record = to_record(take_log(truth, acquisition, seed_of(set, run)));
             const Fit found = fit_from_nothing(kind, {record}, {.profile = true});

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/failure.hpp"
 #include "drive/solve.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <utility>
 
+#include "base/failure.hpp"
 #include "drive/swings.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

@@ -9,13 +9,13 @@
 #include <optional>
 #include <random>
 
-#include "bench/parallel.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
 #include "drive/descend.hpp"
 #include "drive/predictor.hpp"
 #include "drive/profile.hpp"
 #include "drive/quantiles.hpp"
 #include "drive/stability.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {
@@ -246,7 +246,7 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
     const auto attempt = [&](std::size_t more, int iterations) {
         const std::size_t before = attempts.size();
         attempts.resize(before + more);
-        bench::parallel_for(more, options.jobs, [&](std::size_t k) {
+        base::parallel_for(more, options.jobs, [&](std::size_t k) {
             const std::size_t i = before + k;
             attempts[i] =
                 descend(form, predictor, i == 0 ? start : random_start(form, predictor, longest_s, options.seed + i),

@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace drive {
 namespace {

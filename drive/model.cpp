@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace drive {
 namespace {

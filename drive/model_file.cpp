@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "drive/controller.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

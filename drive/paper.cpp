@@ -179,7 +179,7 @@ PaperValue value_at_5_s(const Model& niopdt, int digits) {
     return {text(undelayed(niopdt)), text(niopdt)};
 }
 
-bench::Picture picture_of_step_responses(const PaperModels& models) {
+base::Picture picture_of_step_responses(const PaperModels& models) {
     return picture_of_curves({{"(10) " + to_text(models.fopdt), stamps(), step_response(models.fopdt)},
                               {"(11) " + to_text(models.sopdt), stamps(), step_response(models.sopdt)},
                               {"(12) " + to_text(models.niopdt), stamps(), step_response(models.niopdt)}},
@@ -198,7 +198,7 @@ std::vector<Precision> compare_precisions(const Model& niopdt) {
     return found;
 }
 
-bench::Picture picture_of_precisions(const Model& niopdt) {
+base::Picture picture_of_precisions(const Model& niopdt) {
     const Model plant = undelayed(niopdt);
     std::vector<Curve> curves;
     for (const Scene& scene : scenes()) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/gnuplot.hpp"
+#include "base/gnuplot.hpp"
 #include "drive/model.hpp"
 
 namespace drive {
@@ -38,7 +38,7 @@ struct PaperValue {
 [[nodiscard]] PaperValue value_at_5_s(const Model& niopdt, int digits = 10);
 
 /// Fig. 8: the step responses of the three models.
-[[nodiscard]] bench::Picture picture_of_step_responses(const PaperModels& models);
+[[nodiscard]] base::Picture picture_of_step_responses(const PaperModels& models);
 
 /// How (12) ends at h = 1 ms: in single precision in the textbook form, with 600 terms in double, in increments in
 /// single precision, exactly.
@@ -48,6 +48,6 @@ struct Precision {
     double largest_error;
 };
 [[nodiscard]] std::vector<Precision> compare_precisions(const Model& niopdt);
-[[nodiscard]] bench::Picture picture_of_precisions(const Model& niopdt);
+[[nodiscard]] base::Picture picture_of_precisions(const Model& niopdt);
 
 }  // namespace drive

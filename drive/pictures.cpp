@@ -26,7 +26,7 @@ std::string data_block(std::size_t index, const Curve& curve) {
 
 }  // namespace
 
-bench::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title, const std::string& unit) {
+base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title, const std::string& unit) {
     std::string script;
     std::vector<std::string> plots;
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -65,7 +65,7 @@ std::string short_text(Model model) {
     return to_text(model);
 }
 
-bench::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title) {
+base::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title) {
     std::string roots = "$roots << EOD\n";
     double largest = 0.0;
     double nearest = 1.0;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/gnuplot.hpp"
+#include "base/gnuplot.hpp"
 #include "drive/stability.hpp"
 
 namespace drive {
@@ -17,14 +17,14 @@ struct Curve {
 };
 
 /// Curves over time, each with its title in the key.
-[[nodiscard]] bench::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title,
-                                               const std::string& unit);
+[[nodiscard]] base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title,
+                                              const std::string& unit);
 
 /// The transfer function with 4 digits, as a title has room for.
 [[nodiscard]] std::string short_text(Model model);
 
 /// The roots in the plane of sigma = s^q with the unstable sector, and on the right that sector at close range, as in
 /// [Matusiak2020] Figs. 5 to 7.
-[[nodiscard]] bench::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title);
+[[nodiscard]] base::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title);
 
 }  // namespace drive

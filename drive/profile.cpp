@@ -5,11 +5,11 @@
 #include <limits>
 #include <mutex>
 
-#include "bench/parallel.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
 #include "drive/descend.hpp"
 #include "drive/predictor.hpp"
 #include "drive/quantiles.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {
@@ -130,7 +130,7 @@ void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& re
     }
     std::mutex telling;
     std::size_t done = 0;
-    bench::parallel_for(2 * asked.size(), options.jobs, [&](std::size_t task) {
+    base::parallel_for(2 * asked.size(), options.jobs, [&](std::size_t task) {
         const std::size_t index = asked[task / 2];
         Estimate& estimate = fit.parameters[index];
         Eigen::VectorXd along(free);

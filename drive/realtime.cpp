@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/simulation.hpp"
 #include "modes/merged.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

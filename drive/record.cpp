@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/failure.hpp"
 #include "drive/closed_loop.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace drive {
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <type_traits>
 
+#include "base/failure.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/kernel_sum.hpp"
 #include "glsum/gain.hpp"
@@ -15,7 +16,6 @@
 #include "glsum/weights.hpp"
 #include "modes/design.hpp"
 #include "modes/merged.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

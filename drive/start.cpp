@@ -6,9 +6,9 @@
 #include <limits>
 #include <numeric>
 
+#include "base/failure.hpp"
 #include "drive/controller.hpp"
 #include "drive/fit.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace drive {
 namespace {
@@ -120,7 +120,7 @@ std::string to_csv(const StaticCharacteristic& found) {
     return text;
 }
 
-bench::Picture picture_of_characteristic(const StaticCharacteristic& found, const std::string& title) {
+base::Picture picture_of_characteristic(const StaticCharacteristic& found, const std::string& title) {
     std::string up = "$up << EOD\n";
     std::string down = "$down << EOD\n";
     for (const Level& level : found.levels) {
@@ -137,7 +137,7 @@ bench::Picture picture_of_characteristic(const StaticCharacteristic& found, cons
                 "lc rgb \"{}\" dt 2 title \"straight line\", $up using 1:2:3 with yerrorbars pt 9 ps 1.2 lc rgb \"{}\" "
                 "title \"reached from below\", $down using 1:2:3 with yerrorbars pt 11 ps 1.2 lc rgb \"{}\" title "
                 "\"reached from above\"\n",
-                title, found.intercept, found.slope, bench::palette[7], bench::palette[0], bench::palette[1]),
+                title, found.intercept, found.slope, base::palette[7], base::palette[0], base::palette[1]),
         800, 520};
 }
 

@@ -37,6 +37,6 @@ struct StaticCharacteristic {
 [[nodiscard]] std::string to_csv(const StaticCharacteristic& found);
 
 /// The settled levels, up and down apart, and the line.
-[[nodiscard]] bench::Picture picture_of_characteristic(const StaticCharacteristic& found, const std::string& title);
+[[nodiscard]] base::Picture picture_of_characteristic(const StaticCharacteristic& found, const std::string& title);
 
 }  // namespace drive

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/real_transform.hpp"
 #include "glsum/weights.hpp"
-#include "qemu/failure.hpp"
 
 namespace drive {
 

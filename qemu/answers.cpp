@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 #include "qemu/words.hpp"
 
 namespace qemu {

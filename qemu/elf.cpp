@@ -14,7 +14,7 @@
 #include <map>
 #include <memory>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace qemu {
 namespace {

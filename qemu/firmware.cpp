@@ -9,13 +9,13 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "glsum/computes_in_double.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/answers.hpp"
 #include "qemu/elf.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/modelled_calls.hpp"
-#include "qemu/scratch.hpp"
 #include "qemu/software_double.hpp"
 #include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
@@ -224,7 +224,7 @@ ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
 
 std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> plan, const Signals& signals,
                                 const RowDone& done) {
-    const Scratch scratch;
+    const base::Scratch scratch;
     write_plan(scratch.file("plan"), scratch.file("signals"), plan, signals);
     Answers answers(plan.size());
     std::vector<ReplayedRow> rows;
@@ -245,7 +245,7 @@ std::vector<MeasuredRow> measure(const Board& board, std::span<const PlannedRow>
     }
     const Elf elf(board.measure_elf);
     const Watch watch(elf);
-    const Scratch scratch;
+    const base::Scratch scratch;
     write_plan(scratch.file("plan"), scratch.file("signals"), plan, signals);
     {
         std::ofstream list(scratch.file("watch"));

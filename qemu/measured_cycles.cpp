@@ -7,7 +7,7 @@
 #include <map>
 #include <sstream>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace qemu {
 namespace {

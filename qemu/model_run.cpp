@@ -9,11 +9,11 @@
 #include <set>
 #include <stdexcept>
 
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "glsum/computes_in_double.hpp"
 #include "qemu/answers.hpp"
 #include "qemu/elf.hpp"
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
 #include "qemu/software_double.hpp"
 #include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
@@ -136,7 +136,7 @@ std::vector<MeasuredRow> step_models(const Board& board, std::span<const Planned
     const std::filesystem::path elf_path = model_elf(board);
     const Elf elf(elf_path);
     const auto entries = entries_of(elf);
-    const Scratch scratch;
+    const base::Scratch scratch;
     Numbers numbers;
     {
         std::string text = fmt::format("glsum-model-2 {}\n", scratch.file("numbers").string());

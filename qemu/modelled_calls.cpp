@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace qemu {
 

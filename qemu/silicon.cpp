@@ -8,9 +8,9 @@
 #include <set>
 #include <tuple>
 
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "qemu/elf.hpp"
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
 #include "qemu/timed_program.hpp"
 #include "qemu/watched.hpp"
 #include "targets/firmware/silicon_calls.hpp"
@@ -81,7 +81,7 @@ std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program,
     std::vector<timing::TimedCall> settled;
     while (settled.size() < plan.size()) {
         const std::size_t end = std::min(plan.size(), settled.size() + rows_of_a_run);
-        const Scratch scratch;
+        const base::Scratch scratch;
         std::string text;
         for (std::size_t i = settled.size(); i < end; ++i) {
             text += fmt::format("{}{} {}", text.empty() ? "" : "\n", plan[i].first, plan[i].second);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "qemu/software_double.hpp"
 
 namespace qemu {
@@ -16,7 +16,7 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
                                             const std::vector<std::uint32_t>& entries,
                                             const timing::TimingRequest& request, const std::optional<Marks>& marks,
                                             const std::function<void(const std::string&)>& line) {
-    const Scratch scratch;
+    const base::Scratch scratch;
     {
         std::ofstream watch(scratch.file("watch"));
         for (const std::uint32_t entry : entries) {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <map>
 
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "bench/choose/plain_loop.hpp"
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
 
 namespace choose {
 namespace {
@@ -53,11 +53,11 @@ std::vector<Entry> measure_all(const Question& question, CostSource& costs, cons
     for (std::size_t i = 0; i < entries.size(); ++i) {
         entries[i].cost = found[i];
     }
-    bench::Progress progress("every length", records.size());
+    base::Progress progress("every length", records.size());
     for (const Record& record : records) {
         MeasuredErrors errors(question.conditions.order, {record});
         std::vector<double> of_signal(entries.size());
-        bench::parallel_for(entries.size(), question.jobs, [&](std::size_t i) {
+        base::parallel_for(entries.size(), question.jobs, [&](std::size_t i) {
             const ErrorAt at = errors.error(entries[i].kernel, entries[i].taps);
             of_signal[i] = at.fault.empty() ? at.error : std::numeric_limits<double>::infinity();
         });

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 
+#include "base/progress.hpp"
 #include "bench/choose/earlier.hpp"
 #include "bench/count_path.hpp"
 #include "bench/designs.hpp"
 #include "bench/host_timing.hpp"
-#include "bench/progress.hpp"
 #include "bench/results.hpp"
 #include "bench/signals.hpp"
 #include "bench/target_rows.hpp"
@@ -68,7 +68,7 @@ std::vector<Cost> OnTarget::costs(const std::vector<Case>& cases) {
         }
     }
     if (!plan.empty()) {
-        bench::Progress progress("emulated Cortex-M7", plan.size());
+        base::Progress progress("emulated Cortex-M7", plan.size());
         const auto counted = bench::count_on_target(
             plan, signals_, board_, jobs_, [&] { progress.advance(); }, timing_);
         for (std::size_t i = 0; i < plan.size(); ++i) {

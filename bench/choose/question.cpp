@@ -4,11 +4,11 @@
 
 #include <memory>
 
+#include "base/failure.hpp"
 #include "bench/choose/earlier.hpp"
 #include "bench/context.hpp"
 #include "bench/designs.hpp"
 #include "glsum/registry.hpp"
-#include "qemu/failure.hpp"
 
 namespace choose {
 namespace {

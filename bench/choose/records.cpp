@@ -6,11 +6,11 @@
 #include <array>
 #include <cmath>
 
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "bench/signals.hpp"
 #include "glsum/weights.hpp"
-#include "qemu/failure.hpp"
 
 namespace choose {
 namespace {
@@ -43,8 +43,8 @@ std::vector<Record> make_records(const Conditions& conditions, unsigned jobs) {
     const auto a = reference::weights(reference::Real(conditions.order), conditions.samples);
     const std::array<std::size_t, 1> full = {conditions.samples};
     std::vector<Record> records(conditions.signals.size());
-    bench::Progress progress("exact sums", records.size());
-    bench::parallel_for(records.size(), jobs, [&](std::size_t i) {
+    base::Progress progress("exact sums", records.size());
+    base::parallel_for(records.size(), jobs, [&](std::size_t i) {
         Record& record = records[i];
         record.signal = conditions.signals[i];
         record.samples = bench::make_signal(record.signal, conditions.samples, conditions.seed, conditions.step_s);

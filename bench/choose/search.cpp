@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "bench/choose/relax.hpp"
-#include "bench/parallel.hpp"
-#include "bench/progress.hpp"
 
 namespace choose {
 namespace {
@@ -44,11 +44,11 @@ public:
 
 private:
     void find_lengths(bool shown) {
-        std::optional<bench::Progress> progress;
+        std::optional<base::Progress> progress;
         if (shown) {
             progress.emplace("shortest lengths", choice_.kernels.size());
         }
-        bench::parallel_for(choice_.kernels.size(), jobs_, [&](std::size_t i) {
+        base::parallel_for(choice_.kernels.size(), jobs_, [&](std::size_t i) {
             find_length(choice_.kernels[i]);
             if (progress) {
                 progress->advance();

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <ctime>
 
-#include "bench/files.hpp"
+#include "base/files.hpp"
 #include "bench/gate/row_table.hpp"
 #include "bench/gate/rules.hpp"
 
@@ -118,7 +118,7 @@ void write_baseline(const std::filesystem::path& path, const Results& baseline) 
     for (std::size_t i = 0; i < baseline.rows.size(); ++i) {
         text += baseline.rows[i].dump() + (i + 1 < baseline.rows.size() ? ",\n" : "\n");
     }
-    write_file(path, text + "]\n}\n");
+    base::write_file(path, text + "]\n}\n");
 }
 
 }  // namespace bench::gate

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/files.hpp"
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
 
 namespace bench::gate {
 namespace {
@@ -227,7 +227,9 @@ Rules parse_rules(std::string_view text, const std::string& name) {
     return rules;
 }
 
-Rules read_rules(const std::filesystem::path& path) { return parse_rules(read_file(path, file_limit), path.string()); }
+Rules read_rules(const std::filesystem::path& path) {
+    return parse_rules(base::read_file(path, file_limit), path.string());
+}
 
 std::optional<Better> better_of(const Rules& rules, const std::string& row, const std::string& counter) {
     for (const Rule& rule : rules) {

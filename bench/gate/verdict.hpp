@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "base/failure.hpp"
 #include "bench/gate/conditions.hpp"
 #include "bench/gate/rules.hpp"
-#include "qemu/failure.hpp"
 
 namespace bench::gate {
 

@@ -7,6 +7,7 @@
 #include <span>
 #include <sstream>
 
+#include "base/failure.hpp"
 #include "base/rounded_up.hpp"
 #include "bench/designs.hpp"
 #include "bench/generate/kernel_data.hpp"
@@ -16,7 +17,6 @@
 #include "glsum/gain.hpp"
 #include "glsum/history/nested.hpp"
 #include "glsum/weights.hpp"
-#include "qemu/failure.hpp"
 
 namespace generate {
 namespace {

@@ -7,6 +7,7 @@
 #include <span>
 #include <type_traits>
 
+#include "base/failure.hpp"
 #include "bench/designs.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/host_line.hpp"
@@ -15,7 +16,6 @@
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
-#include "qemu/failure.hpp"
 #include "targets/firmware/output_hash.hpp"
 
 namespace generate {

@@ -10,14 +10,14 @@
 #include <set>
 #include <sstream>
 
+#include "base/failure.hpp"
+#include "base/progress.hpp"
+#include "base/scratch.hpp"
 #include "bench/build_info.hpp"
 #include "bench/designs.hpp"
-#include "bench/progress.hpp"
 #include "bench/row.hpp"
 #include "bench/signals.hpp"
 #include "qemu/elf.hpp"
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
 #include "qemu/watched.hpp"
 
 namespace generate {
@@ -70,7 +70,7 @@ void write(const std::filesystem::path& path, const std::string& text) {
     }
 }
 
-std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& board, const qemu::Scratch& scratch) {
+std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& board, const base::Scratch& scratch) {
     const std::filesystem::path source = build_info::source_folder;
     const std::filesystem::path targets = source / "targets";
     const std::string flags = target_flags(board);
@@ -174,7 +174,7 @@ std::map<std::uint32_t, SteadyCalls> steady_calls_of(const qemu::CallLog& log,
 
 std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qemu::Board& board,
                                        const timing::TimingRequest& timing) {
-    const qemu::Scratch scratch;
+    const base::Scratch scratch;
     std::vector<Spec> specs = wanted;
     std::vector<qemu::PlannedRow> plan;
     for (std::size_t i = 0; i < specs.size(); ++i) {
@@ -192,7 +192,7 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
                         design.blocks});
     }
     const std::filesystem::path path = link(specs, board, scratch);
-    bench::Progress progress("emulated Cortex-M7", 2 * specs.size());
+    base::Progress progress("emulated Cortex-M7", 2 * specs.size());
     const auto kernels = qemu::measure(
         board, plan, {check_signal()}, [&] { progress.advance(); }, qemu::Counting::blocks, timing);
 

@@ -50,7 +50,7 @@ struct Gain {
 
 /// Writes `stem`.svg and `stem`.png: for each of `gain_costs` a panel for each order with both fronts, and the factor
 /// between them at errors of 1e-2, 1e-4 and 1e-6. Errors below 1e-9 are not shown. At most 24 orders, the first.
-/// \throws as `draw`
+/// \throws as `base::draw`
 void plot_gains(const std::filesystem::path& stem, const std::vector<CurvePoint>& points,
                 const std::vector<Cost>& costs);
 

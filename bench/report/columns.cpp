@@ -16,8 +16,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/failure.hpp"
 #include "bench/results.hpp"
-#include "qemu/failure.hpp"
 
 namespace bench::report {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "bench/gnuplot.hpp"
+#include "base/gnuplot.hpp"
 #include "bench/report/curves.hpp"
 
 namespace bench::report {
@@ -53,7 +53,8 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
         if (!data[f].empty()) {
             blocks += fmt::format("$d{} << EOD\n{}EOD\n", f, data[f]);
             lines.push_back(fmt::format("$d{} using 1:2 with points pt {} ps 0.5 lc rgb \"{}\" title \"{}\" noenhanced",
-                                        f, 4 + f, palette[f % std::size(palette)], gnuplot_text(formats[f])));
+                                        f, 4 + f, base::palette[f % std::size(base::palette)],
+                                        base::gnuplot_text(formats[f])));
         }
     }
     if (lines.empty()) {
@@ -61,7 +62,7 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
     }
     const auto range = [](const std::vector<double>& values) {
         const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
-        return log_range(*smallest, *largest);
+        return base::log_range(*smallest, *largest);
     };
     std::sort(front.begin(), front.end());
     blocks += "$front << EOD\n";
@@ -73,8 +74,9 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
     lines.emplace_back("$front using 1:2 with points pt 6 ps 0.9 lc rgb \"black\" notitle");
     return blocks +
            fmt::format("set title \"order {}\"\nset xlabel \"{}\"\nset xrange {}\nset yrange {}\n{}\nplot {}\n",
-                       gnuplot_text(order), gnuplot_text(cost.title), range(costs_shown), range(errors_shown),
-                       key ? "set key at screen 0.995, screen 0.93" : "unset key", fmt::join(lines, ", \\\n  "));
+                       base::gnuplot_text(order), base::gnuplot_text(cost.title), range(costs_shown),
+                       range(errors_shown), key ? "set key at screen 0.995, screen 0.93" : "unset key",
+                       fmt::join(lines, ", \\\n  "));
 }
 
 }  // namespace
@@ -99,7 +101,7 @@ void plot_costs(const std::filesystem::path& stem, const std::vector<CurvePoint>
             key = false;
         }
     }
-    draw({text + "unset multiplot\n", 1200, height}, stem);
+    base::draw({text + "unset multiplot\n", 1200, height}, stem);
 }
 
 }  // namespace bench::report

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "bench/files.hpp"
+#include "base/files.hpp"
 #include "bench/report/front.hpp"
 
 namespace bench::report {
@@ -126,7 +126,7 @@ void write_curves(const std::filesystem::path& path, const std::vector<CurvePoin
         }
         text += ',' + csv_field(entry.fault) + '\n';
     }
-    write_file(path, text);
+    base::write_file(path, text);
 }
 
 }  // namespace bench::report

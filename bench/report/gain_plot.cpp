@@ -6,7 +6,7 @@
 #include <iterator>
 #include <utility>
 
-#include "bench/gnuplot.hpp"
+#include "base/gnuplot.hpp"
 #include "bench/report/best.hpp"
 #include "bench/report/classic.hpp"
 
@@ -96,11 +96,11 @@ std::string panel(const Fronts& fronts, const Cost& cost, bool left, bool key) {
         return "set multiplot next\n";
     }
     // The wider one shows from under the other where both are the same.
-    add("before", fronts.before, 4, palette[4], 5, "before: shift, ring and mirror windows");
-    add("after", fronts.after, 2, palette[0], 7, "after: all kernels");
+    add("before", fronts.before, 4, base::palette[4], 5, "before: shift, ring and mirror windows");
+    add("after", fronts.after, 2, base::palette[0], 7, "after: all kernels");
     return blocks + factors(fronts, cost) +
            fmt::format("set label \"order {}\" at graph 0.97,0.91 right\nset xlabel \"{}\"\n{}\n{}\nplot {}\n",
-                       gnuplot_text(fronts.order), gnuplot_text(cost.title),
+                       base::gnuplot_text(fronts.order), base::gnuplot_text(cost.title),
                        left ? "set ylabel \"error / largest exact sum\"" : "unset ylabel",
                        key ? "set key at screen 0.5, screen key_at center" : "unset key", fmt::join(plots, ", \\\n  "));
 }
@@ -137,8 +137,8 @@ std::string ranges(const std::vector<Fronts>& all) {
     const auto by_error = [](const auto& one, const auto& other) { return one.second < other.second; };
     const auto [cheapest, dearest] = std::minmax_element(every.begin(), every.end());
     const auto [best, worst] = std::minmax_element(every.begin(), every.end(), by_error);
-    return fmt::format("set xrange {}\nset yrange {}\n", log_range(cheapest->first, label_room * dearest->first),
-                       log_range(std::max(best->second, least_error), std::max(worst->second, least_error)));
+    return fmt::format("set xrange {}\nset yrange {}\n", base::log_range(cheapest->first, label_room * dearest->first),
+                       base::log_range(std::max(best->second, least_error), std::max(worst->second, least_error)));
 }
 
 }  // namespace
@@ -178,7 +178,7 @@ void plot_gains(const std::filesystem::path& stem, const std::vector<CurvePoint>
         "set grid lc rgb \"#dddddd\"\n",
         1.0 - share(62), rows, columns, share(50), 1.0 - share(92), share(60), power(least_error),
         fmt::join(marks, ", "));
-    draw({head + panels + "unset multiplot\n", 1200, height}, stem);
+    base::draw({head + panels + "unset multiplot\n", 1200, height}, stem);
 }
 
 }  // namespace bench::report

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/files.hpp"
+#include "base/files.hpp"
 #include "bench/plot.hpp"
 #include "bench/report/classic.hpp"
 #include "bench/report/curves.hpp"
@@ -20,7 +20,7 @@ std::vector<std::filesystem::path> write_report(const Input& input, const Input*
         return written.emplace_back(path += end);
     };
     written.push_back(html);
-    write_file(html, make_page(input, other));
+    base::write_file(html, make_page(input, other));
     write_csv(beside(".csv"), input.results.rows);
 
     const std::vector<Group> groups = group(input.results.rows);
@@ -29,7 +29,7 @@ std::vector<std::filesystem::path> write_report(const Input& input, const Input*
     const WorstBounds bounds = worst_of_signals(input.bounds);
     write_curves(beside("-curves.csv"), points, costs, bounds);
     if (other != nullptr) {
-        write_file(beside("-difference.csv"), to_csv(differences(input.results.rows, other->results.rows)));
+        base::write_file(beside("-difference.csv"), to_csv(differences(input.results.rows, other->results.rows)));
     }
     if (std::any_of(points.begin(), points.end(), [](const CurvePoint& point) { return point.entry->error_max; })) {
         std::filesystem::path stem = html;

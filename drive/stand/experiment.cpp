@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/failure.hpp"
 #include "drive/stand/chance.hpp"
-#include "qemu/failure.hpp"
 
 namespace stand {
 namespace {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace stand {
 namespace {

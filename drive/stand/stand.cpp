@@ -7,8 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "base/failure.hpp"
 #include "base/nearest_name.hpp"
-#include "qemu/failure.hpp"
 
 namespace stand {
 namespace {

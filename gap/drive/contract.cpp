@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/failure.hpp"
 #include "gap/drive/effect.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "gap/drive/base/jointly.hpp"
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/base/structure.hpp"
@@ -13,7 +14,6 @@
 #include "gap/drive/determined.hpp"
 #include "gap/drive/experiment.hpp"
 #include "gap/drive/search.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {

@@ -1,9 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/failure.hpp"
 #include "base/nearest_name.hpp"
 #include "gap/drive/effect.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 

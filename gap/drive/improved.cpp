@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/simulate.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "bench/parallel.hpp"
+#include "base/parallel.hpp"
 #include "gap/drive/jitter.hpp"
 #include "gap/drive/ranking.hpp"
 
@@ -76,7 +76,7 @@ Foresight foresee(const Question& question, const std::vector<std::string>& trut
     const Study& study = ground.study;
     const Candidate none = fit(study, {}, fit(ground.sketch, {}, {}, nullptr, {6, 2, 60}), nullptr);
     std::vector<Candidate> all(ground.list.size() + 1, none);
-    bench::parallel_for(ground.list.size(), question.jobs, [&](std::size_t i) {
+    base::parallel_for(ground.list.size(), question.jobs, [&](std::size_t i) {
         all[i + 1] = fit(study, {ground.list[i]}, fit(ground.sketch, {ground.list[i]}, none, nullptr), nullptr);
     });
     Foresight foresight;
@@ -100,7 +100,7 @@ Foresight foresee(const Question& question, const std::vector<std::string>& trut
     const Ranked oracle = judged(right);
     foresight.gap_after = oracle.gap_after;
     std::vector<double> likelihoods(all.size(), -std::numeric_limits<double>::infinity());
-    bench::parallel_for(all.size(), question.jobs, [&](std::size_t i) {
+    base::parallel_for(all.size(), question.jobs, [&](std::size_t i) {
         if (all[i].name() != right.name()) {
             const Ranked other = judged(all[i]);
             likelihoods[i] = other.log_likelihood;

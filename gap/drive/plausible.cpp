@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace gap {
 namespace {

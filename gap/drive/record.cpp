@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace gap {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <set>
 
-#include "bench/parallel.hpp"
+#include "base/parallel.hpp"
 #include "gap/drive/jitter.hpp"
 
 namespace gap {
@@ -51,7 +51,7 @@ public:
         found_.whitener =
             whitener_of(of_.ground.study, singles.empty() || none_.cost <= singles[0].cost ? none_ : singles[0]);
         none_ = fit(of_.ground.study, {}, none_, fits_by());
-        bench::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
+        base::parallel_for(singles.size(), of_.jobs, [&](std::size_t i) {
             // Spread is not in the sum of squares: jitter stays in the race whatever its place.
             const bool far = of_.ground.study.base.refit && singles[i].cost > too_far * singles.front().cost;
             const bool near = (i < shortlisted && !far) || singles[i].any(&Effect::only_spreads);
@@ -137,7 +137,7 @@ private:
     std::vector<Candidate> fitted(const std::vector<Effects>& all, const std::vector<const Candidate*>& starts,
                                   const Whitener* whitener, const Effort& effort) const {
         std::vector<Candidate> result(all.size());
-        bench::parallel_for(all.size(), of_.jobs, [&](std::size_t i) {
+        base::parallel_for(all.size(), of_.jobs, [&](std::size_t i) {
             result[i] = fit(of_.ground.sketch, all[i], *starts[starts.size() == 1 ? 0 : i], whitener, effort);
         });
         return result;
@@ -184,7 +184,7 @@ private:
             }
         }
         std::vector<Candidate> fitted(best.size());
-        bench::parallel_for(best.size(), of_.jobs, [&](std::size_t i) {
+        base::parallel_for(best.size(), of_.jobs, [&](std::size_t i) {
             fitted[i] = fit(of_.ground.study, best[i]->effects, *best[i], fits_by());
         });
         return fitted;
@@ -195,7 +195,7 @@ private:
     std::vector<Candidate> narrowed(std::size_t size) const {
         const Candidate& best = best_of(size).trained;
         std::vector<Candidate> narrower(best.effects.size());
-        bench::parallel_for(narrower.size(), of_.jobs, [&](std::size_t i) {
+        base::parallel_for(narrower.size(), of_.jobs, [&](std::size_t i) {
             Effects fewer = best.effects;
             fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
             narrower[i] = fit(of_.ground.study, fewer, best, fits_by());
@@ -226,7 +226,7 @@ private:
         std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
         wide.resize(std::min(wide.size(), finalists_of()));
-        bench::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
+        base::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
             wide[i] = fit(of_.ground.study, wide[i].effects, wide[i], fits_by());
         });
         return wide;
@@ -294,7 +294,7 @@ private:
 
     void take(const std::vector<Candidate>& candidates) {
         std::vector<Ranked> more(candidates.size());
-        bench::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
+        base::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
             more[i] =
                 validated(of_.ground.validation, candidates[i], found_.whitener, fits_by(), of_.ground.same_records);
         });

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/simulation.hpp"
 #include "gap/drive/balance.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "base/failure.hpp"
 #include "base/nearest_name.hpp"
 #include "gap/drive/base/find.hpp"
 #include "gap/drive/base/leftover.hpp"
 #include "gap/drive/base/structure.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {

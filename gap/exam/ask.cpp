@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "gap/drive/start.hpp"
 #include "gap/drive/verdict.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap::exam {
 namespace {

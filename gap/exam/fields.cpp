@@ -7,8 +7,8 @@
 #include <cmath>
 #include <set>
 
+#include "base/failure.hpp"
 #include "gap/exam/manifest.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap::exam {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <toml++/toml.h>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace timing {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "base/failure.hpp"
 #include "bench/build_info.hpp"
 #include "bench/gate/rules.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

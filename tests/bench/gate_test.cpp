@@ -7,9 +7,9 @@
 
 #include <functional>
 
+#include "base/failure.hpp"
 #include "bench/gate/baseline.hpp"
 #include "bench/gate/outputs.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

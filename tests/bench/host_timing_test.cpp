@@ -6,10 +6,10 @@
 #include <map>
 #include <set>
 
+#include "base/failure.hpp"
 #include "bench/designs.hpp"
 #include "bench/peer_numbers.hpp"
 #include "bench/timed_rows.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

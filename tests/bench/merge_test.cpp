@@ -9,11 +9,11 @@
 #include <numeric>
 #include <set>
 
+#include "base/failure.hpp"
 #include "bench/pieces.hpp"
 #include "bench/run.hpp"
 #include "bench/signals.hpp"
 #include "bench/target_plan.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

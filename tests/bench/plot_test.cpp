@@ -13,10 +13,10 @@
 #include <optional>
 #include <string>
 
+#include "base/failure.hpp"
+#include "base/gnuplot.hpp"
 #include "bench/equal_cost.hpp"
-#include "bench/gnuplot.hpp"
 #include "bench/report/curves.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 
@@ -66,7 +66,7 @@ std::size_t count_of(const std::string& text, const std::string& part) {
 }
 
 TEST_F(Drawing, IsMadeTwiceAndPublishedWhole) {
-    bench::draw({"plot sin(x)", 321, 123}, stem());
+    base::draw({"plot sin(x)", 321, 123}, stem());
     std::ifstream in(folder_ / "sent");
     const std::string all{std::istreambuf_iterator<char>(in), {}};
     EXPECT_THAT(all, HasSubstr("set terminal svg size 321,123 "));
@@ -76,14 +76,14 @@ TEST_F(Drawing, IsMadeTwiceAndPublishedWhole) {
     EXPECT_TRUE(std::filesystem::exists(folder_ / "picture.png"));
     // Nothing is left beside them.
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder_), {}), 4);
-    bench::draw({"plot sin(x)"}, folder_ / "it's one");
+    base::draw({"plot sin(x)"}, folder_ / "it's one");
     EXPECT_TRUE(std::filesystem::exists(folder_ / "it's one.svg"));
 }
 
 TEST_F(Drawing, AGnuplotThatFailsOrDrawsNothingIsAnError) {
     const auto status = [&] {
         try {
-            bench::draw({"plot sin(x)"}, stem());
+            base::draw({"plot sin(x)"}, stem());
         } catch (const glsum::Failure& failure) {
             return failure.status();
         }
@@ -97,12 +97,12 @@ TEST_F(Drawing, AGnuplotThatFailsOrDrawsNothingIsAnError) {
 }
 
 TEST(Gnuplot, SeesNoTextThatCouldEndAStringAndLeavesRoomAroundValues) {
-    EXPECT_EQ(bench::gnuplot_text("a_B 9.:+-,/()"), "a_B 9.:+-,/()");
-    EXPECT_EQ(bench::gnuplot_text("\"`$\\'\n;ä"), "?????????");
-    EXPECT_EQ(bench::gnuplot_text(std::string(70, 'x')), std::string(60, 'x'));
+    EXPECT_EQ(base::gnuplot_text("a_B 9.:+-,/()"), "a_B 9.:+-,/()");
+    EXPECT_EQ(base::gnuplot_text("\"`$\\'\n;ä"), "?????????");
+    EXPECT_EQ(base::gnuplot_text(std::string(70, 'x')), std::string(60, 'x'));
     double low = 0.0;
     double high = 0.0;
-    ASSERT_EQ(std::sscanf(bench::log_range(1e-6, 1e-2).c_str(), "[%lf:%lf]", &low, &high), 2);
+    ASSERT_EQ(std::sscanf(base::log_range(1e-6, 1e-2).c_str(), "[%lf:%lf]", &low, &high), 2);
     EXPECT_LT(low, 1e-6);
     EXPECT_GT(low, 1e-7);
     EXPECT_GT(high, 1e-2);
@@ -148,11 +148,11 @@ TEST_F(Drawing, OfErrorsHasAPanelForEachOrderAndKind) {
     EXPECT_THAT(text, HasSubstr("dt 2 pt -1 ps 0.6 lc rgb \"#000000\" title \"truncation alone\""));
     EXPECT_THAT(text, HasSubstr("dt 4 pt -1 ps 0.6 lc rgb \"#000000\" title \"truncation bound\""));
     for (const auto& [kernel, i] : {std::pair("a_f32", 0), std::pair("b_q15", 1), std::pair("c_f64", 2)}) {
-        EXPECT_THAT(text, HasSubstr("dt 1 pt " + std::to_string(4 + i) + " ps 0.6 lc rgb \"" + bench::palette[i] +
+        EXPECT_THAT(text, HasSubstr("dt 1 pt " + std::to_string(4 + i) + " ps 0.6 lc rgb \"" + base::palette[i] +
                                     "\" title \"" + kernel + "\""));
     }
-    EXPECT_THAT(text, HasSubstr("set yrange " + bench::log_range(1e-6, 0.5)));
-    EXPECT_THAT(text, HasSubstr("set yrange " + bench::log_range(1e-15, 1e-3)));
+    EXPECT_THAT(text, HasSubstr("set yrange " + base::log_range(1e-6, 0.5)));
+    EXPECT_THAT(text, HasSubstr("set yrange " + base::log_range(1e-15, 1e-3)));
     // Marks: windows first, then what has room.
     EXPECT_THAT(text, HasSubstr("set xtics (\"50\" 50, \"full\" 85, \"2+7\" 9)"));
     EXPECT_THAT(text, HasSubstr("set xrange [7.2:106.25]"));
@@ -172,7 +172,7 @@ TEST_F(Drawing, OfMoreKernelsThanColoursHasAColourForEachFormat) {
     EXPECT_EQ(count_of(text, "title \"q15\""), 2U);
     EXPECT_EQ(count_of(text, "title \"f64\""), 2U);
     EXPECT_EQ(count_of(text, " notitle"), 12U);
-    EXPECT_EQ(count_of(text, std::string("lc rgb \"") + bench::palette[2] + "\""), 4U);  // the two in double
+    EXPECT_EQ(count_of(text, std::string("lc rgb \"") + base::palette[2] + "\""), 4U);  // the two in double
     EXPECT_THAT(text, HasSubstr("set xtics (\"50\" 50)"));
     many.entries.pop_back();  // eight have one each
     bench::plot_error({many}, {}, stem());
@@ -216,7 +216,7 @@ TEST_F(Drawing, OfEqualCostHasAPanelForEachOrderAndSignal) {
     EXPECT_EQ(count_of(text, "title \"full memory\""), 0U);
     EXPECT_EQ(count_of(text, "set xlabel \"multiplications a sample\""), 2U);
     EXPECT_GT(text.find("set xlabel \"multiplications a sample\""), text.find("order 0.5: noise"));
-    EXPECT_THAT(text, HasSubstr("set yrange " + bench::log_range(1e-10, 0.25)));
+    EXPECT_THAT(text, HasSubstr("set yrange " + base::log_range(1e-10, 0.25)));
     EXPECT_EQ(count_of(text, "set yrange [1e-3:1]"), 2U);
 }
 
@@ -263,10 +263,10 @@ TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
     EXPECT_LT(text.find("set key at"), text.find("unset key"));
     EXPECT_EQ(count_of(text, "set title \"order 0.5\""), 2U);
     EXPECT_EQ(count_of(text, "set title \"order 0.9\""), 2U);
-    EXPECT_THAT(
-        text, HasSubstr("set xrange " + bench::log_range(20.0, 40.0) + "\nset yrange " + bench::log_range(0.125, 0.5)));
+    EXPECT_THAT(text,
+                HasSubstr("set xrange " + base::log_range(20.0, 40.0) + "\nset yrange " + base::log_range(0.125, 0.5)));
     for (const auto& cost : costs) {
-        EXPECT_EQ(count_of(text, "set xlabel \"" + bench::gnuplot_text(cost.title) + "\""), 2U);
+        EXPECT_EQ(count_of(text, "set xlabel \"" + base::gnuplot_text(cost.title) + "\""), 2U);
     }
 }
 

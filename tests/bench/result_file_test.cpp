@@ -7,8 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/failure.hpp"
 #include "bench/results.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/failure.hpp"
 #include "bench/accuracy.hpp"
 #include "bench/choose/brute_force.hpp"
 #include "bench/choose/earlier.hpp"
@@ -16,7 +17,6 @@
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
 #include "modes/design.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

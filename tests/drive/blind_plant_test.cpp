@@ -5,8 +5,8 @@
 #include <functional>
 #include <numbers>
 
+#include "base/failure.hpp"
 #include "drive/stand/blind/plant.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

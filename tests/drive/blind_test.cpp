@@ -6,12 +6,12 @@
 #include <cmath>
 #include <map>
 
+#include "base/failure.hpp"
 #include "drive/log.hpp"
 #include "drive/model_file.hpp"
 #include "drive/response.hpp"
 #include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/score.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

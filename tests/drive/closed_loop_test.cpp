@@ -7,11 +7,11 @@
 #include <cmath>
 #include <random>
 
+#include "base/failure.hpp"
 #include "drive/coverage.hpp"
 #include "drive/fit.hpp"
 #include "drive/log.hpp"
 #include "drive/model_file.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

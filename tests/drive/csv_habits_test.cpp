@@ -3,8 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/failure.hpp"
 #include "drive/log.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

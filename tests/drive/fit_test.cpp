@@ -9,9 +9,9 @@
 #include <random>
 #include <utility>
 
+#include "base/failure.hpp"
 #include "drive/coverage.hpp"
 #include "drive/response.hpp"
-#include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

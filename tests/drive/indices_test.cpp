@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "base/failure.hpp"
 #include "drive/response.hpp"
-#include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

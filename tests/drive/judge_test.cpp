@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace {
 

@@ -8,10 +8,10 @@
 #include <numbers>
 #include <string>
 
+#include "base/failure.hpp"
 #include "drive/log.hpp"
 #include "drive/model_file.hpp"
 #include "drive/static_characteristic.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include <utility>
 
+#include "base/failure.hpp"
 #include "drive/log.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

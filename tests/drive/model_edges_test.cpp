@@ -8,6 +8,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "drive/closed_loop.hpp"
 #include "drive/commensurate.hpp"
 #include "drive/controller.hpp"
@@ -23,7 +24,6 @@
 #include "drive/swings.hpp"
 #include "glsum/registry.hpp"
 #include "glsum/weights.hpp"
-#include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

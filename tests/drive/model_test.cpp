@@ -4,8 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "base/failure.hpp"
 #include "drive/model_file.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -6,12 +6,12 @@
 #include <map>
 #include <set>
 
+#include "base/failure.hpp"
 #include "drive/response.hpp"
 #include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/deck.hpp"
 #include "drive/stand/blind/refit.hpp"
 #include "drive/stand/blind/without_model.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/closed_loop.hpp"
 #include "glsum/weights.hpp"
-#include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

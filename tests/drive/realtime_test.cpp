@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/response.hpp"
 #include "drive/simulation.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/model_run.hpp"
 #include "tests/drive/plants.hpp"
 

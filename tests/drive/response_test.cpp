@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/failure.hpp"
 #include "drive/exact_step_response.hpp"
-#include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

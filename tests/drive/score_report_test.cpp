@@ -7,9 +7,9 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "drive/stand/blind/judge.hpp"
 #include "drive/stand/blind/score.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -7,9 +7,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/response.hpp"
-#include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

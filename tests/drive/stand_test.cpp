@@ -11,12 +11,12 @@
 #include <numbers>
 #include <set>
 
+#include "base/failure.hpp"
 #include "drive/log.hpp"
 #include "drive/model_file.hpp"
 #include "drive/response.hpp"
 #include "drive/stand/experiment.hpp"
 #include "drive/stand/motion.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

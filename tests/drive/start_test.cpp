@@ -6,10 +6,10 @@
 #include <cmath>
 #include <functional>
 
+#include "base/failure.hpp"
 #include "drive/closed_loop.hpp"
 #include "drive/controller.hpp"
 #include "drive/fit.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/stand/experiment.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

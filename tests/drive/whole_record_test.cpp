@@ -8,11 +8,11 @@
 #include <limits>
 #include <numbers>
 
+#include "base/failure.hpp"
 #include "bench/reference/sums.hpp"
 #include "bench/signals.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/real_transform.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "base/failure.hpp"
 #include "drive/log.hpp"
 #include "drive/stand/blind/facts.hpp"
 #include "drive/stand/blind/hydraulic/tanks.hpp"
@@ -17,7 +18,6 @@
 #include "drive/stand/blind/refit.hpp"
 #include "drive/stand/blind/score.hpp"
 #include "drive/stand/blind/thermal/oven.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

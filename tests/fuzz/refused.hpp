@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -4,11 +4,11 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "gap/exam/ask.hpp"
 #include "gap/exam/manifest.hpp"
 #include "gap/exam/score.hpp"
 #include "gap/verdict/verdict.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

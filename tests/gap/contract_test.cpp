@@ -9,11 +9,11 @@
 #include <cmath>
 #include <functional>
 
+#include "base/failure.hpp"
 #include "gap/drive/audit.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/improved.hpp"
 #include "gap/drive/study.hpp"
-#include "qemu/failure.hpp"
 #include "stand_case.hpp"
 
 namespace {

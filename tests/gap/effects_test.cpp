@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "base/failure.hpp"
 #include "drive/response.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/simulate.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

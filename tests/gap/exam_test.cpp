@@ -7,10 +7,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "base/failure.hpp"
 #include "gap/drive/verdict.hpp"
 #include "gap/exam/ask.hpp"
 #include "gap/exam/score.hpp"
-#include "qemu/failure.hpp"
 #include "stand_case.hpp"
 
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "gap/drive/record.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

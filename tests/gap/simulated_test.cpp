@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "gap/drive/base/find.hpp"
-#include "qemu/failure.hpp"
 #include "stand_case.hpp"
 
 namespace {

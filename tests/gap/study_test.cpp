@@ -7,9 +7,9 @@
 
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "gap/drive/plausible.hpp"
 #include "gap/drive/start.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -11,10 +11,10 @@
 #include <numeric>
 #include <random>
 
+#include "base/failure.hpp"
 #include "gap/drive/question.hpp"
 #include "gap/drive/ranking.hpp"
 #include "gap/drive/start.hpp"
-#include "qemu/failure.hpp"
 #include "stand_case.hpp"
 
 namespace {

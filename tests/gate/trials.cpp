@@ -11,9 +11,9 @@
 #include <map>
 #include <random>
 
+#include "base/failure.hpp"
 #include "bench/gate/gate.hpp"
 #include "bench/gate/row_table.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -10,6 +10,7 @@
 #include <limits>
 #include <string>
 
+#include "base/failure.hpp"
 #include "base/rounded_up.hpp"
 #include "bench/designs.hpp"
 #include "bench/generate/provenance.hpp"
@@ -18,7 +19,6 @@
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

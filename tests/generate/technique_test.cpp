@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "base/failure.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/generate/kernel_data.hpp"
 #include "bench/generate/parts.hpp"
 #include "bench/generate/text.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 
 namespace {
 
@@ -117,7 +117,7 @@ TEST(Verified, WhatIsCompiledCallsEachHeadersStep) {
 
 // Without the firmware's flags beside it nothing is compiled.
 TEST(Verified, AFolderWithoutFlagsIsNamed) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     qemu::Board board;
     board.measure_elf = folder.file("measure.elf");
     try {

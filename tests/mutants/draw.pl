@@ -10,6 +10,8 @@ use warnings;
 
 my ($root, $seed, $count, $area) = @ARGV;
 my @areas = $area eq 'all' ? qw(kernels bench qemu gap drive) : ($area);
+# What every room uses is drawn with the room that uses most of it.
+my %folders = (bench => "bench base");
 
 # Park and Miller's generator: exact in a double, the same everywhere.
 my $state = ($seed % 2147483646) + 1;
@@ -70,11 +72,11 @@ sub code_of {
     return $code;
 }
 
-my $no_numbers = qr{^(?:bench/pieces|bench/plot|bench/equal_cost_plot|bench/gnuplot|bench/report/gain_plot|bench/report/cost_plot|drive/pictures)\.cpp$};
+my $no_numbers = qr{^(?:bench/pieces|bench/plot|bench/equal_cost_plot|base/gnuplot|bench/report/gain_plot|bench/report/cost_plot|drive/pictures)\.cpp$};
 my %places_of;
 for my $one (@areas) {
     my @files = grep { !m{/(README|engines|peers|plugin|m7|progress\.)} } split /\n/,
-        `cd '$root' && find '$one' \\( -name '*.cpp' -o -name '*.hpp' \\) -not -path '*/build/*' | LC_ALL=C sort`;
+        `cd '$root' && find @{[$folders{$one} // $one]} \\( -name '*.cpp' -o -name '*.hpp' \\) -not -path '*/build/*' | LC_ALL=C sort`;
     for my $file (@files) {
         open my $in, '<', "$root/$file" or die "$file: $!";
         my ($comment, $raw, $foreign) = (0, 0, 0);

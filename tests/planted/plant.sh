@@ -56,8 +56,9 @@ library_of() {
         kernels/modes/*) echo kernels/modes/libglsum_modes.a ;;
         kernels/model/*) echo kernels/model/libglsum_model.a ;;
         kernels/*) echo kernels/libglsum.a ;;
+        base/*) echo base/libglsum_base.a ;;
         bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
-        bench/discretisation_table.cpp | bench/files.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
+        bench/discretisation_table.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/report/*) echo bench/libglsum_report.a ;;
@@ -82,6 +83,7 @@ tests_of() {
         kernels/modes/*) echo modes_tests ;;
         kernels/model/*) echo drive_tests ;;
         kernels/*) echo kernel_tests bench_tests ;;
+        base/*) echo base_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;
         bench/generate/*) echo choose_tests make_headers ;;
         bench/report/*) echo bench_tests browser_tests ;;

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 #include "qemu/words.hpp"
 
 namespace {

@@ -6,8 +6,8 @@
 #include <cstring>
 #include <fstream>
 
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "qemu/software_double.hpp"
 
 namespace {
@@ -26,7 +26,7 @@ void expect_refused(const std::filesystem::path& path, const std::string& reason
 }
 
 TEST(Elf, RefusesWhatIsNoArmExecutable) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     expect_refused(folder.file("missing.elf"), "No such file");
     std::ofstream(folder.file("text.elf")) << "not an ELF";
     expect_refused(folder.file("text.elf"), "another kind of file");
@@ -65,7 +65,7 @@ void write_sparse_elf(const std::filesystem::path& path, std::uint16_t sections,
 }
 
 TEST(Elf, RefusesWhatWouldFillTheMemory) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     write_sparse_elf(folder.file("one.elf"), 1, 16 << 20);
     expect_refused(folder.file("one.elf"), "without symbols");  // its size is not what is wrong
     write_sparse_elf(folder.file("many.elf"), 5, 16 << 20);
@@ -77,7 +77,7 @@ TEST(Elf, RefusesWhatWouldFillTheMemory) {
 
 // At its bounds a file is read: what is wrong with these is that they have no names.
 TEST(Elf, ReadsWhatIsAtItsBounds) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("a.elf");
     write_sparse_elf(path, 4, 16 << 20);
     expect_refused(path, "without symbols");

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 #include "qemu/firmware.hpp"
 
 namespace {

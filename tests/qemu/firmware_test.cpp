@@ -6,11 +6,11 @@
 #include <map>
 #include <tuple>
 
+#include "base/failure.hpp"
 #include "bench/count_path.hpp"
 #include "bench/designs.hpp"
 #include "bench/signals.hpp"
 #include "glsum/registry.hpp"
-#include "qemu/failure.hpp"
 
 namespace {
 

@@ -10,13 +10,13 @@
 #include <sstream>
 #include <string>
 
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "bench/host_line.hpp"
 #include "glsum/registry.hpp"
 #include "qemu/elf.hpp"
-#include "qemu/failure.hpp"
 #include "qemu/firmware.hpp"
 #include "qemu/model_run.hpp"
-#include "qemu/scratch.hpp"
 #include "qemu/software_double.hpp"
 #include "qemu/watched.hpp"
 #include "targets/firmware/output_hash.hpp"
@@ -62,7 +62,7 @@ std::vector<std::uint8_t> attributes(std::uint8_t architecture, char profile) {
 }
 
 TEST(MadeElf, HasItsSymbolsFunctionsAndBytes) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     MadeElf made;
     made.sections = {{0x100, test::bytes_of({0x11223344, 0x55667788})}, {0x20000000, {'h', 'e', 'l', 'l', 'o'}}};
     made.symbols = {{"first", 0x101, 4, true},       {"second", 0x109, 0x10, true},
@@ -119,7 +119,7 @@ TEST(MadeElf, HasItsSymbolsFunctionsAndBytes) {
 }
 
 TEST(MadeElf, ALabelInCodeIsAFunctionOfItsFirstInstruction) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     MadeElf made;
     made.sections = {{0x100, test::bytes_of({0, 0})}, {0x20000000, test::bytes_of({0})}};
     made.symbols = {{"label", 0x105, 0, true}, {"in_memory", 0x20000000, 0}, {"f", 0x101, 4, true}};
@@ -131,7 +131,7 @@ TEST(MadeElf, ALabelInCodeIsAFunctionOfItsFirstInstruction) {
 }
 
 TEST(MadeElf, OtherMachinesTypesAndDamageAreRefused) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto said = [&](const MadeElf& made) {
         made.write(folder.file("a.elf"));
         return refusal(glsum::Exit::bad_input, [&] { const qemu::Elf elf(folder.file("a.elf")); });
@@ -153,7 +153,7 @@ TEST(MadeElf, OtherMachinesTypesAndDamageAreRefused) {
 }
 
 TEST(MadeElf, RunsOnTheCoreByItsAttributesOrItsVectors) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     MadeElf made;
     made.symbols = {{"f", 1, 2, true}};
     const auto checked = [&]() -> std::string {
@@ -197,7 +197,7 @@ TEST(MadeElf, RunsOnTheCoreByItsAttributesOrItsVectors) {
 }
 
 TEST(MadeElf, DoubleRoutinesAreItsOwnFromTheirFirstByteToTheirLast) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     MadeElf made;
     made.sections = {{0, test::bytes_of({0, 0})}};
     made.symbols = {{"__aeabi_dadd", 0x201, 0x10, true},
@@ -324,7 +324,7 @@ protected:
         return refusal(glsum::Exit::check_failed, [&] { (void)measure(); });
     }
 
-    qemu::Scratch folder_;
+    base::Scratch folder_;
     std::string script_;
     std::size_t done_ = 0;
 };
@@ -499,7 +499,7 @@ protected:
             board, plan, [&] { ++done_; }, timing);
     }
 
-    qemu::Scratch folder_;
+    base::Scratch folder_;
     const glsum::PastTable tables_[1] = {{2.0, some_ratios}};
     glsum::ModelDesign design_{.increments = false, .delay = 7, .input = 0.5, .constant = 0.25, .tables = {}};
     const glsum::ModelDesign other_{.half_input = true, .input_full_scale = 4.0, .tables = {}};

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "base/failure.hpp"
 #include "drive/realtime.hpp"
-#include "qemu/failure.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <thread>
 
-#include "bench/files.hpp"
+#include "base/files.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/page.hpp"
 #include "bench/results.hpp"
@@ -60,7 +60,7 @@ protected:
     static void open(const bench::report::Input& a, const bench::report::Input* b = nullptr,
                      const std::string& hash = "") {
         const auto path = folder / "page.html";
-        bench::write_file(path, make_page(a, b));
+        base::write_file(path, make_page(a, b));
         browser->open("about:blank");
         browser->open("file://" + path.string() + hash);
         for (int tries = 0; run("return document.documentElement.dataset.drawn || ''") != "all"; ++tries) {

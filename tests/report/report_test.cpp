@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "bench/files.hpp"
-#include "bench/gnuplot.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/gnuplot.hpp"
 #include "bench/report/best.hpp"
 #include "bench/report/classic.hpp"
 #include "bench/report/columns.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
 #include "bench/report/front.hpp"
-#include "qemu/failure.hpp"
 #include "tests/report/pretend_results.hpp"
 
 namespace {
@@ -277,7 +277,7 @@ TEST(Classic, ThePictureShowsBothFrontsAndTheirFactors) {
     const auto groups = bench::group(old_and_new());
     const auto costs = costs_of(groups);
     plot_gains(folder / "fronts", curve_points(groups, costs), costs);
-    const std::string svg = bench::read_file(folder / "fronts.svg", 1'000'000);
+    const std::string svg = base::read_file(folder / "fronts.svg", 1'000'000);
     const auto count = [&](const std::string& text) {
         std::size_t found = 0;
         for (std::size_t at = svg.find(text); at != std::string::npos; at = svg.find(text, at + 1)) {
@@ -336,7 +336,7 @@ TEST(Differences, TheLargestRatioComesFirst) {
 TEST(Texts, OfAFileStayOneField) {
     EXPECT_EQ(bench::csv_field("plain"), "plain");
     EXPECT_EQ(bench::csv_field("a,b \"c\"\n"), "\"a,b \"\"c\"\"\n\"");
-    EXPECT_EQ(bench::gnuplot_text("ring\"; system('x'); `y` $z {a}"), "ring?? system(?x?)? ?y? ?z ?a?");
+    EXPECT_EQ(base::gnuplot_text("ring\"; system('x'); `y` $z {a}"), "ring?? system(?x?)? ?y? ?z ?a?");
     EXPECT_EQ(bench::taps_number("2+7"), 9.0);
     for (const char* text : {"", "full", "5x", "+", "2+", "-3", "0"}) {
         EXPECT_EQ(bench::taps_number(text), std::nullopt) << text;
@@ -369,7 +369,7 @@ TEST(Report, WritesEveryFileEvenOfHostileNamesAndOddLengths) {
     for (const auto& file : written) {
         EXPECT_GT(std::filesystem::file_size(file), 0U) << file;
     }
-    EXPECT_EQ(bench::read_file(folder / "page-difference.csv", 1000), "name,counter,a,b,ratio,note\n");
+    EXPECT_EQ(base::read_file(folder / "page-difference.csv", 1000), "name,counter,a,b,ratio,note\n");
     EXPECT_FALSE(std::filesystem::exists("stolen"));
     std::filesystem::remove_all(folder);
 }
@@ -507,7 +507,7 @@ TEST(Curves, AreWrittenAsAFileOfAllPoints) {
     bounds["0.7"]["60"] = 1.0;
     const auto path = std::filesystem::path(testing::TempDir()) / "report_curves.csv";
     write_curves(path, curve_points(groups, costs), costs, bounds);
-    EXPECT_EQ(bench::read_file(path, 10000),
+    EXPECT_EQ(base::read_file(path, 10000),
               "order,kernel,taps,error_max,rounding_error_max,truncation_error_max,truncation_bound,effective_taps,"
               "host_ns,instructions,model_cycles:f746,model_cycles_low:f746,model_cycles_high:f746,bytes,"
               "front:host_ns,front:instructions,front:model_cycles:f746,front:bytes,fault\n"

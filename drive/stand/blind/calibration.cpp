@@ -77,7 +77,7 @@ Share sure_of_the_right(std::span<const Claim> claims) {
     return share;
 }
 
-bench::Picture picture_of_calibration(std::span<const Claim> claims) {
+base::Picture picture_of_calibration(std::span<const Claim> claims) {
     std::string rows;
     for (const Confidence& bin : calibrate(claims)) {
         if (bin.right.all > 0) {
@@ -108,7 +108,7 @@ bench::Picture picture_of_calibration(std::span<const Claim> claims) {
                         "95 % intervals\", \\\n"
                         "  $bins using 1:2:5 with labels offset -1,0.9 right notitle\n",
                         rows.empty() ? "-1 -1 -1 -1 \"\"\n" : rows, title, brier_score(claims), claims.size(),
-                        bench::palette[0]),
+                        base::palette[0]),
             700, 620};
 }
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/gnuplot.hpp"
+#include "base/gnuplot.hpp"
 
 namespace stand::blind {
 
@@ -52,6 +52,6 @@ inline constexpr double sure = 0.9;
 [[nodiscard]] Share sure_of_the_right(std::span<const Claim> claims);
 
 /// Share that is right over confidence, with counts and Wilson's intervals; on the diagonal confidence is what it says.
-[[nodiscard]] bench::Picture picture_of_calibration(std::span<const Claim> claims);
+[[nodiscard]] base::Picture picture_of_calibration(std::span<const Claim> claims);
 
 }  // namespace stand::blind

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "bench/parallel.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
 #include "drive/stand/blind/deck.hpp"
-#include "qemu/failure.hpp"
 
 namespace stand::blind {
 
@@ -118,7 +118,7 @@ std::string seal(std::uint64_t seed, const std::vector<Truth>& truths) {
 std::vector<Case> make_cases(std::size_t count, std::uint64_t seed, unsigned jobs, const std::function<void()>& done) {
     const std::vector<Plan> plans = plan_cases(count, seed);
     std::vector<Case> cases(plans.size());
-    bench::parallel_for(plans.size(), jobs, [&](std::size_t i) {
+    base::parallel_for(plans.size(), jobs, [&](std::size_t i) {
         cases[i] = make_case(plans[i], seed, i + 1);
         if (done) {
             done();

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace stand::blind {
 

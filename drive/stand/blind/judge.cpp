@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace stand::blind {
 namespace {

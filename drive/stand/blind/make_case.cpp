@@ -6,10 +6,10 @@
 #include <cmath>
 #include <set>
 
+#include "base/failure.hpp"
 #include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/mechanical.hpp"
 #include "drive/stand/blind/series.hpp"
-#include "qemu/failure.hpp"
 
 namespace stand::blind {
 namespace {

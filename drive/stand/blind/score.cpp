@@ -7,7 +7,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace stand::blind {
 namespace {

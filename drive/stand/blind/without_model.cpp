@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/parallel.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
 #include "drive/stand/blind/deck.hpp"
 #include "drive/stand/blind/facts.hpp"
 #include "drive/stand/blind/logger.hpp"
 #include "drive/stand/blind/refit.hpp"
 #include "drive/stand/blind/series.hpp"
-#include "qemu/failure.hpp"
 
 namespace stand::blind {
 namespace {
@@ -402,7 +402,7 @@ std::vector<OpenCase> make_open_cases(std::size_t count, std::uint64_t seed, uns
                                       const std::function<void()>& done) {
     const std::vector<OpenPlan> plans = plan_open_cases(count, seed);
     std::vector<OpenCase> cases(plans.size());
-    bench::parallel_for(plans.size(), jobs, [&](std::size_t i) {
+    base::parallel_for(plans.size(), jobs, [&](std::size_t i) {
         cases[i] = make_open_case(plans[i], seed, i + 1);
         if (done) {
             done();

@@ -8,12 +8,12 @@
 #include <optional>
 #include <set>
 
-#include "bench/parallel.hpp"
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
 #include "gap/drive/base/filtered.hpp"
 #include "gap/drive/base/leftover.hpp"
 #include "gap/drive/base/structure.hpp"
 #include "gap/drive/fit.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 namespace {
@@ -233,8 +233,8 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     Question asked = question;
     asked.refit = true;
     asked.jobs = 1;
-    bench::parallel_for(tried.size(), question.jobs,
-                        [&](std::size_t i) { found[i] = describe(*tried[i], alone, asked); });
+    base::parallel_for(tried.size(), question.jobs,
+                       [&](std::size_t i) { found[i] = describe(*tried[i], alone, asked); });
     std::vector<Described> all;
     for (std::vector<Described>& of_structure : found) {
         std::move(of_structure.begin(), of_structure.end(), std::back_inserter(all));

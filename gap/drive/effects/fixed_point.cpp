@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "gap/drive/effect.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 

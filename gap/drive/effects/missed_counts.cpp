@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/simulate.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/failure.hpp"
 #include "gap/drive/effect.hpp"
-#include "qemu/failure.hpp"
 
 namespace gap {
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "qemu/timing/timing_log.hpp"
 
 namespace {
@@ -38,7 +38,7 @@ TEST(CoreFile, OnlyTheIdealCoreHasEverythingOff) {
 
 // Changes the text of a copy of the cores and reads one of them.
 std::string message_after(const std::string& file, const std::string& from, const std::string& to) {
-    const qemu::Scratch scratch;
+    const base::Scratch scratch;
     const auto folder = scratch.file("cores");
     std::filesystem::copy(cores, folder);
     std::ostringstream text;

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "qemu/scratch.hpp"
+#include "base/scratch.hpp"
 #include "qemu/timing/decoded.hpp"
 
 namespace listing {
@@ -65,7 +65,7 @@ std::vector<Line> disassemble(const std::filesystem::path& file) {
 }
 
 std::vector<Line> assemble(const std::string& text) {
-    const qemu::Scratch scratch;
+    const base::Scratch scratch;
     std::ofstream(scratch.file("probe.s")) << ".syntax unified\n.thumb\n.text\n" << text << '\n';
     const std::string object = scratch.file("probe.o").string();
     const std::string said =

@@ -7,7 +7,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace {
 

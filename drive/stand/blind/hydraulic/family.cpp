@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "drive/stand/blind/hydraulic/tanks.hpp"
 #include "drive/stand/blind/series.hpp"
-#include "qemu/failure.hpp"
 
 namespace stand::hydraulic {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace qemu {
+namespace base {
 
 class Scratch {
 public:
@@ -18,4 +18,4 @@ private:
     std::filesystem::path path_;
 };
 
-}  // namespace qemu
+}  // namespace base

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace bench {
+namespace base {
 
 /// A name beside `path` to write to before it is renamed. Removes what killed runs left under such names.
 [[nodiscard]] std::filesystem::path partial_name(const std::filesystem::path& path);
@@ -24,4 +24,4 @@ void write_file(const std::filesystem::path& path, const std::string& content);
 /// Fails now rather than after a long run: whether a file can be written there.
 void check_writable(const std::filesystem::path& path);
 
-}  // namespace bench
+}  // namespace base

@@ -1,4 +1,4 @@
-#include "bench/progress.hpp"
+#include "base/progress.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <utility>
 
-namespace bench {
+namespace base {
 
 Progress::Progress(std::string title, std::size_t total)
     : title_(std::move(title)),
@@ -49,4 +49,4 @@ void Progress::show() {
     std::fflush(stderr);
 }
 
-}  // namespace bench
+}  // namespace base

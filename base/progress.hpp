@@ -6,7 +6,7 @@
 #include <mutex>
 #include <string>
 
-namespace bench {
+namespace base {
 
 class Progress {
 public:
@@ -30,4 +30,4 @@ private:
     std::chrono::steady_clock::time_point shown_;
 };
 
-}  // namespace bench
+}  // namespace base

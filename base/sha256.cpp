@@ -1,4 +1,4 @@
-#include "bench/sha256.hpp"
+#include "base/sha256.hpp"
 
 #include <fmt/format.h>
 
@@ -7,9 +7,9 @@
 #include <memory>
 #include <sstream>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
-namespace bench {
+namespace base {
 namespace {
 
 bool is_hash(const std::string& text) {
@@ -58,4 +58,4 @@ std::string sha256_line(const std::string& hash, const std::string& file_name) {
     return fmt::format("{}  {}\n", hash, file_name);
 }
 
-}  // namespace bench
+}  // namespace base

@@ -1,5 +1,5 @@
 // Hashes of files against published ones, and the lines that sha256sum writes.
-#include "bench/sha256.hpp"
+#include "base/sha256.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 #include <string>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
 namespace {
 
@@ -19,12 +19,12 @@ TEST(Sha256, IsThePublishedOneWhateverTheFileIsCalled) {
     // Quotes, blanks and what a shell would carry out.
     const auto path = std::filesystem::temp_directory_path() / ("it's $(false) 'a' file-" + std::to_string(getpid()));
     std::ofstream(path) << "abc";
-    EXPECT_EQ(bench::sha256_of(path), of_abc);
+    EXPECT_EQ(base::sha256_of(path), of_abc);
     std::ofstream(path, std::ios::trunc);
-    EXPECT_EQ(bench::sha256_of(path), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    EXPECT_EQ(base::sha256_of(path), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
     std::filesystem::remove(path);
     try {
-        (void)bench::sha256_of(path);
+        (void)base::sha256_of(path);
         FAIL() << "a file that is not there was hashed";
     } catch (const glsum::Failure& failure) {
         EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
@@ -33,13 +33,13 @@ TEST(Sha256, IsThePublishedOneWhateverTheFileIsCalled) {
 }
 
 TEST(Sha256, LinesAreReadAsTheyAreWritten) {
-    const std::string text = bench::sha256_line(of_abc, "a") + bench::sha256_line(of_abc, "two words.csv");
+    const std::string text = base::sha256_line(of_abc, "a") + base::sha256_line(of_abc, "two words.csv");
     EXPECT_EQ(text, of_abc + "  a\n" + of_abc + "  two words.csv\n");
-    const auto lines = bench::parse_sha256_lines(text, "seal");
+    const auto lines = base::parse_sha256_lines(text, "seal");
     ASSERT_EQ(lines.size(), 2U);
     EXPECT_EQ(lines[0], std::pair(of_abc, std::string("a")));
     EXPECT_EQ(lines[1], std::pair(of_abc, std::string("two words.csv")));
-    EXPECT_TRUE(bench::parse_sha256_lines("", "seal").empty());
+    EXPECT_TRUE(base::parse_sha256_lines("", "seal").empty());
 }
 
 TEST(Sha256, ADamagedLineIsNamed) {
@@ -49,7 +49,7 @@ TEST(Sha256, ADamagedLineIsNamed) {
     for (const std::string& bad : {std::string("\n"), of_abc + "\n", of_abc + "  \n", of_abc.substr(1) + "   a\n",
                                    of_abc + "_ a\n", upper + "  a\n"}) {
         try {
-            (void)bench::parse_sha256_lines(good + bad, "seal");
+            (void)base::parse_sha256_lines(good + bad, "seal");
             ADD_FAILURE() << bad;
         } catch (const glsum::Failure& failure) {
             EXPECT_EQ(failure.status(), glsum::Exit::bad_input);

@@ -8,7 +8,7 @@
 #include <thread>
 #include <vector>
 
-namespace bench {
+namespace base {
 
 template <class Work>
 void parallel_for(std::size_t count, unsigned jobs, Work work) {
@@ -38,4 +38,4 @@ void parallel_for(std::size_t count, unsigned jobs, Work work) {
     }
 }
 
-}  // namespace bench
+}  // namespace base

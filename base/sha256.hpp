@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace bench {
+namespace base {
 
 /// 64 hexadecimal digits. \throws glsum::Failure (bad input) naming the file if it cannot be read.
 [[nodiscard]] std::string sha256_of(const std::filesystem::path& file);
@@ -19,4 +19,4 @@ namespace bench {
 /// Such a line.
 [[nodiscard]] std::string sha256_line(const std::string& hash, const std::string& file_name);
 
-}  // namespace bench
+}  // namespace base

@@ -1,4 +1,4 @@
-#include "bench/gnuplot.hpp"
+#include "base/gnuplot.hpp"
 
 #include <fmt/format.h>
 
@@ -8,10 +8,10 @@
 #include <string_view>
 #include <system_error>
 
-#include "bench/files.hpp"
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
+#include "base/files.hpp"
 
-namespace bench {
+namespace base {
 namespace {
 
 // Between single quotes gnuplot takes all as it is, and two of them for one.
@@ -70,4 +70,4 @@ void draw(const Picture& picture, const std::filesystem::path& stem) {
     }
 }
 
-}  // namespace bench
+}  // namespace base

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-namespace bench {
+namespace base {
 
 /// Okabe and Ito's palette, which colour-blind readers can tell apart; the yellow is a brown, which shows on white.
 inline constexpr const char* palette[] = {"#0072B2", "#D55E00", "#009E73", "#CC79A7",
@@ -30,4 +30,4 @@ struct Picture {
 /// cannot be written.
 void draw(const Picture& picture, const std::filesystem::path& stem);
 
-}  // namespace bench
+}  // namespace base

@@ -1,4 +1,4 @@
-#include "bench/files.hpp"
+#include "base/files.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -13,9 +13,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
-namespace bench {
+namespace base {
 namespace {
 
 constexpr std::string_view marker = ".partial-";
@@ -132,4 +132,4 @@ void check_writable(const std::filesystem::path& path) {
     std::filesystem::remove(partial);
 }
 
-}  // namespace bench
+}  // namespace base

@@ -1,4 +1,4 @@
-#include "qemu/scratch.hpp"
+#include "base/scratch.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
@@ -12,9 +12,9 @@
 #include <string_view>
 #include <system_error>
 
-#include "qemu/failure.hpp"
+#include "base/failure.hpp"
 
-namespace qemu {
+namespace base {
 
 namespace {
 
@@ -52,4 +52,4 @@ Scratch::~Scratch() {
     std::filesystem::remove_all(path_, ignored);
 }
 
-}  // namespace qemu
+}  // namespace base

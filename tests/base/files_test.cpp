@@ -1,5 +1,5 @@
 // Files appear whole or not at all.
-#include "bench/files.hpp"
+#include "base/files.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +11,8 @@
 #include <sstream>
 #include <string>
 
-#include "qemu/failure.hpp"
-#include "qemu/scratch.hpp"
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
 
 namespace {
 
@@ -24,22 +24,22 @@ std::string content(const std::filesystem::path& path) {
 }
 
 TEST(Files, ReplaceAWholeFileAndLeaveNothingBeside) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("out.json");
-    bench::write_file(path, "old");
-    bench::write_file(path, std::string(1 << 20, 'x'));
+    base::write_file(path, "old");
+    base::write_file(path, std::string(1 << 20, 'x'));
     EXPECT_EQ(content(path).size(), 1U << 20);
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
 }
 
 TEST(Files, AFullDiskIsAnErrorAndTheOldFileStays) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("out.json");
-    bench::write_file(path, "good");
+    base::write_file(path, "good");
     // The partial file's own name leads to a device that is always full.
-    std::filesystem::create_symlink("/dev/full", bench::partial_name(path));
+    std::filesystem::create_symlink("/dev/full", base::partial_name(path));
     try {
-        bench::write_file(path, "new");
+        base::write_file(path, "new");
         FAIL() << "expected an error";
     } catch (const glsum::Failure& failure) {
         EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
@@ -51,15 +51,15 @@ TEST(Files, AFullDiskIsAnErrorAndTheOldFileStays) {
 }
 
 TEST(Files, RemoveWhatAKilledRunLeft) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("out.json");
     std::ofstream(path.string() + ".partial-999999999") << "half";
-    bench::write_file(path, "good");
+    base::write_file(path, "good");
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(path.parent_path()), {}), 1);
 }
 
 TEST(Files, AFolderThatCannotBeWrittenIsFoundBeforeTheRun) {
-    EXPECT_THROW(bench::check_writable("/proc/glsum/out.json"), glsum::Failure);
+    EXPECT_THROW(base::check_writable("/proc/glsum/out.json"), glsum::Failure);
 }
 
 std::string refusal(const std::function<void()>& ask) {
@@ -78,91 +78,91 @@ std::ptrdiff_t files_in(const std::filesystem::path& folder) {
 }
 
 TEST(Files, AreReadUpToTheirLimit) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("in.json");
     const std::string text = std::string(1 << 16, 'a') + std::string(1000, 'b');
     std::ofstream(path) << text;
-    EXPECT_EQ(bench::read_file(path, text.size()), text);
-    EXPECT_EQ(bench::read_file(path, 1 << 20), text);
-    EXPECT_EQ(refusal([&] { (void)bench::read_file(path, text.size() - 1); }),
+    EXPECT_EQ(base::read_file(path, text.size()), text);
+    EXPECT_EQ(base::read_file(path, 1 << 20), text);
+    EXPECT_EQ(refusal([&] { (void)base::read_file(path, text.size() - 1); }),
               path.string() + ": expected a file of at most 66535 bytes");
-    EXPECT_EQ(refusal([&] { (void)bench::read_file(folder.file("none"), 9); }),
+    EXPECT_EQ(refusal([&] { (void)base::read_file(folder.file("none"), 9); }),
               folder.file("none").string() + ": cannot read: No such file or directory");
-    EXPECT_EQ(refusal([&] { (void)bench::read_file(folder.file(""), 9); }),
+    EXPECT_EQ(refusal([&] { (void)base::read_file(folder.file(""), 9); }),
               folder.file("").string() + ": cannot read: Is a directory");
     std::ofstream(folder.file("empty")).flush();
-    EXPECT_EQ(bench::read_file(folder.file("empty"), 9), "");
+    EXPECT_EQ(base::read_file(folder.file("empty"), 9), "");
 }
 
 // Whatever comes in the way, the reason is said, nothing is left beside, and what was there stays.
 TEST(Files, WhatCannotBeWrittenIsNamedWithItsReason) {
-    const qemu::Scratch folder;
-    EXPECT_EQ(refusal([&] { bench::write_file("/proc/glsum/out.json", "x"); }),
+    const base::Scratch folder;
+    EXPECT_EQ(refusal([&] { base::write_file("/proc/glsum/out.json", "x"); }),
               "/proc/glsum/out.json: cannot write: No such file or directory; what was there before is untouched");
-    EXPECT_NE(refusal([] { bench::check_writable("/proc/glsum/out.json"); }).find("cannot write: No such file"),
+    EXPECT_NE(refusal([] { base::check_writable("/proc/glsum/out.json"); }).find("cannot write: No such file"),
               std::string::npos);
     const auto taken = folder.file("taken");
     std::filesystem::create_directories(taken / "inside");
-    EXPECT_EQ(refusal([&] { bench::write_file(taken, "x"); }),
+    EXPECT_EQ(refusal([&] { base::write_file(taken, "x"); }),
               taken.string() + ": cannot write: Is a directory; what was there before is untouched");
     EXPECT_EQ(files_in(taken.parent_path()), 1);
     EXPECT_EQ(
-        refusal([&] { bench::publish(folder.file("gone"), folder.file("out")); }),
+        refusal([&] { base::publish(folder.file("gone"), folder.file("out")); }),
         folder.file("out").string() + ": cannot write: No such file or directory; what was there before is untouched");
 }
 
 TEST(Files, AreWrittenIntoFoldersThatAreMade) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("a") / "b" / "out.json";
-    bench::check_writable(path);
+    base::check_writable(path);
     EXPECT_EQ(files_in(path.parent_path()), 0);
-    bench::write_file(path, "new");
+    base::write_file(path, "new");
     EXPECT_EQ(content(path), "new");
-    EXPECT_EQ(bench::partial_name("out.json"), "./out.json.partial-" + std::to_string(getpid()));
+    EXPECT_EQ(base::partial_name("out.json"), "./out.json.partial-" + std::to_string(getpid()));
 }
 
 // For everybody to read and write, as far as the user's mask allows, and not to run; of an earlier try nothing is left.
 TEST(Files, AreWrittenAfresh) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("out.json");
     const mode_t mask = umask(0);
-    bench::write_file(path, "old");
+    base::write_file(path, "old");
     EXPECT_EQ(std::filesystem::status(path).permissions(), static_cast<std::filesystem::perms>(0666));
-    std::ofstream(bench::partial_name(path)) << "longer than what follows";
-    bench::write_file(path, "new");
+    std::ofstream(base::partial_name(path)) << "longer than what follows";
+    base::write_file(path, "new");
     umask(mask);
     EXPECT_EQ(content(path), "new");
 }
 
 // A run that is still at work keeps its own; what is no run's is nobody's to remove.
 TEST(Files, OfOthersOnlyWhatIsLeftIsRemoved) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("out.json");
     const std::string alive = path.string() + ".partial-" + std::to_string(getppid());
     std::ofstream(alive) << "half";
     std::ofstream(path.string() + ".partial-mine") << "half";
     std::ofstream(folder.file("another.json.partial-999999999")) << "half";
     std::ofstream(path.string() + ".partial-999999999") << "half";
-    (void)bench::partial_name(path);
+    (void)base::partial_name(path);
     EXPECT_EQ(files_in(path.parent_path()), 3);
     EXPECT_EQ(content(alive), "half");
 }
 
 TEST(Files, NoneIsLeftOpen) {
-    const qemu::Scratch folder;
+    const base::Scratch folder;
     const auto path = folder.file("out.json");
     const auto open_files = [] { return files_in("/proc/self/fd"); };
     const auto before = open_files();
-    bench::write_file(path, "x");
-    (void)bench::read_file(path, 9);
-    bench::check_writable(path);
-    bench::write_file(folder.file("other"), "x");
+    base::write_file(path, "x");
+    (void)base::read_file(path, 9);
+    base::check_writable(path);
+    base::write_file(folder.file("other"), "x");
     std::filesystem::create_directories(folder.file("taken") / "inside");
-    (void)refusal([&] { bench::write_file(folder.file("taken"), "x"); });
-    (void)refusal([&] { (void)bench::read_file(path, 0); });
-    (void)refusal([&] { (void)bench::read_file(folder.file(""), 9); });
-    std::filesystem::create_symlink("/dev/full", bench::partial_name(path));
-    (void)refusal([&] { bench::write_file(path, "new"); });
+    (void)refusal([&] { base::write_file(folder.file("taken"), "x"); });
+    (void)refusal([&] { (void)base::read_file(path, 0); });
+    (void)refusal([&] { (void)base::read_file(folder.file(""), 9); });
+    std::filesystem::create_symlink("/dev/full", base::partial_name(path));
+    (void)refusal([&] { base::write_file(path, "new"); });
     EXPECT_EQ(open_files(), before);
 }
 
