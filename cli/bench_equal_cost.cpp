@@ -7,11 +7,11 @@
 #include <thread>
 
 #include "base/files.hpp"
-#include "bench/context.hpp"
-#include "bench/equal_cost.hpp"
-#include "bench/result_file.hpp"
-#include "bench/signals.hpp"
-#include "bench/sweep.hpp"
+#include "bench/rows/result_file.hpp"
+#include "bench/run/context.hpp"
+#include "bench/studies/equal_cost.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/sweep/sweep.hpp"
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
 #include "cli/rising.hpp"

@@ -12,12 +12,12 @@
 #include "base/gnuplot.hpp"
 #include "base/progress.hpp"
 #include "base/rounded_up.hpp"
-#include "bench/context.hpp"
-#include "bench/host_line.hpp"
-#include "bench/result_file.hpp"
-#include "bench/signals.hpp"
-#include "bench/sweep.hpp"
-#include "bench/target_rows.hpp"
+#include "bench/rows/result_file.hpp"
+#include "bench/run/context.hpp"
+#include "bench/sweep/host_line.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/sweep/sweep.hpp"
+#include "bench/target/target_rows.hpp"
 #include "cli/board.hpp"
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
@@ -26,7 +26,7 @@
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
-#include "qemu/firmware.hpp"
+#include "qemu/emulate/firmware.hpp"
 
 namespace cli {
 namespace {

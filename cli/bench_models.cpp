@@ -14,13 +14,13 @@
 #include <optional>
 #include <thread>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/progress.hpp"
-#include "bench/build_info.hpp"
-#include "bench/context.hpp"
-#include "bench/result_file.hpp"
-#include "bench/results.hpp"
-#include "bench/target_rows.hpp"
+#include "bench/rows/result_file.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/run/context.hpp"
+#include "bench/target/target_rows.hpp"
 #include "cli/board.hpp"
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
@@ -28,7 +28,7 @@
 #include "drive/realtime.hpp"
 #include "drive/response.hpp"
 #include "drive/simulation.hpp"
-#include "qemu/model_run.hpp"
+#include "qemu/emulate/model_run.hpp"
 
 namespace cli {
 namespace {

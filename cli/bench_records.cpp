@@ -14,12 +14,11 @@
 #include "base/failure.hpp"
 #include "base/files.hpp"
 #include "base/progress.hpp"
-#include "bench/context.hpp"
-#include "bench/host_line.hpp"
-#include "bench/peers/fftw.hpp"
-#include "bench/reference/sums.hpp"
-#include "bench/result_file.hpp"
-#include "bench/signals.hpp"
+#include "bench/host/peers/fftw.hpp"
+#include "bench/rows/result_file.hpp"
+#include "bench/run/context.hpp"
+#include "bench/sweep/host_line.hpp"
+#include "bench/sweep/signals.hpp"
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
 #include "cli/rising.hpp"
@@ -27,6 +26,7 @@
 #include "drive/real_transform.hpp"
 #include "drive/whole_record.hpp"
 #include "glsum/registry.hpp"
+#include "reference/sums.hpp"
 
 namespace cli {
 namespace {

@@ -1,8 +1,8 @@
 #include "cli/board.hpp"
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/files.hpp"
-#include "bench/build_info.hpp"
 
 namespace cli {
 

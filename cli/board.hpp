@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "qemu/firmware.hpp"
-#include "qemu/measured_cycles.hpp"
+#include "qemu/emulate/firmware.hpp"
+#include "qemu/emulate/measured_cycles.hpp"
 
 namespace cli {
 

@@ -7,9 +7,9 @@
 #include <memory>
 #include <thread>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
-#include "bench/build_info.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "cli/board.hpp"
 #include "glsum/weights.hpp"
 

@@ -7,7 +7,7 @@
 
 #include "bench/choose/question.hpp"
 #include "cli/command.hpp"
-#include "qemu/firmware.hpp"
+#include "qemu/emulate/firmware.hpp"
 
 namespace cli {
 

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <iterator>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
-#include "bench/build_info.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "glsum/weights.hpp"
 
 namespace cli {

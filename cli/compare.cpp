@@ -4,9 +4,9 @@
 #include <memory>
 #include <optional>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/files.hpp"
-#include "bench/build_info.hpp"
 #include "bench/gate/compare.hpp"
 #include "cli/command.hpp"
 

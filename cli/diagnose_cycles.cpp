@@ -16,8 +16,8 @@
 #include "gap/cycles/blind.hpp"
 #include "gap/cycles/explain.hpp"
 #include "gap/cycles/verdict.hpp"
-#include "qemu/firmware.hpp"
-#include "qemu/silicon.hpp"
+#include "qemu/emulate/firmware.hpp"
+#include "qemu/emulate/silicon.hpp"
 
 namespace cli {
 namespace {
@@ -63,7 +63,7 @@ std::string loops_that_part(const qemu::SiliconProgram& program, const std::stri
     std::vector<qemu::MeasuredCycles> rows;
     for (const char* loop : {
 #define GLSUM_LOOP(name, most) #name,
-#include "targets/firmware/silicon_loops.def"
+#include "targets/shared/silicon_loops.def"
 #undef GLSUM_LOOP
          }) {
         if (std::string_view(loop).starts_with("rival_")) {

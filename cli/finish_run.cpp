@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/failure.hpp"
-#include "bench/discretisation_table.hpp"
-#include "bench/plot.hpp"
-#include "bench/results.hpp"
-#include "bench/table.hpp"
-#include "bench/truncation_bound.hpp"
+#include "bench/report/discretisation_table.hpp"
+#include "bench/report/plot.hpp"
+#include "bench/report/table.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/sweep/truncation_bound.hpp"
 
 namespace cli {
 

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 
 namespace cli {
 

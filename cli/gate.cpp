@@ -8,9 +8,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/files.hpp"
-#include "bench/build_info.hpp"
 #include "bench/gate/baseline.hpp"
 #include "bench/gate/gate.hpp"
 #include "bench/gate/outputs.hpp"

@@ -1,10 +1,10 @@
 // glsum merge: the shards of a sweep into one result file.
-#include "bench/merge.hpp"
+#include "bench/rows/merge.hpp"
 
 #include <memory>
 
+#include "base/build_info.hpp"
 #include "base/files.hpp"
-#include "bench/build_info.hpp"
 #include "cli/command.hpp"
 #include "cli/finish_run.hpp"
 

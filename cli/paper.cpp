@@ -4,8 +4,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "base/build_info.hpp"
 #include "base/gnuplot.hpp"
-#include "bench/build_info.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "drive/paper.hpp"

@@ -6,13 +6,13 @@
 #include <optional>
 #include <thread>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/files.hpp"
-#include "bench/build_info.hpp"
 #include "bench/report/best.hpp"
 #include "bench/report/classic.hpp"
 #include "bench/report/report.hpp"
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 #include "cli/command.hpp"
 
 namespace cli {

@@ -6,12 +6,12 @@
 #include <map>
 #include <memory>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
-#include "bench/build_info.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
-#include "qemu/firmware.hpp"
-#include "qemu/silicon.hpp"
+#include "qemu/emulate/firmware.hpp"
+#include "qemu/emulate/silicon.hpp"
 
 namespace cli {
 namespace {

@@ -6,15 +6,15 @@
 #include <map>
 #include <memory>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/files.hpp"
 #include "base/sha256.hpp"
-#include "bench/build_info.hpp"
-#include "bench/row.hpp"
+#include "bench/rows/row.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
-#include "qemu/elf.hpp"
-#include "qemu/timed_program.hpp"
+#include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/timed_program.hpp"
 
 namespace cli {
 namespace {

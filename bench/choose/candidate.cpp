@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "bench/designs.hpp"
+#include "bench/sweep/designs.hpp"
 
 namespace choose {
 

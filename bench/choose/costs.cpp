@@ -6,12 +6,12 @@
 
 #include "base/progress.hpp"
 #include "bench/choose/earlier.hpp"
-#include "bench/count_path.hpp"
-#include "bench/designs.hpp"
-#include "bench/host_timing.hpp"
-#include "bench/results.hpp"
-#include "bench/signals.hpp"
-#include "bench/target_rows.hpp"
+#include "bench/host/host_timing.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/target/count_path.hpp"
+#include "bench/target/target_rows.hpp"
 
 namespace choose {
 namespace {

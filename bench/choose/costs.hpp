@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/result_file.hpp"
-#include "qemu/firmware.hpp"
+#include "bench/rows/result_file.hpp"
+#include "qemu/emulate/firmware.hpp"
 
 namespace choose {
 

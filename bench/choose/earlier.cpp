@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "bench/designs.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/signals.hpp"
 
 namespace choose {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/choose/question.hpp"
-#include "bench/result_file.hpp"
-#include "bench/results.hpp"
+#include "bench/rows/result_file.hpp"
+#include "bench/rows/results.hpp"
 
 namespace choose {
 

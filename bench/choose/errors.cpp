@@ -6,10 +6,10 @@
 #include <stdexcept>
 #include <type_traits>
 
-#include "bench/designs.hpp"
-#include "bench/host_line.hpp"
-#include "bench/row.hpp"
-#include "bench/signals.hpp"
+#include "bench/rows/row.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/host_line.hpp"
+#include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
 #include "modes/design.hpp"

@@ -6,8 +6,8 @@
 
 #include "base/failure.hpp"
 #include "bench/choose/earlier.hpp"
-#include "bench/context.hpp"
-#include "bench/designs.hpp"
+#include "bench/run/context.hpp"
+#include "bench/sweep/designs.hpp"
 #include "glsum/registry.hpp"
 
 namespace choose {

@@ -9,8 +9,8 @@
 
 #include "bench/choose/conditions.hpp"
 #include "bench/choose/search.hpp"
-#include "bench/row.hpp"
-#include "qemu/firmware.hpp"
+#include "bench/rows/row.hpp"
+#include "qemu/emulate/firmware.hpp"
 
 namespace choose {
 

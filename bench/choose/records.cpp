@@ -9,7 +9,7 @@
 #include "base/failure.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "glsum/weights.hpp"
 
 namespace choose {

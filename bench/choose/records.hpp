@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/choose/conditions.hpp"
-#include "bench/reference/sums.hpp"
+#include "reference/sums.hpp"
 
 namespace choose {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/designs.hpp"
+#include "bench/sweep/designs.hpp"
 
 namespace choose {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/gate/verdict.hpp"
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 
 namespace bench::gate {
 

@@ -6,7 +6,7 @@
 
 #include "bench/gate/conditions.hpp"
 #include "bench/gate/rules.hpp"
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 
 namespace bench::gate {
 

@@ -3,7 +3,7 @@
 
 #include "bench/gate/rules.hpp"
 #include "bench/gate/verdict.hpp"
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 
 namespace bench::gate {
 

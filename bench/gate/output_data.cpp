@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "bench/gate/outputs.hpp"
-#include "bench/row.hpp"
+#include "bench/rows/row.hpp"
 
 namespace bench::gate {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 
 namespace bench::gate {
 namespace {

@@ -5,7 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 
 namespace bench::gate {
 

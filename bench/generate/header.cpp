@@ -9,10 +9,10 @@
 
 #include "base/failure.hpp"
 #include "base/rounded_up.hpp"
-#include "bench/designs.hpp"
 #include "bench/generate/kernel_data.hpp"
 #include "bench/generate/text.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/history/nested.hpp"

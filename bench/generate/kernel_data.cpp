@@ -8,15 +8,15 @@
 #include <type_traits>
 
 #include "base/failure.hpp"
-#include "bench/designs.hpp"
 #include "bench/generate/header.hpp"
-#include "bench/host_line.hpp"
-#include "bench/row.hpp"
+#include "bench/rows/row.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
-#include "targets/firmware/output_hash.hpp"
+#include "targets/shared/output_hash.hpp"
 
 namespace generate {
 namespace {

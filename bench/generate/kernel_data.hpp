@@ -48,7 +48,7 @@ struct KernelData {
     bool bound_grows = false;            ///< with the record
     Numbers inputs;                      ///< of the self-check
     std::vector<std::uint64_t> outputs;  ///< their bits, for the inputs repeated
-    std::uint64_t hash = 0;              ///< of the outputs, as targets/firmware/output_hash.hpp has it
+    std::uint64_t hash = 0;              ///< of the outputs, as targets/shared/output_hash.hpp has it
 };
 
 /// \param taps     of a kernel with modes: near taps and two for each mode, with blocks one for each, as

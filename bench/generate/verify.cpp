@@ -10,15 +10,15 @@
 #include <set>
 #include <sstream>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/progress.hpp"
 #include "base/scratch.hpp"
-#include "bench/build_info.hpp"
-#include "bench/designs.hpp"
-#include "bench/row.hpp"
-#include "bench/signals.hpp"
-#include "qemu/elf.hpp"
-#include "qemu/watched.hpp"
+#include "bench/rows/row.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/signals.hpp"
+#include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/watched.hpp"
 
 namespace generate {
 namespace {

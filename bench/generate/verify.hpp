@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bench/generate/header.hpp"
-#include "qemu/call_counter.hpp"
-#include "qemu/firmware.hpp"
+#include "qemu/emulate/firmware.hpp"
+#include "qemu/stream/call_counter.hpp"
 
 namespace generate {
 

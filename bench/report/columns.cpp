@@ -17,7 +17,7 @@
 #include <unordered_map>
 
 #include "base/failure.hpp"
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 
 namespace bench::report {
 namespace {

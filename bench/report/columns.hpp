@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/row.hpp"
+#include "bench/rows/row.hpp"
 
 namespace bench::report {
 

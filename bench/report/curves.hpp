@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/results.hpp"
-#include "bench/truncation_bound.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/sweep/truncation_bound.hpp"
 
 namespace bench::report {
 

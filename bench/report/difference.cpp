@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 
 namespace bench::report {
 namespace {

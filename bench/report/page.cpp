@@ -5,7 +5,7 @@
 #include <map>
 #include <string_view>
 
-#include "bench/build_info.hpp"
+#include "base/build_info.hpp"
 #include "bench/report/columns.hpp"
 #include "bench/report/page_parts.hpp"
 

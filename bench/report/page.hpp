@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "bench/result_file.hpp"
-#include "bench/truncation_bound.hpp"
+#include "bench/rows/result_file.hpp"
+#include "bench/sweep/truncation_bound.hpp"
 
 namespace bench::report {
 

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "base/files.hpp"
-#include "bench/plot.hpp"
 #include "bench/report/classic.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
-#include "bench/results.hpp"
+#include "bench/report/plot.hpp"
+#include "bench/rows/results.hpp"
 
 namespace bench::report {
 

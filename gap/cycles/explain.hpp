@@ -14,7 +14,7 @@
 
 #include "gap/verdict/outcome.hpp"
 #include "gap/verdict/where.hpp"
-#include "qemu/silicon.hpp"
+#include "qemu/emulate/silicon.hpp"
 
 namespace gap::cycles {
 

@@ -21,11 +21,11 @@
 #include <unordered_map>
 #include <utility>
 
-#include "qemu/call_counter.hpp"
-#include "qemu/marked_timer.hpp"
 #include "qemu/plugin/api.h"
 #include "qemu/plugin/tally.hpp"
-#include "qemu/thumb.hpp"
+#include "qemu/stream/call_counter.hpp"
+#include "qemu/stream/thumb.hpp"
+#include "qemu/timing/marked_timer.hpp"
 
 // Told by what the emulator has: it looks here once it has loaded the plugin.
 int qemu_plugin_version = qemu_plugin_read_memory_vaddr != nullptr ? 4 : qemu_plugin_scoreboard_new != nullptr ? 2 : 1;

@@ -12,7 +12,7 @@
 #include <span>
 #include <vector>
 
-#include "qemu/stream.hpp"
+#include "qemu/stream/stream.hpp"
 #include "qemu/timing/block_replay.hpp"
 #include "qemu/timing/decode.hpp"
 #include "qemu/timing/surroundings.hpp"

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <span>
 
-#include "qemu/stream.hpp"
+#include "qemu/stream/stream.hpp"
 #include "qemu/timing/core_file.hpp"
 #include "qemu/timing/decoded.hpp"
 #include "qemu/timing/effects.hpp"

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "qemu/stream.hpp"
+#include "qemu/stream/stream.hpp"
 #include "qemu/timing/block_events.hpp"
 #include "qemu/timing/core_file.hpp"
 #include "qemu/timing/decoded.hpp"

@@ -38,5 +38,8 @@ function(glsum_unite target)
     set_source_files_properties(${united_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
+# Peers are measured at their best on this machine.
+set(GLSUM_PEER_FLAGS "-O3 -march=native -ffast-math")
+
 # No product may be fused with its addition unless a kernel's name says so: host and target must agree bit for bit.
 set(GLSUM_CONTRACTION -ffp-contract=off)

@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "marks.hpp"
-#include "timed_calls.hpp"
+#include "shared/timed_calls.hpp"
 
 namespace firmware {
 

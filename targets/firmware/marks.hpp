@@ -1,4 +1,4 @@
-// Where the program is, for the timing model that watches it (qemu/marked_timer.hpp): three empty functions.
+// Where the program is, for the timing model that watches it (qemu/timing/marked_timer.hpp): three empty functions.
 #pragma once
 
 extern "C" {

@@ -13,9 +13,9 @@
 #include "glsum/computes_in_double.hpp"
 #include "marker.hpp"
 #include "model/stepper.hpp"
-#include "output_hash.hpp"
 #include "plan.hpp"
 #include "port.hpp"
+#include "shared/output_hash.hpp"
 
 namespace {
 

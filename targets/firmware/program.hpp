@@ -6,9 +6,9 @@
 
 #include "buffers.hpp"
 #include "glsum/registry.hpp"
-#include "output_hash.hpp"
 #include "plan.hpp"
 #include "port.hpp"
+#include "shared/output_hash.hpp"
 
 namespace firmware {
 

@@ -10,14 +10,14 @@
 #include "marks.hpp"
 #include "plan.hpp"
 #include "port.hpp"
-#include "silicon_calls.hpp"
+#include "shared/silicon_calls.hpp"
 #include "watched.hpp"
 
 // Memory at r0, taps at r1, the new sample in r2 or s0.
 using Loop = void(void* memory, std::uint32_t taps, std::int32_t newest_q31, float newest_f32);
 extern "C" {
 #define GLSUM_LOOP(name, most_taps) Loop glsum_silicon_##name;
-#include "silicon_loops.def"
+#include "shared/silicon_loops.def"
 #undef GLSUM_LOOP
 }
 
@@ -33,7 +33,7 @@ struct NamedLoop {
 };
 constexpr NamedLoop loops[] = {
 #define GLSUM_LOOP(name, most_taps) {#name, glsum_silicon_##name, most_taps},
-#include "silicon_loops.def"
+#include "shared/silicon_loops.def"
 #undef GLSUM_LOOP
 };
 

@@ -1,4 +1,4 @@
-#include "bench/accuracy.hpp"
+#include "bench/sweep/accuracy.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "bench/derivative_limits.hpp"
-#include "bench/reference/sums.hpp"
-#include "bench/signal_derivatives.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/derivative_limits.hpp"
+#include "bench/sweep/signal_derivatives.hpp"
+#include "bench/sweep/signals.hpp"
+#include "reference/sums.hpp"
 
 namespace {
 

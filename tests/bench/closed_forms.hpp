@@ -1,7 +1,7 @@
 // Closed forms of the Grünwald-Letnikov sum, by the Gamma function: none of them uses the recurrence.
 #pragma once
 
-#include "bench/reference/real.hpp"
+#include "reference/real.hpp"
 
 namespace closed_form {
 

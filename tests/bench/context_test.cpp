@@ -1,5 +1,5 @@
 // What a result file says of its run, and what a row says of modelled cycles.
-#include "bench/context.hpp"
+#include "bench/run/context.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <regex>
 #include <string>
 
-#include "bench/target_rows.hpp"
+#include "bench/target/target_rows.hpp"
 #include "qemu/timing/core_file.hpp"
 #include "qemu/timing/effects.hpp"
 

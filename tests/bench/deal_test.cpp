@@ -1,5 +1,5 @@
 // Dealing by cost.
-#include "bench/deal.hpp"
+#include "bench/target/deal.hpp"
 
 #include <gtest/gtest.h>
 

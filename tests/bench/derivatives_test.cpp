@@ -1,5 +1,5 @@
 // The exact derivatives against printed values (every digit), identities (30 digits) and the sum that tends to them.
-#include "bench/reference/derivatives.hpp"
+#include "reference/derivatives.hpp"
 
 #include <gtest/gtest.h>
 
@@ -12,9 +12,9 @@
 #include <thread>
 #include <vector>
 
-#include "bench/reference/gamma.hpp"
-#include "bench/reference/mittag_leffler.hpp"
-#include "bench/reference/sums.hpp"
+#include "reference/gamma.hpp"
+#include "reference/mittag_leffler.hpp"
+#include "reference/sums.hpp"
 #include "tests/bench/digits.hpp"
 
 namespace {

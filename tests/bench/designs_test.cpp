@@ -1,5 +1,5 @@
 // Lengths and designs of kernels with modes, and what their rows say.
-#include "bench/designs.hpp"
+#include "bench/sweep/designs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,11 +7,11 @@
 #include <set>
 #include <string>
 
-#include "bench/accuracy.hpp"
-#include "bench/results.hpp"
-#include "bench/signals.hpp"
-#include "bench/target_plan.hpp"
-#include "bench/truncation_bound.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/sweep/accuracy.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/sweep/truncation_bound.hpp"
+#include "bench/target/target_plan.hpp"
 #include "glsum/history/nested.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "bench/reference/real.hpp"
+#include "reference/real.hpp"
 
 namespace digits {
 

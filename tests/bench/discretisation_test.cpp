@@ -1,5 +1,5 @@
 // Weights of higher order as a choice: what they converge to and how fast, which kernels sum them, what their rows say.
-#include "bench/exact_weights.hpp"
+#include "bench/sweep/exact_weights.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,14 +10,14 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "bench/accuracy.hpp"
-#include "bench/designs.hpp"
-#include "bench/discretisation_table.hpp"
-#include "bench/host_timing.hpp"
-#include "bench/reference/derivatives.hpp"
-#include "bench/reference/sums.hpp"
-#include "bench/results.hpp"
-#include "bench/signals.hpp"
+#include "bench/host/host_timing.hpp"
+#include "bench/report/discretisation_table.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/sweep/accuracy.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/signals.hpp"
+#include "reference/derivatives.hpp"
+#include "reference/sums.hpp"
 
 namespace {
 

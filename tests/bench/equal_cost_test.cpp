@@ -1,6 +1,6 @@
 // What a number of multiplications buys: Oustaloup's filter against closed forms, and that each way is held against the
 // same sum at the same cost.
-#include "bench/equal_cost.hpp"
+#include "bench/studies/equal_cost.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,9 +15,9 @@
 #include <utility>
 #include <vector>
 
-#include "bench/oustaloup.hpp"
-#include "bench/signals.hpp"
-#include "bench/tuned_oustaloup.hpp"
+#include "bench/studies/oustaloup.hpp"
+#include "bench/studies/tuned_oustaloup.hpp"
+#include "bench/sweep/signals.hpp"
 
 namespace {
 

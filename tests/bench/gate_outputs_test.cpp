@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "bench/row.hpp"
+#include "bench/rows/row.hpp"
 
 namespace {
 

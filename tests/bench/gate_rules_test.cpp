@@ -4,8 +4,8 @@
 
 #include <string>
 
+#include "base/build_info.hpp"
 #include "base/failure.hpp"
-#include "bench/build_info.hpp"
 #include "bench/gate/rules.hpp"
 
 namespace {

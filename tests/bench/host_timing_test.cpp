@@ -1,5 +1,5 @@
 // What a timing on the host says besides the time: names, sizes, repetitions, and which cases of a sweep are timed.
-#include "bench/host_timing.hpp"
+#include "bench/host/host_timing.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <set>
 
 #include "base/failure.hpp"
-#include "bench/designs.hpp"
-#include "bench/peer_numbers.hpp"
-#include "bench/timed_rows.hpp"
+#include "bench/host/peer_numbers.hpp"
+#include "bench/host/timed_rows.hpp"
+#include "bench/sweep/designs.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Dealing a sweep in shards, and putting shards together.
-#include "bench/merge.hpp"
+#include "bench/rows/merge.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,10 +10,10 @@
 #include <set>
 
 #include "base/failure.hpp"
-#include "bench/pieces.hpp"
-#include "bench/run.hpp"
-#include "bench/signals.hpp"
-#include "bench/target_plan.hpp"
+#include "bench/run/pieces.hpp"
+#include "bench/run/run.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/target/target_plan.hpp"
 
 namespace {
 

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "bench/host_line.hpp"
-#include "bench/reference/derivatives.hpp"
-#include "bench/reference/sums.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/registry.hpp"
 #include "glsum/weights.hpp"
+#include "reference/derivatives.hpp"
+#include "reference/sums.hpp"
 #include "tests/bench/closed_forms.hpp"
 #include "tests/bench/digits.hpp"
 

@@ -1,6 +1,6 @@
 // Pictures as gnuplot is told to draw them: a script in its place keeps what it is sent. Points, lines and keys are
 // held against the rows; where things lie in the picture is for people to look at.
-#include "bench/plot.hpp"
+#include "bench/report/plot.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -15,8 +15,8 @@
 
 #include "base/failure.hpp"
 #include "base/gnuplot.hpp"
-#include "bench/equal_cost.hpp"
 #include "bench/report/curves.hpp"
+#include "bench/studies/equal_cost.hpp"
 
 namespace {
 

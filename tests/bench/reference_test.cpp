@@ -1,5 +1,5 @@
 // The oracle against closed forms (30 digits) and published values (every printed digit).
-#include "bench/reference/sums.hpp"
+#include "reference/sums.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/reference/bdf.hpp"
-#include "bench/reference/dropped.hpp"
+#include "reference/bdf.hpp"
+#include "reference/dropped.hpp"
 #include "tests/bench/closed_forms.hpp"
 #include "tests/bench/digits.hpp"
 

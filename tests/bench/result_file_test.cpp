@@ -1,5 +1,5 @@
 // Reading result files: what is whole is read to the last row, what is broken is told apart by kind and place.
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <fstream>
 
 #include "base/failure.hpp"
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 
 namespace {
 

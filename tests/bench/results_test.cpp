@@ -1,5 +1,5 @@
 // Reading rows, and which of them are ranked.
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/sweep.hpp"
-#include "bench/table.hpp"
+#include "bench/report/table.hpp"
+#include "bench/sweep/sweep.hpp"
 
 namespace {
 

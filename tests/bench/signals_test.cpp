@@ -1,4 +1,4 @@
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/signal_derivatives.hpp"
+#include "bench/sweep/signal_derivatives.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // What the target is to run for a sweep.
-#include "bench/target_plan.hpp"
+#include "bench/target/target_plan.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <map>
 #include <set>
 
-#include "bench/count_path.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/target/count_path.hpp"
 
 namespace {
 

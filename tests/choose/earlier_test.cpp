@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "bench/designs.hpp"
+#include "bench/sweep/designs.hpp"
 
 namespace {
 

@@ -7,13 +7,13 @@
 #include <set>
 
 #include "base/failure.hpp"
-#include "bench/accuracy.hpp"
 #include "bench/choose/brute_force.hpp"
 #include "bench/choose/earlier.hpp"
 #include "bench/choose/question.hpp"
-#include "bench/designs.hpp"
-#include "bench/host_line.hpp"
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/sweep/accuracy.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
 #include "modes/design.hpp"

@@ -9,7 +9,7 @@
 #include "base/failure.hpp"
 #include "drive/response.hpp"
 #include "drive/simulation.hpp"
-#include "qemu/model_run.hpp"
+#include "qemu/emulate/model_run.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {

@@ -9,10 +9,10 @@
 #include <numbers>
 
 #include "base/failure.hpp"
-#include "bench/reference/sums.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/real_transform.hpp"
+#include "reference/sums.hpp"
 
 namespace {
 

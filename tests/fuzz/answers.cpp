@@ -1,5 +1,5 @@
 // The firmware's answers from anywhere. The first byte says how many rows are expected.
-#include "qemu/answers.hpp"
+#include "qemu/emulate/answers.hpp"
 
 #include <sstream>
 #include <string>

@@ -2,7 +2,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "qemu/call_counter.hpp"
+#include "qemu/stream/call_counter.hpp"
 #include "tests/fuzz/refused.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // An ELF file from anywhere.
-#include "qemu/elf.hpp"
+#include "qemu/emulate/elf.hpp"
 
 #include <sys/mman.h>
 #include <unistd.h>

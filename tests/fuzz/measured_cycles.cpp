@@ -1,5 +1,5 @@
 // Measured cycles from anywhere: what is taken is within the ranges that the prediction counts on.
-#include "qemu/measured_cycles.hpp"
+#include "qemu/emulate/measured_cycles.hpp"
 
 #include "tests/fuzz/refused.hpp"
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "qemu/call_counter.hpp"
-#include "qemu/thumb.hpp"
+#include "qemu/stream/call_counter.hpp"
+#include "qemu/stream/thumb.hpp"
 #include "tests/fuzz/refused.hpp"
 
 namespace {

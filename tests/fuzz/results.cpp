@@ -1,8 +1,8 @@
 // A result file from anywhere: read, grouped, and shown as a table and as CSV.
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 
-#include "bench/result_file.hpp"
-#include "bench/table.hpp"
+#include "bench/report/table.hpp"
+#include "bench/rows/result_file.hpp"
 #include "tests/fuzz/refused.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

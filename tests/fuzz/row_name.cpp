@@ -1,7 +1,7 @@
 // A row's name from anywhere: what is taken apart is put together again.
 #include <string>
 
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 #include "tests/fuzz/refused.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
-#include "bench/merge.hpp"
-#include "bench/shard.hpp"
+#include "bench/rows/merge.hpp"
+#include "bench/rows/shard.hpp"
 #include "tests/fuzz/refused.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,5 +1,5 @@
 // The firmware's build_info.json from anywhere.
-#include "bench/target_build.hpp"
+#include "bench/target/target_build.hpp"
 
 #include "tests/fuzz/refused.hpp"
 

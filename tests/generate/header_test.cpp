@@ -12,9 +12,9 @@
 
 #include "base/failure.hpp"
 #include "base/rounded_up.hpp"
-#include "bench/designs.hpp"
 #include "bench/generate/provenance.hpp"
-#include "bench/host_line.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/registry.hpp"
 #include "modes/blocks.hpp"

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "bench/designs.hpp"
 #include "bench/generate/header.hpp"
+#include "bench/sweep/designs.hpp"
 
 int main(int argc, char** argv) {
     if (argc != 2) {

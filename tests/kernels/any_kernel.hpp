@@ -12,9 +12,9 @@
 #include <string_view>
 #include <vector>
 
-#include "bench/reference/dropped.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/kernel.hpp"
+#include "reference/dropped.hpp"
 
 namespace test {
 

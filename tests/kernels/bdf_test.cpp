@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "bench/reference/bdf.hpp"
-#include "bench/reference/sums.hpp"
+#include "reference/bdf.hpp"
+#include "reference/sums.hpp"
 
 namespace {
 

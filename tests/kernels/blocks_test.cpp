@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/reference/modes.hpp"
 #include "glsum/history/nested.hpp"
 #include "glsum/weights.hpp"
+#include "reference/modes.hpp"
 
 namespace {
 

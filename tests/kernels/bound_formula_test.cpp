@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "bench/host_line.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/registry.hpp"

@@ -5,9 +5,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "bench/reference/bdf.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "modes/bdf.hpp"
+#include "reference/bdf.hpp"
 
 namespace test {
 namespace {

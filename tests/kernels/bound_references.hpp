@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <vector>
 
-#include "bench/reference/dropped.hpp"
-#include "bench/reference/sums.hpp"
+#include "reference/dropped.hpp"
+#include "reference/sums.hpp"
 
 namespace test {
 

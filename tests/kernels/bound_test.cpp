@@ -1,7 +1,7 @@
 // The error bound that each kernel promises holds on every signal, order and length; and it is not an empty promise.
 #include "glsum/bound.hpp"
 
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "tests/kernels/any_kernel.hpp"
 #include "tests/kernels/bound_references.hpp"
 

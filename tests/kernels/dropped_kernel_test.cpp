@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "bench/reference/dropped.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
 #include "modes/design.hpp"
+#include "reference/dropped.hpp"
 #include "tests/kernels/registered.hpp"
 
 namespace {

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <random>
 
-#include "bench/reference/sums.hpp"
+#include "reference/sums.hpp"
 #include "tests/kernels/registered.hpp"
 
 namespace {

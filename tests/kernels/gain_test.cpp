@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/reference/real.hpp"
+#include "reference/real.hpp"
 
 namespace {
 

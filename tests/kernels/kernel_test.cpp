@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "bench/host_line.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/registry.hpp"
 #include "tests/kernels/any_kernel.hpp"
 

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <random>
 
-#include "bench/reference/modes.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
 #include "modes/design.hpp"
+#include "reference/modes.hpp"
 #include "tests/kernels/registered.hpp"
 
 namespace {

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
-#include "bench/reference/sums.hpp"
 #include "modes/design.hpp"
+#include "reference/sums.hpp"
 
 namespace {
 

@@ -8,8 +8,7 @@
 #include <set>
 #include <string>
 
-#include "bench/host_line.hpp"
-#include "bench/reference/real.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/block_weights.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/computes_in_double.hpp"
@@ -17,6 +16,7 @@
 #include "glsum/dsp.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/registry.hpp"
+#include "reference/real.hpp"
 
 namespace {
 

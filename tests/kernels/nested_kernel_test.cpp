@@ -3,10 +3,10 @@
 #include <cmath>
 #include <random>
 
-#include "bench/reference/blocks.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
 #include "modes/blocks.hpp"
+#include "reference/blocks.hpp"
 #include "tests/kernels/registered.hpp"
 
 namespace {

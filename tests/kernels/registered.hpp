@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <string>
 
-#include "bench/host_line.hpp"
-#include "bench/reference/dropped.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/registry.hpp"
+#include "reference/dropped.hpp"
 
 namespace test {
 

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/reference/sums.hpp"
+#include "reference/sums.hpp"
 
 namespace {
 

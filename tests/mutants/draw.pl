@@ -3,7 +3,7 @@
 # has them: name | file | substitution. The same seed draws the same from the same code. What is in comments, in texts, in
 # includes and in the lists of names (*.def) is no code; equivalent.txt says which changes alter nothing. Left out as whole classes,
 # since no answer depends on them: what shows progress on a terminal; reserve(), which only saves time; and, in the files that lay
-# out pictures alone, numbers (where a key or a margin lies), and in bench/pieces.cpp (how long work is expected to take, by which
+# out pictures alone, numbers (where a key or a margin lies), and in bench/run/pieces.cpp (how long work is expected to take, by which
 # shards are dealt). Their other code is drawn, as is every threshold elsewhere.
 use strict;
 use warnings;
@@ -11,7 +11,7 @@ use warnings;
 my ($root, $seed, $count, $area) = @ARGV;
 my @areas = $area eq 'all' ? qw(kernels bench qemu gap drive) : ($area);
 # What every room uses is drawn with the room that uses most of it.
-my %folders = (bench => "bench base");
+my %folders = (bench => "bench base reference");
 
 # Park and Miller's generator: exact in a double, the same everywhere.
 my $state = ($seed % 2147483646) + 1;
@@ -72,7 +72,7 @@ sub code_of {
     return $code;
 }
 
-my $no_numbers = qr{^(?:bench/pieces|bench/plot|bench/equal_cost_plot|base/gnuplot|bench/report/gain_plot|bench/report/cost_plot|drive/pictures)\.cpp$};
+my $no_numbers = qr{^(?:bench/run/pieces|bench/report/plot|bench/studies/equal_cost_plot|base/gnuplot|bench/report/gain_plot|bench/report/cost_plot|drive/pictures)\.cpp$};
 my %places_of;
 for my $one (@areas) {
     my @files = grep { !m{/(README|engines|peers|plugin|m7|progress\.)} } split /\n/,

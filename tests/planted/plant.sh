@@ -57,13 +57,17 @@ library_of() {
         kernels/model/*) echo kernels/model/libglsum_model.a ;;
         kernels/*) echo kernels/libglsum.a ;;
         base/*) echo base/libglsum_base.a ;;
-        bench/reference/* | bench/signals.cpp) echo bench/libglsum_reference.a ;;
-        bench/discretisation_table.cpp | bench/merge.cpp | bench/result_file.cpp | bench/results.cpp | bench/shard.cpp) echo bench/libglsum_results.a ;;
+        reference/*) echo reference/libglsum_reference.a ;;
+        bench/rows/*) echo bench/libglsum_results.a ;;
+        bench/sweep/*) echo bench/libglsum_sweep.a ;;
+        bench/host/*) echo bench/libglsum_host.a ;;
+        bench/target/*) echo bench/libglsum_target.a ;;
+        bench/studies/*) echo bench/libglsum_studies.a ;;
+        bench/report/table.cpp | bench/report/plot.cpp | bench/report/discretisation_table.cpp) echo bench/libglsum_shown.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/report/*) echo bench/libglsum_report.a ;;
         bench/generate/*) echo bench/libglsum_generate.a ;;
-        bench/equal_cost*.cpp | bench/*oustaloup.cpp) echo bench/libglsum_studies.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
         drive/*) echo drive/libglsum_drive.a ;;
@@ -72,8 +76,8 @@ library_of() {
         gap/verdict/*) echo gap/verdict/libglsum_gap_verdict.a ;;
         gap/*) echo gap/libglsum_gap.a ;;
         qemu/timing/*) echo qemu/timing/libglsum_timing.a ;;
-        qemu/answers.cpp | qemu/elf.cpp) echo qemu/libglsum_readers.a ;;
-        qemu/marked_timer.cpp | qemu/measured_cycles.cpp | qemu/modelled_calls.cpp | qemu/software_double.cpp) echo qemu/libglsum_qemu.a ;;
+        qemu/emulate/answers.cpp | qemu/emulate/elf.cpp) echo qemu/libglsum_readers.a ;;
+        qemu/emulate/*) echo qemu/libglsum_qemu.a ;;
         qemu/*) echo qemu/libglsum_stream.a ;;
         *) echo "plant.sh: no library is known for $1" >&2; exit 2 ;;
     esac
@@ -86,12 +90,14 @@ tests_of() {
         base/*) echo base_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;
         bench/generate/*) echo choose_tests make_headers ;;
+        bench/report/table.* | bench/report/plot.* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
         bench/report/*) echo bench_tests browser_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
         drive/*) echo drive_tests ;;
         gap/cycles/*) echo gap_cycles_tests ;;
         gap/*) echo gap_parts_tests gap_tests ;;
-        qemu/timing/* | qemu/measured_cycles.cpp | qemu/silicon.cpp) echo timing_tests ;;
+        qemu/timing/marked_timer.*) echo qemu_tests bench_tests ;;
+        qemu/timing/* | qemu/emulate/measured_cycles.cpp | qemu/emulate/silicon.cpp) echo timing_tests ;;
         *) echo qemu_tests bench_tests ;;
     esac
 }
@@ -99,7 +105,7 @@ tests_of() {
 firmware=${GLSUM_FIRMWARE_BUILD:-$source/build/mps2-an500}
 of_firmware() {
     case $1 in
-        qemu/firmware.* | qemu/model_run.* | qemu/watched.*)
+        qemu/emulate/firmware.* | qemu/emulate/model_run.* | qemu/emulate/watched.*)
             [ -e "$firmware/targets/measure.elf" ] && command -v "${GLSUM_QEMU:-qemu-system-arm}" >/dev/null ;;
         *) false ;;
     esac

@@ -1,15 +1,15 @@
 // What the firmware answers, and what is taken from it.
-#include "qemu/answers.hpp"
+#include "qemu/emulate/answers.hpp"
 
 #include <gtest/gtest.h>
 
 #include "base/failure.hpp"
-#include "qemu/words.hpp"
+#include "base/words.hpp"
 
 namespace {
 
 TEST(Words, AreTakenOneByOneAndNumbersAreWhole) {
-    qemu::Words words("  row 7 ff ff 8x -1 +1 256 ");
+    base::Words words("  row 7 ff ff 8x -1 +1 256 ");
     EXPECT_EQ(words.next(), "row");
     EXPECT_EQ(words.number<std::uint8_t>(), 7);
     EXPECT_EQ(words.number<std::uint8_t>(16), 255);

@@ -1,5 +1,5 @@
 // The counter on programs written by hand, told of instruction by instruction and block by block.
-#include "qemu/call_counter.hpp"
+#include "qemu/stream/call_counter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "qemu/thumb.hpp"
+#include "qemu/stream/thumb.hpp"
 
 namespace {
 

@@ -1,4 +1,4 @@
-#include "qemu/elf.hpp"
+#include "qemu/emulate/elf.hpp"
 
 #include <elf.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
-#include "qemu/software_double.hpp"
+#include "qemu/emulate/software_double.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // An emulator that is missing, too old, hanging or crashing gives a clear error within a time limit, never a number.
-#include "qemu/emulator.hpp"
+#include "qemu/emulate/emulator.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/failure.hpp"
-#include "qemu/firmware.hpp"
+#include "qemu/emulate/firmware.hpp"
 
 namespace {
 

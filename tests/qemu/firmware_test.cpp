@@ -1,5 +1,5 @@
 // The emulated Cortex-M7: its counts, and the same bits as this machine.
-#include "qemu/firmware.hpp"
+#include "qemu/emulate/firmware.hpp"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <tuple>
 
 #include "base/failure.hpp"
-#include "bench/count_path.hpp"
-#include "bench/designs.hpp"
-#include "bench/signals.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/target/count_path.hpp"
 #include "glsum/registry.hpp"
 
 namespace {

@@ -1,11 +1,11 @@
 // A program that marks what is to be timed, and which calls `measure` marks.
-#include "qemu/marked_timer.hpp"
+#include "qemu/timing/marked_timer.hpp"
 
 #include <gtest/gtest.h>
 
 #include <sstream>
 
-#include "targets/firmware/timed_calls.hpp"
+#include "targets/shared/timed_calls.hpp"
 
 namespace {
 

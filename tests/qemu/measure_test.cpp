@@ -12,14 +12,14 @@
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
-#include "bench/host_line.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "glsum/registry.hpp"
-#include "qemu/elf.hpp"
-#include "qemu/firmware.hpp"
-#include "qemu/model_run.hpp"
-#include "qemu/software_double.hpp"
-#include "qemu/watched.hpp"
-#include "targets/firmware/output_hash.hpp"
+#include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/firmware.hpp"
+#include "qemu/emulate/model_run.hpp"
+#include "qemu/emulate/software_double.hpp"
+#include "qemu/emulate/watched.hpp"
+#include "targets/shared/output_hash.hpp"
 #include "tests/qemu/made_elf.hpp"
 
 namespace {

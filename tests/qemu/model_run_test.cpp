@@ -1,5 +1,5 @@
 // Whole models on the emulated Cortex-M7: the host's bits, and what a step costs.
-#include "qemu/model_run.hpp"
+#include "qemu/emulate/model_run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // What one row's timed calls become, from logs written by hand.
-#include "qemu/modelled_calls.hpp"
+#include "qemu/emulate/modelled_calls.hpp"
 
 #include <gtest/gtest.h>
 

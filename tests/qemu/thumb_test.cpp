@@ -1,5 +1,5 @@
 // Branch encodings as the assembler makes them (arm-none-eabi-as 2.40, listed by objdump).
-#include "qemu/thumb.hpp"
+#include "qemu/stream/thumb.hpp"
 
 #include <gtest/gtest.h>
 

@@ -16,7 +16,7 @@
 #include "base/files.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/page.hpp"
-#include "bench/results.hpp"
+#include "bench/rows/results.hpp"
 #include "tests/report/browser.hpp"
 #include "tests/report/pretend_results.hpp"
 

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <random>
 
-#include "bench/signals.hpp"
-#include "bench/sweep.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/sweep/sweep.hpp"
 
 namespace test {
 namespace {

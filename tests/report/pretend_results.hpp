@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "bench/result_file.hpp"
+#include "bench/rows/result_file.hpp"
 
 namespace test {
 

@@ -1,13 +1,13 @@
 // The bound of the truncation: against a closed form, and never below what is measured.
-#include "bench/truncation_bound.hpp"
+#include "bench/sweep/truncation_bound.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "bench/results.hpp"
-#include "bench/run.hpp"
-#include "bench/signals.hpp"
+#include "bench/rows/results.hpp"
+#include "bench/run/run.hpp"
+#include "bench/sweep/signals.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The reading of measured files, and the line through them.
-#include "qemu/silicon.hpp"
+#include "qemu/emulate/silicon.hpp"
 
 #include <gtest/gtest.h>
 

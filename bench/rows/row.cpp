@@ -1,0 +1,56 @@
+#include "bench/rows/row.hpp"
+
+#include <algorithm>
+
+namespace bench {
+
+bool is_counter(std::string_view field) {
+    return field.starts_with("stall_") || std::find(counters.begin(), counters.end(), field) != counters.end();
+}
+
+Json make_row(const std::string& name, std::size_t iterations) {
+    Json row;
+    row["name"] = name;
+    row["family_index"] = 0;
+    row["per_family_instance_index"] = 0;
+    row["run_name"] = name;
+    row["run_type"] = "iteration";
+    row["repetitions"] = 1;
+    row["repetition_index"] = 0;
+    row["threads"] = 1;
+    row["iterations"] = iterations;
+    row["real_time"] = 0.0;
+    row["cpu_time"] = 0.0;
+    row["time_unit"] = "ns";
+    return row;
+}
+
+void mark_error(Json& row, const std::string& message) {
+    row["error_occurred"] = true;
+    row["error_message"] = message;
+}
+
+std::string to_text(glsum::Status status) {
+    switch (status) {
+        case glsum::Status::ok:
+            return "ok";
+        case glsum::Status::order_out_of_range:
+            return "the order is not in (-2, 2]";
+        case glsum::Status::no_taps:
+            return "no taps";
+        case glsum::Status::table_too_small:
+        case glsum::Status::past_too_small:
+            return "the length is beyond the capacity";
+        case glsum::Status::format_too_narrow:
+            return "the coefficients do not fit the format";
+        case glsum::Status::modes_out_of_range:
+            return "the modes leave no tap, or do not decay";
+        case glsum::Status::weights_out_of_range:
+            return "the weights are too few, are no numbers, or cannot be nested";
+        case glsum::Status::blocks_out_of_range:
+            return "the blocks leave no tap, are none a level, or reach too far";
+    }
+    return "unknown status";
+}
+
+}  // namespace bench

@@ -1,0 +1,228 @@
+#include "bench/sweep/designs.hpp"
+
+#include <algorithm>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <tuple>
+#include <type_traits>
+
+#include "glsum/history/nested.hpp"
+#include "glsum/registry.hpp"
+#include "modes/blocks.hpp"
+#include "modes/design.hpp"
+#include "modes/fitted.hpp"
+#include "modes/integral.hpp"
+#include "reference/dropped.hpp"
+
+namespace bench {
+namespace {
+
+// What `make` gives for the key, made once; the result stays where it is.
+template <class Key, class Make>
+const auto& remembered(const Key& key, Make make) {
+    static std::mutex mutex;
+    static std::map<Key, std::invoke_result_t<Make>> known;
+    const std::lock_guard lock(mutex);
+    const auto found = known.find(key);
+    return found != known.end() ? found->second : known.emplace(key, make()).first->second;
+}
+
+// Which weights, as a kernel sums them.
+struct Named {
+    Discretisation weights;
+    double order;        // v
+    bool of_increments;  // then they are of order v - 1
+    bool adds_up;        // the slowest mode is a running sum
+    [[nodiscard]] double of_weights() const { return of_increments ? order - 1.0 : order; }
+    // a_0 ... a_last.
+    [[nodiscard]] std::vector<double> to(std::size_t last) const {
+        if (!names_weights(weights)) {
+            return glsum::modes::weights_to(of_weights(), last);
+        }
+        std::vector<double> all = named_weights(weights, order, of_increments, last);
+        all.insert(all.begin(), 1.0);
+        return all;
+    }
+    auto operator<=>(const Named&) const = default;
+};
+
+// An order's own weights are those of v - 1 over increments: the same whoever sums them.
+Named named_of(const std::string& kernel, double order, Discretisation weights) {
+    const double of_weights = order_of_weights(kernel, order);
+    const bool adds_up = bench::adds_up(kernel);
+    return names_weights(weights) ? Named{weights, order, of_weights != order, adds_up}
+                                  : Named{Discretisation::gl, of_weights, false, adds_up};
+}
+
+glsum::modes::Approximation approximation_of(const Named& named, std::size_t samples, std::size_t near_taps,
+                                             std::size_t modes) {
+    namespace design = glsum::modes;
+    return named.adds_up ? design::approximate_integral(named.to(samples), named.of_weights(), near_taps, modes)
+           : names_weights(named.weights)
+               ? design::approximate_fitted(named.to(samples), named.of_weights(), near_taps, modes)
+               : design::approximate({named.of_weights(), samples}, near_taps, modes);
+}
+
+// The shortest design for an error; empty if there is none.
+std::optional<Length> shortest(const Named& named, std::size_t samples, double error) {
+    return remembered(std::tuple(named, samples, error), [&]() -> std::optional<Length> {
+        const auto found = named.adds_up ? glsum::modes::design_integral(named.to(samples), named.of_weights(), error)
+                           : names_weights(named.weights)
+                               ? glsum::modes::design_fitted(named.to(samples), named.of_weights(), error)
+                               : glsum::modes::design({named.of_weights(), samples}, error);
+        return found ? std::optional(Length{found->length(), false, found->modes.size()}) : std::nullopt;
+    });
+}
+
+// What `visit` says of the kernel with this name, `of_null` where it has no history; empty for no kernel.
+template <class Result, class Visit>
+std::optional<Result> find_of_history(const std::string& kernel, Result of_null, Visit visit) {
+    std::optional<Result> found;
+    glsum::Registry::for_each([&]<class K>() {
+        if (K::name() == kernel) {
+            if constexpr (requires { typename K::HistoryPart; }) {
+                found = visit.template operator()<K>();
+            } else {
+                found = of_null;
+            }
+        }
+    });
+    return found;
+}
+
+template <class Visit>
+bool of_history(const std::string& kernel, bool of_null, Visit visit) {
+    const std::optional<bool> found = find_of_history(kernel, of_null, visit);
+    if (!found) {
+        throw std::out_of_range("no kernel " + kernel);
+    }
+    return *found;
+}
+
+}  // namespace
+
+bool has_modes(const std::string& kernel) {
+    return of_history(kernel, false, []<class K>() { return glsum::keeps_modes<typename K::HistoryPart>; });
+}
+
+bool adds_up(const std::string& kernel) {
+    return find_of_history<bool>(kernel, false,
+                                 []<class K>() { return glsum::keeps_running_sum<typename K::HistoryPart>; })
+        .value_or(false);
+}
+
+bool has_blocks(const std::string& kernel) {
+    return of_history(kernel, false, []<class K>() { return glsum::keeps_blocks<typename K::HistoryPart>; });
+}
+
+double order_of_weights(const std::string& kernel, double order) {
+    return find_of_history(
+               kernel, order,
+               [&]<class K>() { return glsum::keeps_increments<typename K::HistoryPart> ? order - 1.0 : order; })
+        .value_or(order);
+}
+
+bool serves(const std::string& kernel, double order) {
+    return of_history(kernel, glsum::order_in_range(order), [&]<class K>() {
+        return K::order_in_range(order) &&
+               (!glsum::keeps_running_sum<typename K::HistoryPart> || glsum::modes::is_integral(order));
+    });
+}
+
+bool truncates(const std::string& kernel) {
+    return of_history(kernel, true, []<class K>() {
+        return reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero &&
+               !glsum::keeps_modes<typename K::HistoryPart> && !glsum::keeps_blocks<typename K::HistoryPart>;
+    });
+}
+
+Length length_with_modes(const std::string& kernel, double order, std::size_t taps) {
+    return {
+        taps, false,
+        adds_up(kernel) ? glsum::modes::integral_modes_within(order, taps) : glsum::modes::modes_within(order, taps)};
+}
+
+Length length_with_blocks(double order, std::size_t taps, std::size_t samples) {
+    const glsum::Blocks blocks = remembered(std::tuple(order, taps, samples), [&] {
+        return glsum::modes::design_blocks({order, samples}, taps).blocks;
+    });
+    return {taps, false, {}, blocks};
+}
+
+Length length_of(const std::string& kernel, double order, std::size_t taps, std::size_t samples) {
+    return has_blocks(kernel)  ? length_with_blocks(order_of_weights(kernel, order), taps, samples)
+           : has_modes(kernel) ? length_with_modes(kernel, order_of_weights(kernel, order), taps)
+                               : Length{taps};
+}
+
+Length as_counted(const std::string& kernel, const Length& read) {
+    const bool blocks = find_of_history(kernel, false, []<class K>() {
+                            return glsum::keeps_blocks<typename K::HistoryPart>;
+                        }).value_or(false);
+    return blocks && read.modes ? Length{read.taps - *read.modes, false, {}, glsum::Blocks{*read.modes, 1}} : read;
+}
+
+glsum::Design design_of(const std::string& kernel, double order, const Length& length, std::size_t samples,
+                        Discretisation weights) {
+    glsum::Design design{order, length.taps};
+    design.blocks = length.blocks.value_or(glsum::Blocks{});
+    const Named named = named_of(kernel, order, weights);
+    if (const std::size_t modes = length.modes.value_or(0); modes > 0) {
+        const std::size_t near_taps = length.taps - 2 * modes;
+        design.modes = remembered(std::tuple(named, samples, length.taps, modes),
+                                  [&] { return approximation_of(named, samples, near_taps, modes).modes; });
+    }
+    if (names_weights(weights)) {
+        const std::size_t count = glsum::reach_of(design) - 1;
+        design.weights = remembered(std::tuple(named, count),
+                                    [&] { return named_weights(weights, order, named.of_increments, count); });
+    }
+    return design;
+}
+
+std::string named(const Length& length, const glsum::Design& design) {
+    const bool adds_up = !design.modes.empty() && design.modes.front().decay == 0.0;
+    return (length.blocks ? "blocks " : adds_up ? "running sum " : "") + length.text();
+}
+
+std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order) {
+    if (!serves(kernel, order) || !why_not_served(kernel, sweep.weights).empty()) {
+        return {};
+    }
+    const bool with_modes = has_modes(kernel);
+    std::vector<Length> lengths;
+    if (has_blocks(kernel)) {
+        for (const Length& length : sweep.lengths) {
+            if (length.window() && !length.full) {
+                lengths.push_back(length_of(kernel, order, length.taps, sweep.samples));
+            }
+        }
+        return lengths;
+    }
+    std::copy_if(sweep.lengths.begin(), sweep.lengths.end(), std::back_inserter(lengths),
+                 [&](const Length& length) { return length.modes.has_value() == with_modes; });
+    if (!with_modes) {
+        return lengths;
+    }
+    const double of_weights = order_of_weights(kernel, order);
+    if (!adds_up(kernel) && !glsum::modes::has_tail(of_weights)) {
+        return {};
+    }
+    if (lengths.empty()) {
+        for (const double error : sweep.design_errors) {
+            if (const auto found = shortest(named_of(kernel, order, sweep.weights), sweep.samples, error)) {
+                lengths.push_back(*found);
+            }
+        }
+    }
+    const auto key = [](const Length& length) { return std::tuple(length.taps, length.modes); };
+    std::sort(lengths.begin(), lengths.end(), [&](const Length& a, const Length& b) { return key(a) < key(b); });
+    lengths.erase(
+        std::unique(lengths.begin(), lengths.end(), [&](const Length& a, const Length& b) { return key(a) == key(b); }),
+        lengths.end());
+    return lengths;
+}
+
+}  // namespace bench

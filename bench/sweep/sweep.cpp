@@ -1,0 +1,36 @@
+#include "bench/sweep/sweep.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <system_error>
+
+namespace bench {
+
+std::optional<Length> parse_length(const std::string& text, std::size_t samples) {
+    constexpr std::size_t most_taps = 1'000'000;  // beyond any record; tables and windows still fit the memory
+    if (text == "full") {
+        return Length{samples, true};
+    }
+    std::size_t taps = 0;
+    const char* const end = text.data() + text.size();
+    const auto [behind, error] = std::from_chars(text.data(), end, taps);
+    if (error != std::errc{} || taps < 1 || taps > most_taps) {
+        return std::nullopt;
+    }
+    if (behind == end) {
+        return Length{taps};
+    }
+    std::size_t modes = 0;
+    const auto [read_to, fault] = std::from_chars(behind + 1, end, modes);
+    if (*behind != '+' || fault != std::errc{} || read_to != end || modes > most_taps) {
+        return std::nullopt;
+    }
+    return Length{taps + 2 * modes, false, modes};
+}
+
+std::string row_name(const std::string& kernel, double order, const Length& length, const std::string& aspect) {
+    return fmt::format("gl/{}/order:{}/taps:{}/{}", kernel, order, length.text(), aspect);
+}
+
+}  // namespace bench

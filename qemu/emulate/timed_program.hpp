@@ -1,0 +1,32 @@
+// Runs a firmware program under the emulator and times its functions with the timing model.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/emulator.hpp"
+#include "qemu/timing/marked_timer.hpp"
+#include "qemu/timing/timing_log.hpp"
+
+namespace qemu {
+
+/// \param entries  addresses of the functions to time
+/// \param marks    of a program that marks what is to be timed
+/// \param line     called for each line that the program prints; may be empty
+/// \return one log for each part that the program marks; without marks one of the whole program
+/// \throws glsum::Failure as emulate() does; when the program ends within a watched function, and when none was called,
+/// it
+///         says so (check failed)
+[[nodiscard]] std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std::filesystem::path& plugin,
+                                                          const std::filesystem::path& elf,
+                                                          const std::vector<std::string>& arguments,
+                                                          const std::vector<std::uint32_t>& entries,
+                                                          const timing::TimingRequest& request,
+                                                          const std::optional<Marks>& marks,
+                                                          const std::function<void(const std::string&)>& line);
+
+}  // namespace qemu

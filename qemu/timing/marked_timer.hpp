@@ -1,0 +1,67 @@
+// The timing model on a program that says itself what is to be timed: it calls three empty functions.
+//
+//   row   a new part begins: whatever was learnt of caches and branches is forgotten, so that its cycles do not depend
+//   on
+//         what ran before
+//   on    the model sees all that follows, calls of watched functions and what lies between them
+//   off   it sees nothing
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "qemu/stream/stream.hpp"
+#include "qemu/timing/timing_log.hpp"
+
+namespace qemu {
+
+/// Addresses of the three functions.
+struct Marks {
+    std::uint32_t row;
+    std::uint32_t on;
+    std::uint32_t off;
+};
+
+class MarkedTimer final : public StreamConsumer {
+public:
+    /// \param entries  addresses of the functions to time
+    /// \param marks    without: the whole program is one part, timed from the start
+    /// \param double_routines  see timing::CallTimer
+    /// \param log      receives one timing log a part, each with its end
+    MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores, std::optional<Marks> marks,
+                std::ostream& log, std::vector<timing::AddressRange> double_routines = {});
+
+    /// Whether the instruction is a mark's first: `meets_mark` is then to be called in place of `executes`.
+    [[nodiscard]] bool is_mark(std::uint32_t address) const;
+    void meets_mark(std::uint32_t address);
+    /// Whether the model is to see what is executed.
+    [[nodiscard]] bool on() const { return on_; }
+    void executes(const Instruction& instruction) override;
+    void accesses(const Access& access) override { part_->timer.accesses(access); }
+    /// In place of `executes`, see `timing::CallTimer`.
+    void executes_block(const Block& block, std::size_t done) { part_->timer.executes_block(block, done); }
+    /// The program has ended.
+    void finish();
+
+private:
+    struct Part {
+        timing::TimingLogWriter writer;
+        timing::CallTimer timer;
+        explicit Part(const MarkedTimer& whole);
+    };
+    void begin_part();
+
+    std::set<std::uint32_t> entries_;
+    std::vector<timing::CoreFile> cores_;
+    std::optional<Marks> marks_;
+    std::ostream& log_;
+    std::vector<timing::AddressRange> double_routines_;
+    std::unique_ptr<Part> part_;
+    bool on_;
+};
+
+}  // namespace qemu

@@ -1,0 +1,45 @@
+// The oracle for kernels that do not take what leaves their window as 0: what each history stands for, by definition,
+// in 50 digits.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "glsum/history/delta.hpp"
+#include "glsum/history/tail.hpp"
+#include "reference/modes.hpp"
+
+namespace reference {
+
+/// What a history takes for the samples behind its window.
+enum class Dropped {
+    zero,        ///< 0, or the design's modes or blocks
+    increments,  ///< their increments as 0, or the modes of order v - 1 over these
+    held,        ///< the oldest sample kept
+    line,        ///< the line from that to the record's first
+};
+
+template <class History>
+[[nodiscard]] constexpr Dropped dropped_by() {
+    if constexpr (glsum::keeps_increments<History>) {
+        return Dropped::increments;
+    } else if constexpr (glsum::guesses_tail<History>) {
+        return History::to_first ? Dropped::line : Dropped::held;
+    } else {
+        return Dropped::zero;
+    }
+}
+
+/// The weights of x_k, x_(k-1), ... x_0 in S_k; as many as samples, k + 1.
+[[nodiscard]] std::vector<Real> weights_of(Dropped dropped, const glsum::Design& design, std::size_t samples);
+
+/// S_k for all k of a record.
+[[nodiscard]] Sums sums_of(Dropped dropped, const glsum::Design& design, std::span<const double> record);
+
+/// The same for windows of several lengths (rising; without modes or blocks), in one pass over the record at most.
+/// \param ended  the sums of windows that end: `Dropped::zero`, of the same lengths
+[[nodiscard]] std::vector<Sums> sums_of_windows(Dropped dropped, double order, std::span<const double> record,
+                                                std::span<const std::size_t> lengths, std::span<const Sums> ended);
+
+}  // namespace reference
