@@ -6,6 +6,14 @@
 #include <numbers>
 
 namespace gap {
+namespace {
+
+double squared(double speed) { return speed * std::fabs(speed); }
+
+// Of an outflow, in shares of the reference: added to the level.
+constexpr double at_zero = 0.01;
+
+}  // namespace
 
 Balance::Balance(const Scenario& scenario, double mass, double constant, double step_s)
     : forces_(scenario.forces),
@@ -15,7 +23,14 @@ Balance::Balance(const Scenario& scenario, double mass, double constant, double 
       step_s_(step_s),
       drag_(scenario.forces.drag / (step_s * step_s)),
       linear_(forces_.angle_per_unit == 0.0 && forces_.cubic == 0.0 && !forces_.outflow && drag_ == 0.0 &&
-              forces_.friction_share == 0.0 && forces_.cogging.empty()) {}
+              forces_.drag_of_speed == 0.0 && forces_.friction_share == 0.0 && forces_.cogging.empty()) {
+    if (forces_.outflow) {
+        power_ = 1.0 + forces_.outflow->curvature;
+        bend_at_zero_ = std::pow(at_zero, power_);
+        bend_at_reference_ = std::pow(1.0 + at_zero, power_) - bend_at_zero_;
+        at_rest_ = bent(operating_);
+    }
+}
 
 double Balance::increment(double forcing, double known, double y) const {
     const double net = forcing - known - resisting(y, 0.0);
@@ -66,7 +81,7 @@ double Balance::carried(double forcing, double y) const {
 }
 
 double Balance::solve(double left, double y, double share) const {
-    const double stiffness = mass_ + constant_ * slope(y);
+    const double stiffness = mass_ + constant_ * slope(y) + 2.0 * forces_.drag_of_speed * std::fabs(y + operating_);
     if (linear_) {
         return left / stiffness;
     }
@@ -115,7 +130,8 @@ double Balance::solve(double left, double y, double share) const {
 }
 
 double Balance::resisting(double y, double e) const {
-    double force = mass_ * e + constant_ * restoring(y + e) + drag_ * e * std::fabs(e);
+    double force = mass_ * e + constant_ * restoring(y + e) + drag_ * e * std::fabs(e) +
+                   forces_.drag_of_speed * (squared(y + e + operating_) - squared(operating_));
     for (const Cogging& cogging : forces_.cogging) {
         const double at = cogging.of_speed ? travelled_ + step_s_ * (y + operating_ + 0.5 * e) : y + e + operating_;
         force -= cogging.size * std::sin(2.0 * std::numbers::pi * cogging.per_unit * at + cogging.phase_rad);
@@ -124,7 +140,8 @@ double Balance::resisting(double y, double e) const {
 }
 
 double Balance::slope_of_resisting(double y, double e) const {
-    double rise = mass_ + constant_ * slope(y + e) + 2.0 * drag_ * std::fabs(e);
+    double rise = mass_ + constant_ * slope(y + e) + 2.0 * drag_ * std::fabs(e) +
+                  2.0 * forces_.drag_of_speed * std::fabs(y + e + operating_);
     for (const Cogging& cogging : forces_.cogging) {
         const double at = cogging.of_speed ? travelled_ + step_s_ * (y + operating_ + 0.5 * e) : y + e + operating_;
         const double rate = 2.0 * std::numbers::pi * cogging.per_unit;
@@ -136,7 +153,7 @@ double Balance::slope_of_resisting(double y, double e) const {
 
 double Balance::restoring(double y) const {
     if (forces_.outflow) {
-        return bent(y + operating_) - bent(operating_) + forces_.cubic * y * y * y;
+        return bent(y + operating_) - at_rest_ + forces_.cubic * y * y * y;
     }
     const double kappa = forces_.angle_per_unit;
     return (kappa == 0.0 ? y : std::sin(kappa * y) / kappa) + forces_.cubic * y * y * y;
@@ -145,16 +162,17 @@ double Balance::restoring(double y) const {
 double Balance::slope(double y) const {
     const double of_cube = 3.0 * forces_.cubic * y * y;
     if (forces_.outflow) {
-        const double c = forces_.outflow->curvature;
-        return (1.0 - c) + 2.0 * c * std::fabs(y + operating_) / forces_.outflow->reference + of_cube;
+        const double share = std::fabs(y + operating_) / forces_.outflow->reference;
+        return power_ * std::pow(share + at_zero, power_ - 1.0) / bend_at_reference_ + of_cube;
     }
     const double kappa = forces_.angle_per_unit;
     return (kappa == 0.0 ? 1.0 : std::cos(kappa * y)) + of_cube;
 }
 
 double Balance::bent(double level) const {
-    const double c = forces_.outflow->curvature;
-    return level * ((1.0 - c) + c * std::fabs(level) / forces_.outflow->reference);
+    const double share = std::fabs(level) / forces_.outflow->reference;
+    const double of_reference = (std::pow(share + at_zero, power_) - bend_at_zero_) / bend_at_reference_;
+    return std::copysign(forces_.outflow->reference * of_reference, level);
 }
 
 }  // namespace gap

@@ -12,7 +12,8 @@ public:
     Balance(const Scenario& scenario, double mass, double constant, double step_s);
 
     /// The increment e at which the forces balance:
-    ///   forcing - known - mass e - a_0 restoring(y + e) - drag e |e| / h^2 + cogging(y + e) - friction = 0.
+    ///   forcing - known - mass e - a_0 restoring(y + e) - drag e |e| / h^2 - drag_of_speed (y + e) |y + e| + cogging(y
+    ///   + e) - friction = 0.
     /// Of several the first in the direction in which it is drawn. \param known  of the derivatives, what past
     /// increments make \param y  before the step, without the operating point. Not a number where nothing balances.
     [[nodiscard]] double increment(double forcing, double known, double y) const;
@@ -45,6 +46,10 @@ private:
     double drag_;
     double travelled_ = 0.0;  // the integral of the output
     bool linear_;
+    double power_ = 1.0;  // of an outflow
+    double bend_at_zero_ = 0.0;
+    double bend_at_reference_ = 1.0;  // less that
+    double at_rest_ = 0.0;            // what flows out at the operating point
 };
 
 }  // namespace gap

@@ -45,6 +45,11 @@ bool Candidate::any(bool Effect::*trait) const {
     return std::any_of(effects.begin(), effects.end(), [&](const Effect* mine) { return mine->*trait; });
 }
 
+bool Candidate::has_events() const {
+    return std::any_of(effects.begin(), effects.end(),
+                       [](const Effect* effect) { return effect->kind == Kind::event; });
+}
+
 std::size_t Candidate::effect_parameters() const {
     std::size_t count = own.empty() ? 0 : event_parameters() / own.size();
     for (const auto& list : lasting) {

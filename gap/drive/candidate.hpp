@@ -33,6 +33,7 @@ struct Candidate {
     [[nodiscard]] bool has(const std::string& effect) const;
     /// Whether one of its effects is so: `candidate.any(&Effect::rounds)`.
     [[nodiscard]] bool any(bool Effect::*trait) const;
+    [[nodiscard]] bool has_events() const;
     [[nodiscard]] std::size_t effect_parameters() const;  ///< free ones of effects, those of events in one record
     [[nodiscard]] std::size_t event_parameters() const;   ///< free ones, in all records
 };

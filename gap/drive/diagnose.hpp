@@ -1,41 +1,12 @@
-// Where a drive and its simulation part, and which effect explains it.
+// From a question to its answer: which base it is asked beside.
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <string>
-#include <vector>
 
-#include "gap/drive/base/find.hpp"
-#include "gap/drive/decide.hpp"
-#include "gap/drive/question.hpp"
-#include "gap/locate.hpp"
+#include "gap/drive/answer.hpp"
 
 namespace gap {
-
-struct Answer {
-    Decision decision;
-    std::vector<Ranked> ranking;  ///< the best first; `none` is among them
-    Whitener whitener;
-    Where where;                  ///< of the base's gap
-    std::vector<Record> records;  ///< what it was judged on
-    std::string metric;
-    bool split = false;                     ///< no validation record was given
-    drive::Model base;                      ///< as judged, or as fitted without any effect
-    std::vector<std::string> extrapolated;  ///< what validation has and training lacks, in words
-    std::string next_experiment;
-    std::vector<std::string> notes;
-    [[nodiscard]] const Ranked& none() const;
-    [[nodiscard]] const Ranked& chosen() const { return ranking[decision.chosen]; }
-    /// The model with its parameters as the candidate has them, effects aside.
-    [[nodiscard]] drive::Model model_of(const Candidate& candidate) const;
-    std::optional<drive::Form> form;
-    bool refit = false;
-    std::string base_name;                ///< of a base that was found or fitted; empty: a model was given
-    double linear_share = 0.0;            ///< of the validation output's variance, by the best linear description
-    std::vector<Described> descriptions;  ///< of a base that was looked for, the best first
-    bool lag_wanted = false;              ///< what helps most is linear, beside a fitted base: a richer one has it
-};
 
 /// \throws glsum::Failure (bad input): records and model that cannot belong together: a dead time as long as the
 /// record, stamps or readings in other units, a model that runs away. \param say  told of progress

@@ -38,6 +38,7 @@ struct Scales {
     double further_max;      ///< of |u| of the records' second input; 0: one has none
     bool swings = false;     ///< its second order has complex poles, as no flow has
     bool driven = true;      ///< something is put in; free motions otherwise
+    bool drains = true;      ///< its resistance may bend as an outflow's; what moves is braked by drag instead
 };
 
 struct EffectParameter {
@@ -114,6 +115,8 @@ struct Effect {
     /// A further start that the residuals of what is there without it tell, for numbers whose basin is narrow: values
     /// in the order of `parameters`. For lasting ones.
     std::vector<double> (*start)(const Clue& clue) = nullptr;
+    /// Whether the other one is a special case of it.
+    [[nodiscard]] bool covers(const Effect& other) const;
 };
 
 /// All that there are, in the order of the list (effects.def).

@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "base/failure.hpp"
 #include "base/nearest_name.hpp"
 #include "gap/drive/effect.hpp"
@@ -40,6 +42,10 @@ Domain domain_named(const std::string& name) {
     }
     throw glsum::Failure(glsum::Exit::bad_input,
                          fmt::format("expected one of the domains {}, found {}", fmt::join(known, ", "), name));
+}
+
+bool Effect::covers(const Effect& other) const {
+    return std::find(generalises.begin(), generalises.end(), other.name) != generalises.end();
 }
 
 const std::vector<const Effect*>& effects() {

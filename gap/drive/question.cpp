@@ -127,7 +127,8 @@ Ground prepare(const Question& question) {
     const bool split = question.validate.empty();
     const std::vector<Record>& validate = split ? train : question.validate;
     const Audit found = audit(train);
-    const Scales scales = scales_of(model_of(question.form), train, found);
+    Scales scales = scales_of(model_of(question.form), train, found);
+    scales.drains = question.domain != Domain::mechanical;
     Study study = make_study(question, train, split ? part_counts(train, question.split_s, false) : all_count(train),
                              scales, found);
     Study validation = make_study(

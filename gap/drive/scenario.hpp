@@ -25,8 +25,9 @@ struct Push {
     double size;
 };
 
-/// The restoring term a_0 y becomes a_0 y ((1 - c) + c |y| / reference), as an outflow that grows otherwise than the
-/// level.
+/// The restoring term a_0 y becomes a_0 f(y + operating point) - f(operating point), as an outflow that grows with a
+/// power p = 1 + c of the level: f(y) = sign(y) reference ((|y| / reference + e)^p - e^p) / ((1 + e)^p - e^p). Of a
+/// root p is 1/2. e = 0.01 keeps the slope at 0 finite.
 struct Outflow {
     double curvature;
     double reference;
@@ -48,6 +49,7 @@ struct Forces {
     double friction_share = 0.0;
     bool friction_of_speed = false;  ///< the output is a speed: up and down are its signs; it stands at 0
     double drag = 0.0;               ///< drag y' |y'|
+    double drag_of_speed = 0.0;      ///< drag y |y|: the output is a speed
     double angle_per_unit = 0.0;     ///< kappa: a_0 sin(kappa y) / kappa instead of a_0 y; 0: linear
     double cubic = 0.0;              ///< c: c y^3 more in the bracket of a_0
     double bias = 0.0;               ///< always there

@@ -18,6 +18,7 @@ constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
 constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
 constexpr std::size_t more_leads = 5;    // where none of them leaves noise alone
 constexpr std::size_t finalists_beside_a_form = 5;
+constexpr std::size_t eventful_finalists_beside_a_form = 2;
 constexpr double hopeless_beside_a_form = 0.97;
 constexpr double too_far = 4.0;       // from the best single's cost
 constexpr std::size_t finalists = 8;  // pairs, and triples, that are fitted to the end
@@ -103,8 +104,19 @@ private:
         return of_.ground.study.base.refit ? Effort{4, 1, 9, hopeless_beside_a_form * without}
                                            : Effort{6, 2, 25, hopeless * without};
     }
-    [[nodiscard]] std::size_t finalists_of() const {
-        return of_.ground.study.base.refit ? finalists_beside_a_form : finalists;
+    // Beside a form events, which are located in each record, follow its misfit closer than what keeps its numbers: all
+    // of the finalists would have some. \param sets  the best first
+    void keep_finalists(std::vector<Candidate>& sets) const {
+        if (!of_.ground.study.base.refit) {
+            sets.resize(std::min(sets.size(), finalists));
+            return;
+        }
+        std::size_t eventful = 0;
+        std::size_t lasting = 0;
+        std::erase_if(sets, [&](const Candidate& set) {
+            return set.has_events() ? ++eventful > eventful_finalists_beside_a_form
+                                    : ++lasting > finalists_beside_a_form;
+        });
     }
 
     // Jitter moves no reading, so it changes no other effect's fit: it is asked for once, beside the best of each size.
@@ -225,7 +237,7 @@ private:
         of_.say(fmt::format("fitting {} {}", all.size(), what));
         std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
-        wide.resize(std::min(wide.size(), finalists_of()));
+        keep_finalists(wide);
         base::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
             wide[i] = fit(of_.ground.study, wide[i].effects, wide[i], fits_by());
         });
@@ -263,13 +275,8 @@ private:
     }
 
     static bool nested(const Effects& mine, const Effect& other) {
-        return std::any_of(mine.begin(), mine.end(), [&](const Effect* effect) {
-            const auto has = [](const Effect& general, const Effect& special) {
-                return std::find(general.generalises.begin(), general.generalises.end(), special.name) !=
-                       general.generalises.end();
-            };
-            return has(*effect, other) || has(other, *effect);
-        });
+        return std::any_of(mine.begin(), mine.end(),
+                           [&](const Effect* effect) { return effect->covers(other) || other.covers(*effect); });
     }
 
     // What was deployed is a simulation of the model that is given: beside an effect that makes it another one its

@@ -94,6 +94,46 @@ TEST(Base, OfTwoLagsIsFoundWithItsDeadTime) {
     EXPECT_LT(all.front().validation, 0.003);
 }
 
+// A step of 1 / (1 + (T s)^0.5) goes by 1 - exp(t/T) erfc(sqrt(t/T)), a Mittag-Leffler function.
+TEST(Base, OfHalfALagIsFoundWithItsOrder) {
+    constexpr double lag_s = 1.3;
+    const auto step = [](double time_s) {
+        const double x = std::sqrt(std::max(time_s, 0.0) / lag_s);
+        // Its asymptotic series beyond where the factors leave the range of doubles.
+        return x < 20.0 ? 1.0 - std::exp(x * x) * std::erfc(x) : 1.0 - (1.0 - 0.5 / (x * x)) / (x * std::sqrt(M_PI));
+    };
+    const auto record = [&](const std::function<double(double)>& input, unsigned seed) {
+        gap::Record made;
+        made.name = "creeps";
+        made.usual_interval_s = interval_s;
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> noise(0.0, 1e-3);
+        std::vector<std::pair<double, double>> moves;  // when, by how much
+        for (int k = 0; k < 1200; ++k) {
+            const double time_s = k * interval_s;
+            const double u = input(time_s);
+            const double before = made.input.empty() ? 0.0 : made.input.back();
+            if (u != before) {
+                moves.emplace_back(time_s, u - before);
+            }
+            double y = 0.0;
+            for (const auto& [when_s, size] : moves) {
+                y += size * step(time_s - when_s);
+            }
+            made.time_s.push_back(time_s);
+            made.input.push_back(u);
+            made.output.push_back(2.0 * y + noise(engine));
+        }
+        return made;
+    };
+    const auto all = gap::find_base(question_of(record(levels, 1), record(other_levels, 2)), [](const std::string&) {});
+    ASSERT_EQ(all.front().name, "fractional_lag");
+    EXPECT_NEAR(value_of(all.front().form, "alpha1"), 0.5, 0.01);
+    EXPECT_NEAR(value_of(all.front().form, "a1"), std::sqrt(lag_s), 0.03);
+    EXPECT_NEAR(value_of(all.front().form, "gain"), 2.0, 0.02);
+    EXPECT_LT(all.front().validation, 0.01);
+}
+
 TEST(Base, OfAnOscillatorIsFound) {
     // wn = 4 rad/s, d = 0.05: 1 / (1 + 0.025 s + 0.0625 s^2)
     const auto plant = [](double u, double y, double speed) { return 16.0 * (u - y) - 0.4 * speed; };

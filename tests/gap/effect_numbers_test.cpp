@@ -150,6 +150,11 @@ TEST(EffectNumbers, OfASecondInputGoByItsSize) {
     expect_ranges("second_input", with,
                   {{"gain", "u/u2", -50.0 * unit, 50.0 * unit, 0.0, {0.2 * unit, -0.2 * unit, 0.2 * unit, -0.2 * unit}},
                    {"tau_s", "s", 0.0, 10.0 * tc, 0.0, {0.1 * tc, 0.1 * tc, 2.0 * tc, 2.0 * tc}}});
+    // A lag that outlasts the records is a drift.
+    with.length_s = 3.0 * tc;
+    expect_ranges("second_input", with,
+                  {{"gain", "u/u2", -50.0 * unit, 50.0 * unit, 0.0, {0.2 * unit, -0.2 * unit, 0.2 * unit, -0.2 * unit}},
+                   {"tau_s", "s", 0.0, 3.0 * tc, 0.0, {0.075 * tc, 0.075 * tc, 1.5 * tc, 1.5 * tc}}});
 }
 
 TEST(EffectNumbers, OfThePlant) {
@@ -184,7 +189,13 @@ TEST(EffectNumbers, OfThePlant) {
     expect_ranges("load_dependent_friction", scales(), {{"share", "1", 0.0, 0.6, 0.0, {0.02, 0.1}}});
     const double drag = force / (speed * speed);
     expect_ranges("quadratic_drag", scales(),
-                  {{"coefficient", "rhs s^2/y^2", 0.0, 5.0 * drag, 0.0, {0.1 * drag, 0.6 * drag}}});
+                  {{"coefficient", "rhs/speed^2", 0.0, 5.0 * drag, 0.0, {0.1 * drag, 0.6 * drag}},
+                   {"of_speed", "1", 0.0, 1.0, 0.0, {0}, true}});
+    const double brake = force / (far * far);
+    expect_ranges(
+        "quadratic_drag", speeds,
+        {{"coefficient", "rhs/speed^2", 0.0, 5.0 * drag, 0.0, {0.1 * drag, 0.6 * drag, 0.1 * brake, 0.6 * brake}},
+         {"of_speed", "1", 0.0, 1.0, 0.0, {0, 0, 1, 1}, true}});
     expect_none("gravity_nonlinearity", drifts);
     expect_ranges(
         "gravity_nonlinearity", scales(),
@@ -218,16 +229,18 @@ TEST(EffectNumbers, OfThePlant) {
                   {{"from_s", "s", 0.0, length, 0.0, {0.35 * length}},
                    {"to_s", "s", 0.0, length, 0.0, {0.5 * length}},
                    {"size", "rhs", -force, force, 0.0, {0.05 * force}}});
-    // An outflow bends what drains: what neither integrates nor swings. Its reference stays.
+    // An outflow bends what drains: what neither integrates nor swings, nor moves. Its reference stays.
+    gap::Scales moves = scales();
+    moves.drains = false;
     const Range about{"reference", "y", 0.3 * far, 3.0 * far, far, {far}, false, 2};
-    for (const gap::Scales& of : {drifts, swings}) {
+    for (const gap::Scales& of : {drifts, swings, moves}) {
         expect_ranges("output_curve", of,
                       {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25}},
                        about,
                        {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0}, true}});
     }
     expect_ranges("output_curve", scales(),
-                  {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25, -0.25, 0.25}},
+                  {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25, -0.5, 0.25}},
                    about,
                    {"in_outflow", "1", 0.0, 1.0, 0.0, {0, 0, 1, 1}, true}});
 }
@@ -277,10 +290,19 @@ TEST(EffectNumbers, AreThoseOfTheAudit) {
     found.quantum = 0.013;
     expect_ranges("dropped_samples", found, {{"rate", "1", 0.07, 0.07, 0.0, {0.07}, true}});
     expect_ranges("encoder_quantisation", found, {{"step", "y", 0.013, 0.013, 0.0, {0.013}, true}});
-    // Readings that go below 0, noise of a twentieth of their span aside, have their sign.
+    // Readings that go below 0, noise of a twentieth of their span aside, have their sign. What is pushed one way only
+    // and does not swing never had another.
+    found.two_signs = true;
     expect_none("sensor_magnitude", found);
     found.output_low = -0.05 * span;
     expect_ranges("sensor_magnitude", found, {{"there", "1", 1.0, 1.0, 0.0, {1.0}, true}});
+    found.two_signs = false;
+    expect_none("sensor_magnitude", found);
+    found.swings = true;
+    expect_ranges("sensor_magnitude", found, {{"there", "1", 1.0, 1.0, 0.0, {1.0}, true}});
+    found.swings = found.driven = false;
+    expect_ranges("sensor_magnitude", found, {{"there", "1", 1.0, 1.0, 0.0, {1.0}, true}});
+    found.driven = found.two_signs = true;
     found.output_low = -0.0501 * span;
     expect_none("sensor_magnitude", found);
 }

@@ -380,13 +380,23 @@ void expect_truth(const std::string& name, Values values, const Truth& truth, do
 TEST(EffectForces, AreThoseOfTheEquationOfMotion) {
     Truth drag;
     drag.drag = 1.5;
-    expect_truth("quadratic_drag", {1.5}, drag, 4e-4);
+    expect_truth("quadratic_drag", {1.5, 0.0}, drag, 4e-4);
+    Truth of_speed;  // the output is one
+    of_speed.restoring = [](double y) { return y + 0.8 * y * std::fabs(y); };
+    expect_truth("quadratic_drag", {0.8, 1.0}, of_speed, 4e-4);
     Truth gravity;
     gravity.restoring = [](double y) { return std::sin(1.1 * y) / 1.1; };
     expect_truth("gravity_nonlinearity", {1.1}, gravity, 4e-4);
     Truth outflow;
-    outflow.restoring = [](double y) { return y * (0.6 + 0.4 * std::fabs(y) / 0.9); };
-    expect_truth("output_curve", {0.4, 0.9, 1.0}, outflow, 4e-4);
+    for (const double curvature : {0.4, -0.5}) {
+        outflow.restoring = [=](double y) {
+            const double p = 1.0 + curvature;
+            const double flow = (std::pow(std::fabs(y) / 0.9 + 0.01, p) - std::pow(0.01, p)) /
+                                (std::pow(1.01, p) - std::pow(0.01, p));
+            return std::copysign(0.9 * flow, y);
+        };
+        expect_truth("output_curve", {curvature, 0.9, 1.0}, outflow, 4e-4);
+    }
     Truth friction;
     friction.friction_up = friction.friction_down = 0.12;
     expect_truth("coulomb_friction", {0.12, 0.0}, friction, 6e-4);

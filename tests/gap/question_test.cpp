@@ -61,6 +61,9 @@ TEST(Prepared, HasTheEffectsThatCanBeThere) {
     const auto thermal = names_of(gap::prepare(question).list);
     EXPECT_THAT(thermal, Not(Contains("cogging")));
     EXPECT_THAT(thermal, Contains("sensor_lag"));
+    EXPECT_TRUE(gap::prepare(question).study.scales.drains);
+    question.domain = gap::Domain::mechanical;
+    EXPECT_FALSE(gap::prepare(question).study.scales.drains);
 }
 
 // A fitted base has its own errors already; a form that nobody gave takes up whatever is linear.

@@ -308,9 +308,10 @@ TEST_F(Rules, WhatIsNoNoiseBesideACauseIsAnotherCause) {
     ranking_[jump].gap_after = 0.09;  // a tenth of the gap of a given model
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::attributed);
     beside_a_form();
-    ranking_[jump].gap_after = 0.49;
+    // A fifth of the squared gap of a fitted form.
+    ranking_[jump].gap_after = 0.44;
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::attributed);
-    ranking_[jump].gap_after = 0.51;
+    ranking_[jump].gap_after = 0.45;
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::unknown);
 }
 

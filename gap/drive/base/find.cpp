@@ -72,8 +72,25 @@ std::vector<Coefficients> even_lags(const Structure& structure, double shortest_
     return all;
 }
 
+// Fractional ones of as long, of some orders: a coefficient is a time to the power of its order.
+std::vector<Coefficients> of_some_orders(const std::vector<Coefficients>& whole) {
+    std::vector<Coefficients> all;
+    for (const Coefficients& one : whole) {
+        for (const double share : {0.5, 0.75, 1.0}) {
+            Coefficients fractional = one;
+            for (std::size_t i = 0; i < one.denominator.size(); ++i) {
+                const double order = std::max(share * static_cast<double>(i + 1), lowest_order(i + 1));
+                fractional.orders.push_back(order);
+                fractional.denominator[i] = std::pow(one.denominator[i], order / static_cast<double>(i + 1));
+            }
+            all.push_back(std::move(fractional));
+        }
+    }
+    return all;
+}
+
 bool fits_in(const Structure& structure, bool driven) {
-    return driven || (structure.integrators == 0 && structure.zeros == 0);
+    return driven || (structure.integrators == 0 && structure.zeros == 0 && !structure.fractional);
 }
 
 double gap_of(const Study& study, const Candidate& candidate) {
@@ -146,15 +163,17 @@ drive::Form quick_form(Question alone, double quick_s) {
     return held_near(with_values(alone.form, fit(part.study, {}, part.base, &differences)), near);
 }
 
-// Whether its lags, whose sum is the first power's coefficient, outlast every record: beside a zero that nearly cancels
-// it such a lag is a drift, which is none of the plant's, and alone it is an integrator.
+// Whether its lags, whose sum is the lowest power's coefficient, outlast every record: beside a zero that nearly
+// cancels it such a lag is a drift, which is none of the plant's, and alone it is an integrator.
 bool outlasts(const Described& one, const std::vector<Record>& records) {
     constexpr double times = 1.5;
-    const double length_s = longest_s(records);
-    return std::any_of(one.form.parameters().begin(), one.form.parameters().end(),
-                       [&](const drive::Parameter& parameter) {
-                           return parameter.name == "a1" && !parameter.fixed && parameter.value > times * length_s;
-                       });
+    double coefficient = 0.0;
+    double order = 1.0;
+    for (const drive::Parameter& parameter : one.form.parameters()) {
+        coefficient = parameter.name == "a1" && !parameter.fixed ? parameter.value : coefficient;
+        order = parameter.name == "alpha1" && !parameter.fixed ? parameter.value : order;
+    }
+    return std::pow(std::max(coefficient, 0.0), 1.0 / order) > times * longest_s(records);
 }
 
 // From each start; none: there is nothing of this structure, and others go on.
@@ -190,6 +209,9 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
     std::vector<Coefficients> starts = filtered_estimates(structure, records, driven);
     const std::vector<Coefficients> even = even_lags(structure, records.front().usual_interval_s, length_s, driven);
     starts.insert(starts.end(), even.begin(), even.end());
+    if (structure.fractional) {
+        starts = of_some_orders(starts);
+    }
     const std::vector<Course> courses = rough_courses(records);
     Leftovers whole;  // of the start that leaves least, and
     Leftovers quick;  // of the one that leaves least of what is quick
@@ -214,7 +236,8 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
                              fmt::format("{}: no {} ({}) explains anything of it: do input and output belong together?",
                                          records.front().name, structure.name, structure.meaning));
     }
-    const bool lags_alone = driven && structure.integrators == 0 && structure.zeros == 0 && structure.order <= 2;
+    const bool lags_alone =
+        driven && !structure.fractional && structure.integrators == 0 && structure.zeros == 0 && structure.order <= 2;
     const bool parts = lags_alone && quick.quick.squares < worth_a_quick_one * whole.quick.squares;
     return {*best, parts ? quick_best : std::nullopt, quick_s};
 }

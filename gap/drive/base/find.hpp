@@ -1,4 +1,5 @@
-// The base that records have by themselves: the linear description that does best where it was not fitted.
+// The base that records have by themselves: the linear description, whole or fractional, that does best where it was
+// not fitted.
 #pragma once
 
 #include <functional>

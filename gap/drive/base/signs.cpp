@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/drive/base/find.hpp"
+#include "gap/drive/base/structure.hpp"
+#include "gap/drive/fit.hpp"
+
 namespace gap {
 
 bool may_have_lost_signs(const std::vector<Record>& records) {
@@ -61,6 +65,42 @@ std::vector<Record> with_signs(std::vector<Record> records) {
         }
     }
     return records;
+}
+
+Question with_signs_of_a_base(Question question) {
+    question.train = with_signs(std::move(question.train));
+    question.validate = with_signs(std::move(question.validate));
+    question.refit = true;
+    const Structure& structure = *structure_named("third_order");
+    constexpr int rounds = 12;
+    for (int round = 0; round < rounds; ++round) {
+        question.form = starts_of(structure, question.train).whole;
+        const Ground ground = prepare(question);
+        const Candidate fitted = fit(ground.study, {}, ground.base, nullptr);
+        bool changed = false;
+        const auto take = [&](std::vector<Record>& records, const Study& study, const Candidate& candidate) {
+            for (std::size_t r = 0; r < records.size(); ++r) {
+                const std::vector<double> left = residuals_of(study, candidate, r);
+                for (std::size_t i = 0; i < left.size(); ++i) {
+                    double& z = records[r].output[i];
+                    const double now = std::copysign(z, z - left[i]);
+                    changed = changed || now != z;
+                    z = now;
+                }
+            }
+        };
+        Question next = question;
+        take(next.train, ground.study, fitted);
+        if (!question.validate.empty()) {
+            take(next.validate, ground.validation, carried_over(ground.validation, fitted, nullptr));
+        }
+        question.train = std::move(next.train);
+        question.validate = std::move(next.validate);
+        if (!changed) {
+            break;
+        }
+    }
+    return question;
 }
 
 }  // namespace gap

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "gap/drive/record.hpp"
+#include "gap/drive/question.hpp"
 
 namespace gap {
 
@@ -13,5 +13,9 @@ namespace gap {
 /// The readings with the input's sign, which after each change of it begins where they first turn: a plant that follows
 /// its input passes 0 there. Good enough for a base to be looked for.
 [[nodiscard]] std::vector<Record> with_signs(std::vector<Record> records);
+
+/// Signs that the input says are a start; those of a base that was fitted to them are better, and so on, while they
+/// change. \return  the question with readings that have them
+[[nodiscard]] Question with_signs_of_a_base(Question question);
 
 }  // namespace gap

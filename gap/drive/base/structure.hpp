@@ -1,4 +1,5 @@
-// Which linear descriptions a base is looked for among: whole orders, integrators, zeros, each with a dead time.
+// Which linear descriptions a base is looked for among: lags, whole or fractional, integrators, zeros, each with a dead
+// time.
 #pragma once
 
 #include <span>
@@ -15,9 +16,10 @@ struct Structure {
     int order;
     int integrators;
     int zeros;
-    const char* meaning;  ///< for people
+    const char* meaning;      ///< for people
+    bool fractional = false;  ///< orders are numbers of their own, each about a whole one
     /// Numbers of its own beside the dead time: what a richer one must pay for.
-    [[nodiscard]] int numbers() const { return 1 + order - integrators + zeros; }
+    [[nodiscard]] int numbers() const { return 1 + (fractional ? 2 : 1) * (order - integrators) + zeros; }
 };
 
 /// The simplest first.
@@ -31,9 +33,15 @@ struct Coefficients {
     std::vector<double> denominator;  ///< a_1 upwards, `order - integrators` of them, in powers of seconds
     std::vector<double> numerator;    ///< b_1 upwards
     double delay_s = 0.0;
+    std::vector<double> orders = {};  ///< of a fractional structure, one for each of `denominator`
 };
 
-/// The form whose free numbers are the structure's: orders stay whole, what stands before the lowest power is 1.
+/// The range of a fractional structure's order that stands for a whole one: below it two would meet, above it a lag
+/// swings.
+[[nodiscard]] double lowest_order(std::size_t whole);
+[[nodiscard]] double highest_order(std::size_t whole);
+
+/// The form whose free numbers are the structure's: whole orders stay, what stands before the lowest power is 1.
 /// \param driven  false: nothing is put in, so that a gain and a dead time are told by nothing and stay
 [[nodiscard]] drive::Form form_of(const Structure& structure, const Coefficients& at, bool driven);
 

@@ -16,9 +16,7 @@ constexpr std::size_t most_alternatives = 3;
 constexpr double of_alternatives = 0.9;  // what their confidences add up to
 
 bool is_special_case(const Effect& effect, const Candidate& of) {
-    return std::any_of(of.effects.begin(), of.effects.end(), [&](const Effect* mine) {
-        return std::find(mine->generalises.begin(), mine->generalises.end(), effect.name) != mine->generalises.end();
-    });
+    return std::any_of(of.effects.begin(), of.effects.end(), [&](const Effect* mine) { return mine->covers(effect); });
 }
 
 bool generalises(const Candidate& general, const Candidate& special) {
@@ -72,7 +70,7 @@ void part(const Evidence& evidence, Decision& decision) {
             nearest = std::min(nearest, over.mean);
         } else if (!evidence.objection(i).empty()) {
             continue;
-        } else if (evidence.beside_form() && has_events(other) && !has_events(mine)) {
+        } else if (evidence.beside_form() && other.has_events() && !mine.has_events()) {
             // An event is located where it is judged; what kept its numbers and goes as far says more.
             nearest = std::min(nearest, parting_advantage);
         } else if (generalises(mine, other) && decision.effects.front() == chosen) {

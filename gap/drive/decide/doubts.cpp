@@ -23,7 +23,7 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
         const double left = after / decision.base_gap;
         decision.at_most(left < a_tenth ? 0.95 : left < a_quarter ? 0.9 : 0.7);
     }
-    if (has_events(evidence.ranking[decision.chosen].trained)) {
+    if (evidence.ranking[decision.chosen].trained.has_events()) {
         decision.at_most(an_event);
     }
 }
@@ -41,7 +41,7 @@ void doubt_events(const Evidence& evidence, Decision& decision) {
     std::string doubt = doubt_of(decision.chosen);
     const bool of_chosen = !doubt.empty();
     std::erase_if(decision.effects, [&](std::size_t i) {
-        const bool events = has_events(evidence.ranking[i].trained);
+        const bool events = evidence.ranking[i].trained.has_events();
         const std::string own = of_chosen || !events ? "" : doubt_of(i);
         doubt = doubt.empty() ? own : doubt;
         return !own.empty() || (of_chosen && events);

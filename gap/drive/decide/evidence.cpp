@@ -24,11 +24,6 @@ std::vector<Remainder> remainders(const Study& study, const std::vector<std::vec
 
 }  // namespace
 
-bool has_events(const Candidate& candidate) {
-    return std::any_of(candidate.effects.begin(), candidate.effects.end(),
-                       [](const Effect* effect) { return effect->kind == Kind::event; });
-}
-
 bool is_clear(const Interval& over) { return over.mean > clear_advantage && over.low > 0.0; }
 
 Evidence::Evidence(const std::vector<Ranked>& ranked, const Whitener& whitener, const Study& trained,
@@ -87,7 +82,7 @@ const std::string& Evidence::objection(std::size_t i) const {
         if (what.empty() && beside_form()) {
             what = linear_of(trained);
         }
-        if (what.empty() && beside_form() && has_events(trained)) {
+        if (what.empty() && beside_form() && trained.has_events()) {
             what = objection_to_events(trained, ranking[i].candidate);
         }
     }

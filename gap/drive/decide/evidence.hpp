@@ -53,7 +53,6 @@ private:
     mutable FoundOut known_;
 };
 
-[[nodiscard]] bool has_events(const Candidate& candidate);
 /// A likelihood ratio that chance does not reach among some hundred candidates.
 constexpr double clear_advantage = 8.0;
 [[nodiscard]] bool is_clear(const Interval& over);

@@ -60,16 +60,15 @@ bool is_slow(const Evidence& evidence, const Decision& decision) {
     // A given model is the drive's but for what is looked for; a form that was fitted to it has a few coefficients, and
     // its own misfit stays.
     constexpr double share_of_a_model = 0.1;
-    constexpr double share_of_a_form = 0.5;
-    if (!evidence.is_no_noise(after) ||
-        after < (evidence.beside_form() ? share_of_a_form : share_of_a_model) * decision.base_gap) {
+    const double share = evidence.beside_form() ? std::sqrt(rest_of_a_main_cause) : share_of_a_model;
+    if (!evidence.is_no_noise(after) || after < share * decision.base_gap) {
         return false;
     }
     // A cause whose size the training hardly tells may miss elsewhere; one that leaves much where it was fitted, too,
     // is not the only one. Events are fitted to each record.
     constexpr double much = 4.0;
     const Candidate& trained = evidence.ranking[decision.chosen].trained;
-    return has_events(trained) ||
+    return trained.has_events() ||
            over_noise(evidence.study, rms_of(evidence.study, all_residuals(evidence.study, trained))) > much;
 }
 

@@ -19,6 +19,9 @@ struct Rule {
 /// \throws std::out_of_range
 [[nodiscard]] const Rule& rule_named(const char* name);
 
+/// Of the squared gap: a cause that leaves less is the main one.
+constexpr double rest_of_a_main_cause = 0.2;
+
 /// What a model without physics foresees of what is left.
 struct Foreseeable {
     double share = 0.0;        ///< of the squared gap that is left; 0: nothing that is certain
@@ -27,7 +30,7 @@ struct Foreseeable {
     bool is_too_much = false;  ///< to be overlooked
     /// What takes so much of the closable squared gap of a fitted form is its cause, though the rest can be foreseen:
     /// of something else, which is said in per cent.
-    [[nodiscard]] bool is_minor() const { return of_closable < 0.2; }
+    [[nodiscard]] bool is_minor() const { return of_closable < rest_of_a_main_cause; }
 };
 [[nodiscard]] Foreseeable foreseeable(const Evidence& evidence, const Decision& decision);
 

@@ -1,5 +1,5 @@
 // A memoryless bend of the output, z = y ((1 - c) + c |y| / reference), about a reference that stays where it is. In
-// its other variant the same bend, about the largest reading, is that of the restoring term: an outflow.
+// its other variant it is the restoring term that bends, as an outflow does that goes with the power 1 + c of the level.
 #include <algorithm>
 #include <cmath>
 
@@ -16,11 +16,11 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
     // Which one it is is not known: free, it lets the slope at 0 be any. Of an outflow that is another model's force.
     const EffectParameter about{"reference", "y", 0.3 * reference, 3.0 * reference, reference, {reference}, false, 2};
     // What swings is no flow that drains.
-    if (!scales.steady || scales.swings) {
+    if (!scales.steady || scales.swings || !scales.drains) {
         return {
             {"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25}}, about, {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0}, true}};
     }
-    return {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25, -0.25, 0.25}},
+    return {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25, -0.5, 0.25}},
             about,
             {"in_outflow", "1", 0.0, 1.0, 0.0, {0.0, 0.0, 1.0, 1.0}, true}};
 }

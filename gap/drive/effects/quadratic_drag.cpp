@@ -10,18 +10,25 @@ const Effect& quadratic_drag();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    constexpr double most = 5.0;
+    const double usual = scales.force / (scales.speed_max * scales.speed_max);
+    if (!scales.maybe_speed) {
+        return {{"coefficient", "rhs/speed^2", 0.0, most * usual, 0.0, {0.1 * usual, 0.6 * usual}},
+                {"of_speed", "1", 0.0, 1.0, 0.0, {0.0}, true}};
+    }
+    const double of_output = scales.force / (scales.output_max * scales.output_max);
     return {{"coefficient",
-             "rhs s^2/y^2",
+             "rhs/speed^2",
              0.0,
-             5.0 * scales.force / (scales.speed_max * scales.speed_max),
+             most * std::max(usual, of_output),
              0.0,
-             {0.1 * scales.force / (scales.speed_max * scales.speed_max),
-              0.6 * scales.force / (scales.speed_max * scales.speed_max)}}};
+             {0.1 * usual, 0.6 * usual, 0.1 * of_output, 0.6 * of_output}},
+            {"of_speed", "1", 0.0, 1.0, 0.0, {0.0, 0.0, 1.0, 1.0}, true}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    scenario.forces.drag += values[0];
+void add(Scenario& scenario, std::span<const double> values) {
+    (values[1] > 0.5 ? scenario.forces.drag_of_speed : scenario.forces.drag) += values[0];
 }
 
 }  // namespace
@@ -33,7 +40,7 @@ const Effect& quadratic_drag() {
         .parameters = parameters,
         .add_to = add,
         .place = Place::plant,
-        .numbers = {{"coefficient"}},
+        .numbers = {{"coefficient"}, {"of_speed", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical, Domain::hydraulic},
     };
     return effect;

@@ -16,14 +16,16 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
         return {};
     }
     const double unit = scales.input_max / scales.further_max;
+    // A lag that outlasts the records is a drift.
+    const double slowest_s = std::min(10.0 * scales.time_constant_s, scales.length_s);
+    const double slow_s = std::min(2.0 * scales.time_constant_s, 0.5 * slowest_s);
     return {{"gain", "u/u2", -50.0 * unit, 50.0 * unit, 0.0, {0.2 * unit, -0.2 * unit, 0.2 * unit, -0.2 * unit}},
             {"tau_s",
              "s",
              0.0,
-             10.0 * scales.time_constant_s,
+             slowest_s,
              0.0,
-             {0.1 * scales.time_constant_s, 0.1 * scales.time_constant_s, 2.0 * scales.time_constant_s,
-              2.0 * scales.time_constant_s}}};
+             {0.05 * slow_s, 0.05 * slow_s, slow_s, slow_s}}};
 }
 
 void add(Scenario& scenario, std::span<const double> values) {

@@ -11,6 +11,10 @@ const Effect& sensor_magnitude();
 namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
+    // What is pushed one way only, and does not swing, never was below 0.
+    if (scales.driven && !scales.two_signs && !scales.swings) {
+        return {};
+    }
     // Noise about 0 goes a little below it.
     constexpr double noise_share = 0.05;
     if (scales.output_low < -noise_share * scales.output_span) {

@@ -1,0 +1,18 @@
+// Which of the descriptions that were found causes are looked for beside.
+#pragma once
+
+#include <vector>
+
+#include "gap/drive/base/find.hpp"
+
+namespace gap {
+
+/// The base that does best by itself, the best ones of fewer and of more numbers, and the best that integrates where it
+/// does not, or the other way round: beside an effect a simpler one may do as well, and what seems an effect may be a
+/// lag that a richer one has. \param found  the best first \return into it
+[[nodiscard]] std::vector<const Described*> worth_asking(const std::vector<Described>& found);
+
+/// Null: none was found.
+[[nodiscard]] const Described* with_one_lag_more(const std::vector<Described>& found, const Described& than);
+
+}  // namespace gap
