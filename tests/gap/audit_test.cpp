@@ -60,6 +60,26 @@ TEST(AuditQuantum, IsTheLatticeWhereverItBegins) {
 }
 
 // A logger's last digit rounds a sensor's steps: 0.3223 is 0.32 or 0.33.
+// Readings that go up and down by a step of 0.05, and far above them once some that lie a fifth of a step beside.
+TEST(AuditQuantum, OfOneLevelInAHundredMayLieBeside) {
+    const auto with_beside = [](int levels, int beside) {
+        std::vector<double> values;
+        for (int turn = 0; turn < 20; ++turn) {
+            for (int i = 0; i < levels - beside; ++i) {
+                values.push_back(0.05 * (turn % 2 == 0 ? i : levels - beside - 1 - i));
+            }
+        }
+        for (int i = 0; i < beside; ++i) {
+            values.push_back(0.05 * (150.2 + 50.0 * i));
+            values.push_back(0.0);
+        }
+        return quantum_of(values);
+    };
+    EXPECT_NEAR(with_beside(100, 1), 0.05, 1e-4);
+    EXPECT_EQ(with_beside(100, 2), 0.0);
+    EXPECT_EQ(with_beside(99, 1), 0.0);
+}
+
 TEST(AuditQuantum, IsSeenThroughALoggersDigits) {
     std::vector<double> values = noisy(400, 3);
     for (double& value : values) {

@@ -268,6 +268,14 @@ TEST(Reply, OfAVerdictsFile) {
     const auto refusal = [](const std::string& text) {
         return failure_of([&] { (void)exam::parse_reply(text, "v.json"); });
     };
+    // Of one cause its own confidence; one that is attributed names all of its causes together.
+    const exam::Reply one = exam::parse_reply(
+        R"({"schema": "glsum-gap-1", "verdict": "attributed", "effects": [{"effect": "x", "confidence": 0.8}, {"effect": "y", "confidence": 0.9}], "gap": {}})",
+        "v.json");
+    EXPECT_EQ(one.confidence, 0.8);
+    EXPECT_THAT(one.named, ElementsAre(ElementsAre("x", "y")));
+    EXPECT_THAT(refusal(R"({"schema": "glsum-gap-2", "verdict": "no_gap", "effects": [], "gap": {}})"),
+                HasSubstr("v.json: schema: expected"));
     EXPECT_THAT(refusal(R"({"schema": "glsum-gap-1", "verdict": "perhaps"})"),
                 HasSubstr("v.json: verdict: expected one of attributed"));
     EXPECT_THAT(refusal(R"({"schema": "glsum-gap-1", "verdict": "attributed", "effects": [], "gap": {}})"),

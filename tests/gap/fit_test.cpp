@@ -7,6 +7,7 @@
 #include <cmath>
 #include <random>
 
+#include "gap/drive/determined.hpp"
 #include "gap/drive/start.hpp"
 
 namespace {
@@ -154,6 +155,59 @@ TEST(Fit, OfAFittedBaseIsNeverWorseThanWithoutTheEffect) {
         EXPECT_LE(gap::fit(made.study, {&gap::effect_named(effect)}, none, nullptr).cost, none.cost * (1.0 + 1e-9))
             << effect;
     }
+    // Begun where it leads nowhere and taken no step further, it is as if it were not there: events in each record.
+    Made two(2, true);
+    for (std::size_t r = 0; r < 2; ++r) {
+        two.add([&](double) { return normal(engine); }, r);
+    }
+    const gap::Candidate without = gap::fit(two.study, {}, {}, nullptr);
+    for (const char* effect : {"input_saturation", "quadratic_drag", "load_disturbance", "missed_counts"}) {
+        EXPECT_LE(gap::fit(two.study, {&gap::effect_named(effect)}, without, nullptr, {0, 1, 0}).cost,
+                  without.cost * (1.0 + 1e-9))
+            << effect;
+    }
+}
+
+// A threshold between two levels of the input moves no reading: it is known as far as nothing becomes less likely, in
+// sixteenths of the way to its bounds.
+TEST(Intervals, OfWhatMovesNothingReachAsFarAsIsLikely) {
+    Made made;
+    for (std::size_t i = 0; i < 300; ++i) {
+        made.records[0].input[i] = i < 100 ? 0.0 : i < 200 ? 0.4 : 1.0;
+    }
+    made.study.courses.clear();
+    made.study.courses.emplace_back(made.records[0], 1);
+    const gap::Effect& threshold = gap::effect_named("start_up_threshold");
+    gap::Candidate candidate;
+    candidate.effects = {&threshold};
+    candidate.lasting = {gap::parameters_of(threshold, made.study.scales, 0)};
+    candidate.own = {gap::state_of(made.study, made.records[0])};
+    gap::FreeParameter& number = candidate.lasting[0][0];
+    number.value = 0.6;
+    number.upper = 1.5;
+    gap::Scenario truth = gap::scenario_of(made.study, candidate, 0);
+    made.records[0].output = gap::simulate(truth, made.study.courses[0]);
+    std::mt19937_64 engine(1);
+    std::normal_distribution<double> normal(0.0, 0.01);
+    made.add([&](double) { return normal(engine); });
+    gap::Whitener whitener;
+    whitener.deviation = whitener.stationary_deviation = 0.01;
+    for (const gap::Whitener* by :
+         {static_cast<const gap::Whitener*>(nullptr), static_cast<const gap::Whitener*>(&whitener)}) {
+        gap::add_intervals(made.study, candidate, by);
+        EXPECT_EQ(number.value, 0.6);
+        const double down = (0.6 - number.lower) / 16.0;
+        EXPECT_NEAR(number.low, 0.6 - down * std::floor((0.6 - 0.4) / down), 1e-12);
+        EXPECT_NEAR(number.high, 0.6 + 0.9 / 16.0 * std::floor((1.0 - 0.6) / (0.9 / 16.0)), 1e-12);
+    }
+    // What does not count tells nothing: without the readings under the lower level, and on the way
+    // from there, it may lie below.
+    for (std::size_t i = 100; i < 300; ++i) {
+        made.study.counts[0][i] = i < 280 ? 0 : 1;
+    }
+    gap::add_intervals(made.study, candidate, nullptr);
+    EXPECT_LT(number.low, 0.4);
+    EXPECT_LT(number.high, 1.0);
 }
 
 // Events happen at times of their own in each record; what lasts keeps its number.
