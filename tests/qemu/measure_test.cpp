@@ -21,10 +21,17 @@
 #include "qemu/emulate/watched.hpp"
 #include "targets/shared/output_hash.hpp"
 #include "tests/qemu/made_elf.hpp"
+#include "tests/qemu/made_program.hpp"
 
 namespace {
 
+using test::block;
+using test::block_answer;
+using test::calls;
+using test::check_calls;
 using test::MadeElf;
+using test::program;
+using test::ring;
 
 std::string text_of(const std::filesystem::path& path) {
     std::ifstream in(path);
@@ -216,66 +223,6 @@ TEST(MadeElf, DoubleRoutinesAreItsOwnFromTheirFirstByteToTheirLast) {
     EXPECT_EQ(own.double_routines[1].begin, 0x300U);
     EXPECT_EQ(own.double_routines[1].end, 0x340U);  // where the next function begins
     EXPECT_EQ(own.cores.size(), 1U);
-}
-
-// The loops whose counts targets/firmware/check_loops.S derives: of each turn, and once.
-struct Loop {
-    const char* name;
-    int turn[4];
-    int once[4];
-};
-constexpr Loop loops[] = {
-    {"glsum_check_steps", {4, 1, 1, 1}, {1, 0, 0, 1}},    {"glsum_check_one_more", {4, 1, 1, 1}, {2, 0, 0, 1}},
-    {"glsum_check_multiple", {4, 4, 4, 1}, {3, 2, 2, 1}}, {"glsum_check_wide", {8, 7, 7, 1}, {1, 0, 0, 1}},
-    {"glsum_check_edge", {4, 1, 1, 1}, {3, 0, 0, 1}},     {"glsum_check_skipped", {5, 0, 0, 1}, {1, 0, 0, 1}},
-    {"glsum_check_nested", {6, 1, 1, 3}, {3, 2, 2, 1}},
-};
-
-constexpr std::uint32_t ring = 0x400;
-constexpr std::uint32_t block = 0x440;
-constexpr std::uint32_t block_answer = 0x480;
-
-// A program with two kernels, one in halves; marks and loops.
-MadeElf program() {
-    const std::string names = "ring_plain_f32block_plain_q31";
-    std::vector<std::uint8_t> text(names.begin(), names.end());
-    MadeElf made;
-    made.sections = {{0x1000, text},
-                     {0x2000, test::bytes_of({0x1000, 14, ring + 1, 0, 0x100E, 15, block + 1, block_answer + 1, 2})}};
-    made.symbols = {{"glsum_watched", 0x2000, 32},
-                    {"glsum_watched_count", 0x2020, 4},
-                    {"glsum_mark_row", 0x601, 2, true},
-                    {"glsum_mark_on", 0x611, 2, true},
-                    {"glsum_mark_off", 0x621, 2, true},
-                    {"step_of_ring", ring + 1, 0x20, true},
-                    {"step_of_block", block + 1, 0x30, true},
-                    {"helper", 0x501, 0x10, true}};
-    std::uint32_t at = 0x801;
-    for (const Loop& loop : loops) {
-        made.symbols.push_back({loop.name, at, 0x10, true});
-        at += 0x10;
-    }
-    return made;
-}
-
-std::string calls(std::uint32_t entry, int count, const char* counts) {
-    return "calls " + std::to_string(entry) + ' ' + std::to_string(count) + ' ' + counts + '\n';
-}
-
-std::string check_calls() {
-    std::string log;
-    std::uint32_t at = 0x800;
-    for (const Loop& loop : loops) {
-        for (const int turns : {1, 10, 1000}) {
-            std::string counts;
-            for (int i = 0; i < 4; ++i) {
-                counts += (i > 0 ? " " : "") + std::to_string(loop.turn[i] * turns + loop.once[i]);
-            }
-            log += calls(at, 1, counts.c_str());
-        }
-        at += 0x10;
-    }
-    return log;
 }
 
 // Of 3 taps: the first call, three that fill the past, 32 of a turn, one on the painted stack. Of 40 taps the turn is
