@@ -3,11 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <complex>
 #include <numbers>
 
 #include "base/failure.hpp"
 #include "drive/exact_step_response.hpp"
+#include "drive/inverse_laplace.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {
@@ -83,6 +86,48 @@ TEST(StepResponse, RefusesAThousandSwings) {
     swinging.denominator = {{1.0, 2.0}, {1e-4, 1.0}, {1.0, 0.0}};
     drive::StepResponse step(swinging);
     EXPECT_THROW((void)step(10000.0), glsum::Failure);
+}
+
+// What grows may grow to a thousand by the end of its octave of time: here [1, 2) s.
+TEST(InverseLaplace, OfWhatGrowsIsExactUpToAThousand) {
+    const auto growing = [](double per_s, std::vector<drive::Swing> swings) {
+        return drive::InverseLaplace(
+            1, [=](std::complex<double> s, std::span<std::complex<double>> values) { values[0] = 1.0 / (s - per_s); },
+            std::move(swings));
+    };
+    const double limit = 0.5 * std::log(1e3);
+    const double below = limit * (1.0 - 5e-4);
+    // The one that grows fastest counts, whatever else there is.
+    drive::InverseLaplace found = growing(below, {{0.0, 2.0}, {0.0, -below}, {0.0, 1.0}});
+    for (const double t : {1.0, 1.3, 1.999}) {
+        EXPECT_NEAR(found(t) / std::exp(below * t), 1.0, 2e-9) << t;
+    }
+    EXPECT_EQ(found(0.0), 0.0);
+    EXPECT_EQ(found(-1.0), 0.0);
+    const double above = limit * (1.0 + 5e-4);
+    EXPECT_THROW((void)growing(above, {{0.0, -above}})(1.3), glsum::Failure);
+    // An octave before it is still small.
+    EXPECT_NEAR(growing(above, {{0.0, -above}})(0.9) / std::exp(above * 0.9), 1.0, 2e-9);
+}
+
+// Several transforms at once, each by its closed form, over many octaves.
+TEST(InverseLaplace, OfSeveralTransformsIsEachOnesFunction) {
+    drive::InverseLaplace several(3,
+                                  [](std::complex<double> s, std::span<std::complex<double>> values) {
+                                      values[0] = 1.0 / (s + 2.0);
+                                      values[1] = 1.0 / std::sqrt(s);
+                                      values[2] = s / (s * s + 0.2 * s + 1.01);
+                                  },
+                                  {{1.0, 0.1}});
+    std::array<double, 3> now{};
+    for (double t = 1e-4; t < 40.0; t *= 1.7) {
+        several.at(t, now);
+        EXPECT_NEAR(now[0], std::exp(-2.0 * t), 2e-9) << t;
+        EXPECT_NEAR(now[1] * std::sqrt(std::numbers::pi * t), 1.0, 2e-9) << t;
+        EXPECT_NEAR(now[2], std::exp(-0.1 * t) * (std::cos(t) - 0.1 * std::sin(t)), 2e-9) << t;
+    }
+    several.at(0.0, now);
+    EXPECT_EQ(now, (std::array<double, 3>{}));
 }
 
 TEST(Respond, SuperposesHeldSteps) {
