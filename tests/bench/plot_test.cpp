@@ -125,10 +125,31 @@ std::vector<Group> groups() {
             {"0.9", "50", {entry("a_f32", 0.75, {}, 0.0625)}}};
 }
 
+// The panels of a page and the room between them lie on it, left before right and the lower before the upper.
+void expect_on_the_page(const std::string& text) {
+    int rows = 0;
+    int columns = 0;
+    double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0, beside = 0.0, above = 0.0;
+    const std::size_t at = text.find("set multiplot layout");
+    ASSERT_NE(at, std::string::npos);
+    ASSERT_EQ(std::sscanf(text.c_str() + at, "set multiplot layout %d,%d margins %lf,%lf,%lf,%lf spacing %lf,%lf",
+                          &rows, &columns, &left, &right, &bottom, &top, &beside, &above),
+              8);
+    EXPECT_GT(left, 0.0);
+    EXPECT_LT(right, 1.0);
+    EXPECT_GT(bottom, 0.0);
+    EXPECT_LT(top, 1.0);
+    EXPECT_GT(beside, 0.0);
+    EXPECT_GT(above, 0.0);
+    EXPECT_GT(right - left, 2.0 * beside * (columns - 1)) << text.substr(at, 120);
+    EXPECT_GT(top - bottom, 2.0 * above * (rows - 1)) << text.substr(at, 120);
+}
+
 TEST_F(Drawing, OfErrorsHasAPanelForEachOrderAndKind) {
     bench::plot_error(groups(), {{"0.5", {{"50", 0.375}}}}, stem());
     const std::string text = sent();
     EXPECT_THAT(text, HasSubstr("set multiplot layout 2,2 "));
+    expect_on_the_page(text);
     // Kernels in the order of their appearance, then the truncation of windows, then its bound. The full memory lies
     // behind the longest length, under its name.
     EXPECT_THAT(text, HasSubstr("$d0 << EOD\n50 2.500000e-01\n85 1.000000e-06\nEOD\n$d1 << EOD\n50 5.000000e-01\nEOD\n"
@@ -199,6 +220,7 @@ TEST_F(Drawing, OfEqualCostHasAPanelForEachOrderAndSignal) {
                            stem());
     const std::string text = sent();
     EXPECT_THAT(text, HasSubstr("set multiplot layout 2,2 "));
+    expect_on_the_page(text);
     EXPECT_THAT(text, HasSubstr("set xtics nomirror (16, 24)"));
     // What is exact is drawn at the floor.
     EXPECT_THAT(text, HasSubstr("$d0 << EOD\n16 2.500000e-01\n24 1.000000e-10\nEOD\n$d1 << EOD\n16 NaN\nEOD\n"));
@@ -245,6 +267,7 @@ TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
     bench::report::plot_costs(stem(), points, costs);
     const std::string text = sent();
     EXPECT_THAT(text, HasSubstr("set multiplot layout 2,2 "));
+    expect_on_the_page(text);
     EXPECT_THAT(text, HasSubstr("$d0 << EOD\n2.000000e+01 2.500000e-01\n4.000000e+01 1.250000e-01\nEOD\n"
                                 "$d1 << EOD\n3.000000e+01 5.000000e-01\nEOD\n"
                                 "$front << EOD\n2.000000e+01 2.500000e-01\n4.000000e+01 1.250000e-01\nEOD\n"));

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -122,6 +124,73 @@ TEST(Results, AWrongRowIsNeverRanked) {
     EXPECT_FALSE(entry(groups, "fast").host_front);
     EXPECT_TRUE(entry(groups, "right").host_front);
     EXPECT_NE(bench::to_table(groups, false).find("wrong answer"), std::string::npos);
+}
+
+// Under its heading each kernel's numbers, the best error first, and what speaks against it.
+TEST(Table, SaysOfEachKernelWhatItIsAndWhatSpeaksAgainstIt) {
+    bench::Entry worse;
+    worse.kernel = "worse";
+    worse.error_max = 0.25;
+    bench::Entry best;
+    best.kernel = "best";
+    best.error_max = 1e-3;
+    best.rounding_error_max = 1e-7;
+    best.host_ns = 12.5;
+    best.host_cycles = 40.0;
+    best.target_instructions = 300.25;
+    best.target_worst = 310.0;
+    best.bytes = 400.0;
+    best.host_front = true;
+    bench::Entry software = best;
+    software.kernel = "software";
+    software.error_max = 1e-2;
+    software.software_double = true;
+    software.host_front = false;
+    software.target_front = true;
+    bench::Entry slow = software;
+    slow.kernel = "slow";
+    slow.error_max = 0.125;
+    slow.target_front = false;
+    bench::Entry faulty = software;
+    faulty.kernel = "faulty";
+    faulty.error_max.reset();
+    faulty.fault = "wrong\x1b[31m";
+    const std::string table = bench::to_table({{"0.5", "50", {worse, faulty, slow, software, best}}}, false);
+    const auto line = [&](const std::string& kernel) {
+        const std::size_t from = table.find("\n  " + kernel + ' ') + 1;
+        return table.substr(from, table.find('\n', from) - from);
+    };
+    std::istringstream words(line("best"));
+    EXPECT_EQ((std::vector<std::string>{std::istream_iterator<std::string>(words), {}}),
+              (std::vector<std::string>{"best", "1.00e-03", "1.00e-07", "12.5*", "40", "300.2", "310", "400"}));
+    EXPECT_NE(line("software").find("300.2*"), std::string::npos);
+    EXPECT_TRUE(line("software").ends_with("  400  double in software on the M7")) << line("software");
+    EXPECT_TRUE(line("slow").ends_with("  400  dominated; double in software on the M7")) << line("slow");
+    EXPECT_TRUE(line("worse").ends_with("  -  dominated")) << line("worse");
+    EXPECT_TRUE(line("faulty").ends_with("  400  wrong [31m")) << line("faulty");
+    EXPECT_LT(table.find("  best"), table.find("  software"));
+    EXPECT_LT(table.find("  slow"), table.find("  worse"));
+    EXPECT_LT(table.find("  worse"), table.find("  faulty"));  // without an error last
+    // On a terminal what is on no front steps back, and so does what is wrong.
+    const std::string coloured = bench::to_table({{"0.5", "50", {best, slow, faulty}}}, true);
+    EXPECT_NE(coloured.find("\n" + line("best") + "\n"), std::string::npos);
+    EXPECT_NE(coloured.find("\n\x1b[2m" + line("slow") + "\x1b[0m\n"), std::string::npos);
+    EXPECT_NE(coloured.find("\n\x1b[2m" + line("faulty") + "\x1b[0m\n"), std::string::npos);
+    // Of modelled cores the cycles and their band instead of the most instructions.
+    bench::Entry modelled = best;
+    modelled.model_cycles["b-core"] = {200.0, 190.0, 215.0};
+    modelled.model_cycles["a-core"] = {150.0, {}, {}};
+    modelled.target_front = true;
+    const std::string cycles = bench::to_table({{"0.5", "2+7", {modelled, software}}}, false);
+    EXPECT_NE(cycles.find("order 0.5, 2+7 taps; M7 cycles modelled for a-core, then b-core\n"), std::string::npos);
+    std::istringstream more(cycles.substr(cycles.find("\n  best ")));
+    std::string first;
+    std::getline(more, first);
+    std::getline(more, first);
+    std::istringstream fields(first);
+    EXPECT_EQ((std::vector<std::string>{std::istream_iterator<std::string>(fields), {}}),
+              (std::vector<std::string>{"best", "1.00e-03", "1.00e-07", "12.5*", "40", "300.2", "150.0*", "-", "200.0",
+                                        "190", "to", "215", "400"}));
 }
 
 TEST(Results, NamesHaveTheirLengths) {
