@@ -83,6 +83,18 @@ TEST(SearchStart, FindsWhatLiesOnItsGridInALoop) {
     constexpr double step_s = 0.02;
     constexpr double length_s = 299 * step_s;
     const double answer = 0.5 + 0.25 * 30 * step_s;
+    const auto found_of = [&](const Model& truth, Kind kind) {
+        Record record;
+        record.name = "loop";
+        record.controller = controller;
+        for (int k = 0; k < 300; ++k) {
+            record.time_s.push_back(k * step_s);
+            record.reference.push_back(k < 150 ? 1.0 : 0.25);
+        }
+        record.changes = drive::changes_of(record.time_s, record.reference);
+        record.output = drive::run_loop(truth, controller, record.time_s, record.reference, 0.0).output;
+        return drive::search_start(kind, {record});
+    };
     struct Place {
         Kind kind;
         int constant, delay, gain;
@@ -94,17 +106,18 @@ TEST(SearchStart, FindsWhatLiesOnItsGridInALoop) {
         const double delay_s = 0.3 * length_s * place.delay * place.delay / 144.0;
         const Model truth = place.kind == Kind::fopdt ? drive::make_fopdt(gain, constant_s, delay_s)
                                                       : drive::make_sopdt(gain, constant_s, delay_s);
-        Record record;
-        record.name = "loop";
-        record.controller = controller;
-        for (int k = 0; k < 300; ++k) {
-            record.time_s.push_back(k * step_s);
-            record.reference.push_back(k < 150 ? 1.0 : 0.25);
-        }
-        record.changes = drive::changes_of(record.time_s, record.reference);
-        record.output = drive::run_loop(truth, controller, record.time_s, record.reference, 0.0).output;
-        expect_found(drive::search_start(place.kind, {record}), truth);
+        expect_found(found_of(truth, place.kind), truth);
     }
+    // Beyond the grid its last place is the nearest.
+    const double last_constant_s = 0.003 * length_s;
+    const double last_delay_s = 0.3 * length_s * 121.0 / 144.0;
+    const double last_gain = 0.02 / answer * 2000.0;
+    const double faster_s = length_s * std::pow(0.003, 12.0 / 11.0);
+    EXPECT_NEAR(found_of(drive::make_fopdt(1.0, faster_s, 0.0), Kind::fopdt).denominator[0].coefficient,
+                last_constant_s, 1e-9);
+    EXPECT_LE(found_of(drive::make_fopdt(0.2, 1.0, 0.3 * length_s), Kind::fopdt).delay_s, last_delay_s + 1e-9);
+    EXPECT_LE(found_of(drive::make_fopdt(last_gain * std::pow(2000.0, 1.0 / 15.0), length_s, 0.0), Kind::fopdt).gain,
+              last_gain * (1.0 + 1e-9));
 }
 
 /// A record whose output is given, behind a step from 0 at `from_s`, which is held to the end.
