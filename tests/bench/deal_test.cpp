@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "bench/pieces.hpp"
+#include "bench/run/pieces.hpp"
 
 namespace {
 

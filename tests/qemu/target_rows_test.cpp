@@ -1,6 +1,6 @@
 // Rows of the emulated target, from a board that is pretended: it answers with hashes that are looked up by the rows of
 // its plan, and with logs made by hand.
-#include "bench/target_rows.hpp"
+#include "bench/target/target_rows.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,9 +10,9 @@
 #include <fstream>
 #include <map>
 
-#include "bench/signals.hpp"
-#include "bench/target_plan.hpp"
-#include "qemu/scratch.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/target/target_plan.hpp"
+#include "base/scratch.hpp"
 #include "tests/qemu/made_program.hpp"
 
 namespace {
