@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "base/parallel.hpp"
@@ -17,7 +18,7 @@ using Effects = std::vector<const Effect*>;
 constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
 constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
 constexpr std::size_t more_leads = 5;    // where none of them leaves noise alone
-constexpr std::size_t finalists_beside_a_form = 5;
+constexpr std::size_t finalists_of_a_lead_beside_a_form = 2;
 constexpr std::size_t eventful_finalists_beside_a_form = 2;
 constexpr double hopeless_beside_a_form = 0.97;
 constexpr double too_far = 4.0;       // from the best single's cost
@@ -104,18 +105,19 @@ private:
         return of_.ground.study.base.refit ? Effort{4, 1, 9, hopeless_beside_a_form * without}
                                            : Effort{6, 2, 25, hopeless * without};
     }
-    // Beside a form events, which are located in each record, follow its misfit closer than what keeps its numbers: all
-    // of the finalists would have some. \param sets  the best first
+    // Beside a form the best ones of each lead: what follows any misfit (a delay that swings, and events, which are
+    // located in each record) would fill the list. \param sets  the best first, each a lead's effects and one more
     void keep_finalists(std::vector<Candidate>& sets) const {
         if (!of_.ground.study.base.refit) {
             sets.resize(std::min(sets.size(), finalists));
             return;
         }
+        std::map<Effects, std::size_t> lasting;
         std::size_t eventful = 0;
-        std::size_t lasting = 0;
         std::erase_if(sets, [&](const Candidate& set) {
+            const Effects lead(set.effects.begin(), set.effects.end() - 1);
             return set.has_events() ? ++eventful > eventful_finalists_beside_a_form
-                                    : ++lasting > finalists_beside_a_form;
+                                    : ++lasting[lead] > finalists_of_a_lead_beside_a_form;
         });
     }
 

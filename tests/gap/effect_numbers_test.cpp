@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "gap/drive/candidate.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/simulate.hpp"
 
@@ -196,11 +197,16 @@ TEST(EffectNumbers, OfThePlant) {
         "quadratic_drag", speeds,
         {{"coefficient", "rhs/speed^2", 0.0, 5.0 * drag, 0.0, {0.1 * drag, 0.6 * drag, 0.1 * brake, 0.6 * brake}},
          {"of_speed", "1", 0.0, 1.0, 0.0, {0, 0, 1, 1}, true}});
-    expect_none("gravity_nonlinearity", drifts);
+    gap::Scales released = speeds;
+    released.driven = false;
+    for (const char* effect : {"gravity_nonlinearity", "cubic_stiffness"}) {
+        expect_none(effect, drifts);
+        expect_none(effect, speeds);
+        EXPECT_TRUE(gap::applies(gap::effect_named(effect), released)) << effect;
+    }
     expect_ranges(
         "gravity_nonlinearity", scales(),
         {{"angle_per_unit", "rad/y", 1e-3 / span, 3.0 / far, 1e-3 / span, {0.5 / far, 1.0 / far, 2.0 / far}}});
-    expect_none("cubic_stiffness", drifts);
     const double cube = 1.0 / (far * far);
     expect_ranges("cubic_stiffness", scales(),
                   {{"coefficient", "1/y^2", -0.32 * cube, 20.0 * cube, 0.0, {0.2 * cube, 2.0 * cube, -0.1 * cube}}});

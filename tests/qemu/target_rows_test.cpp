@@ -97,7 +97,7 @@ protected:
         return pieces.at(0);
     }
 
-    qemu::Scratch folder_;
+    base::Scratch folder_;
     bench::Sweep sweep_;
     qemu::Signals signals_;
     qemu::PlannedRow count_;

@@ -11,7 +11,8 @@ const Effect& cubic_stiffness();
 namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
-    if (!scales.steady) {
+    // What drives a speed meets no spring.
+    if (!scales.steady || (scales.driven && scales.maybe_speed)) {
         return {};
     }
     // Of a spring that gives way: down to where it has nearly no stiffness left.

@@ -11,7 +11,8 @@ const Effect& gravity_nonlinearity();
 namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
-    if (!scales.steady) {
+    // A speed has no place where a weight would pull.
+    if (!scales.steady || (scales.driven && scales.maybe_speed)) {
         return {};
     }
     // A swing of nearly half a turn, farther than which a weight does not fall back.
