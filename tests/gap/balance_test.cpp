@@ -140,12 +140,24 @@ TEST(Balance, SpringsThatBendAreSolvedWhereTheStepEnds) {
                                    constant * (std::sin(1.3 * at) / 1.3 + 0.2 * at * at * at);
                         }),
                         1e-11);
-            // y ((1 - c) + c |y| / r) about the operating point 0.4.
+            // The power 1 + c of |y| / r + 0.01, less what it is at 0, about the operating point 0.4.
             Scenario outflow;
             outflow.forces.outflow = gap::Outflow{0.6, 2.0};
             outflow.forces.cubic = 0.1;
             outflow.operating_output = 0.4;
-            const auto bent = [](double level) { return level * (0.4 + 0.6 * std::fabs(level) / 2.0); };
+            const auto bent = [](double level) {
+                const double flow = std::pow(std::fabs(level) / 2.0 + 0.01, 1.6) - std::pow(0.01, 1.6);
+                return std::copysign(2.0 * flow / (std::pow(1.01, 1.6) - std::pow(0.01, 1.6)), level);
+            };
+            Scenario braked;  // a speed, by drag
+            braked.forces.drag_of_speed = 0.7;
+            braked.operating_output = 0.4;
+            EXPECT_NEAR(increment(braked, forcing, 0.3, y), first_root([&](double e) {
+                            const double at = y + e + 0.4;
+                            return forcing - 0.3 - mass * e - constant * (y + e) -
+                                   0.7 * (at * std::fabs(at) - 0.4 * 0.4);
+                        }),
+                        1e-11);
             EXPECT_NEAR(increment(outflow, forcing, 0.3, y), first_root([&](double e) {
                             const double at = y + e;
                             return forcing - 0.3 - mass * e -
