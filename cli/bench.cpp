@@ -19,7 +19,7 @@
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
 #include "cli/finish_run.hpp"
-#include "glsum/registry.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace cli {
 namespace {
@@ -154,11 +154,11 @@ bench::Sweep to_sweep(const Options& options) {
         }
     }
     (void)timing::cores_of(bench::timing_request(cores_folder(), sweep.modelled_cores()));
-    glsum::Registry::for_each([&]<class K>() {
-        if (matches_any(options.kernels, K::name())) {
-            sweep.kernels.emplace_back(K::name());
+    for (const glsum::CatalogueEntry& kernel : glsum::catalogue) {
+        if (matches_any(options.kernels, kernel.name)) {
+            sweep.kernels.emplace_back(kernel.name);
         }
-    });
+    }
     // Times to be judged are judged beside code that is not ours.
     const std::vector<std::string> beside =
         sweep.repetitions > 1 && sweep.wants("host") && !sweep.kernels.empty()

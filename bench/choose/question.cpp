@@ -8,7 +8,7 @@
 #include "bench/choose/earlier.hpp"
 #include "bench/run/context.hpp"
 #include "bench/sweep/designs.hpp"
-#include "glsum/registry.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace choose {
 namespace {
@@ -65,13 +65,14 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
 
 std::vector<std::string> kernels_of(Target target, double order) {
     std::vector<std::string> kernels;
-    glsum::Registry::for_each([&]<class K>() {
-        const std::string name(K::name());
-        const bool of_another_order = bench::adds_up(name) && !bench::serves(name, order);
-        if (!std::is_same_v<K, glsum::Null> && (target == Target::host || !K::host_only) && !of_another_order) {
+    for (const glsum::CatalogueEntry& kernel : glsum::catalogue) {
+        const std::string name(kernel.name);
+        const bool of_another_order = kernel.running_sum && !bench::serves(name, order);
+        if (kernel.family != glsum::Family::nothing && (target == Target::host || !kernel.host_only) &&
+            !of_another_order) {
             kernels.push_back(name);
         }
-    });
+    }
     return kernels;
 }
 

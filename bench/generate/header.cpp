@@ -14,6 +14,7 @@
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
+#include "glsum/catalogue.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/history/nested.hpp"
 #include "glsum/weights.hpp"
@@ -470,7 +471,7 @@ std::string prefix_of_file(const std::filesystem::path& file) {
     return is_identifier(prefix) ? prefix : ("glsum_" + prefix).substr(0, 60);
 }
 
-std::string format_word(const std::string& kernel) { return kernel.substr(kernel.rfind('_') + 1); }
+std::string format_word(const std::string& kernel) { return std::string(bench::facts_of(kernel).format); }
 
 std::string make_header(const Spec& spec) {
     if (!is_identifier(spec.prefix)) {
@@ -485,7 +486,7 @@ std::string make_header(const Spec& spec) {
     const std::string name = spec.prefix + "_" + data.format;
     const bool wide_sum = data.accumulator == "double";
     const bool wide_bits = data.output == "double";
-    const bool smlad = spec.kernel.find("_smlad_") != std::string::npos;
+    const bool smlad = bench::facts_of(spec.kernel).technique == glsum::Smlad::word;
     Places places{{"prefix", spec.prefix},
                   {"name", name},
                   {"NAME", upper(name)},

@@ -36,7 +36,8 @@ struct Spec {
 /// The inputs of every self-check, as reals.
 [[nodiscard]] std::vector<double> check_signal();
 
-/// The format's word in a kernel's name, which ends the names of the header's functions.
+/// The word of a kernel's format, which ends the names of the header's functions. \throws std::out_of_range for another
+/// name
 [[nodiscard]] std::string format_word(const std::string& kernel);
 
 }  // namespace generate

@@ -14,6 +14,7 @@
 #include <unordered_map>
 
 #include "base/files.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace bench {
 namespace {
@@ -105,7 +106,8 @@ void add_row(Entry& entry, const std::string& aspect, const Json& row) {
             entry.model_cycles[aspect.substr(aspect.find(':') + 1)] = {*cycles, number(row, "model_cycles_low"),
                                                                        number(row, "model_cycles_high")};
         }
-        entry.software_double = row.value("label", "").find("software") != std::string::npos;
+        const glsum::CatalogueEntry* facts = glsum::find_kernel(entry.kernel);
+        entry.software_double = facts != nullptr && facts->in_double;
     }
     const auto state = number(row, "state_bytes");
     const auto coefficients = number(row, "coefficient_bytes");

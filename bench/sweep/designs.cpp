@@ -8,13 +8,12 @@
 #include <tuple>
 #include <type_traits>
 
+#include "glsum/catalogue.hpp"
 #include "glsum/history/nested.hpp"
-#include "glsum/registry.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "modes/fitted.hpp"
 #include "modes/integral.hpp"
-#include "reference/dropped.hpp"
 
 namespace bench {
 namespace {
@@ -76,66 +75,37 @@ std::optional<Length> shortest(const Named& named, std::size_t samples, double e
     });
 }
 
-// What `visit` says of the kernel with this name, `of_null` where it has no history; empty for no kernel.
-template <class Result, class Visit>
-std::optional<Result> find_of_history(const std::string& kernel, Result of_null, Visit visit) {
-    std::optional<Result> found;
-    glsum::Registry::for_each([&]<class K>() {
-        if (K::name() == kernel) {
-            if constexpr (requires { typename K::HistoryPart; }) {
-                found = visit.template operator()<K>();
-            } else {
-                found = of_null;
-            }
-        }
-    });
-    return found;
-}
-
-template <class Visit>
-bool of_history(const std::string& kernel, bool of_null, Visit visit) {
-    const std::optional<bool> found = find_of_history(kernel, of_null, visit);
-    if (!found) {
-        throw std::out_of_range("no kernel " + kernel);
-    }
-    return *found;
-}
-
 }  // namespace
 
-bool has_modes(const std::string& kernel) {
-    return of_history(kernel, false, []<class K>() { return glsum::keeps_modes<typename K::HistoryPart>; });
+const glsum::CatalogueEntry& facts_of(const std::string& kernel) {
+    const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
+    if (entry == nullptr) {
+        throw std::out_of_range("no kernel " + kernel);
+    }
+    return *entry;
 }
+
+bool has_modes(const std::string& kernel) { return facts_of(kernel).family == glsum::Family::exponentials; }
 
 bool adds_up(const std::string& kernel) {
-    return find_of_history<bool>(kernel, false,
-                                 []<class K>() { return glsum::keeps_running_sum<typename K::HistoryPart>; })
-        .value_or(false);
+    const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
+    return entry != nullptr && entry->running_sum;
 }
 
-bool has_blocks(const std::string& kernel) {
-    return of_history(kernel, false, []<class K>() { return glsum::keeps_blocks<typename K::HistoryPart>; });
-}
+bool has_blocks(const std::string& kernel) { return facts_of(kernel).family == glsum::Family::logmemory; }
 
 double order_of_weights(const std::string& kernel, double order) {
-    return find_of_history(
-               kernel, order,
-               [&]<class K>() { return glsum::keeps_increments<typename K::HistoryPart> ? order - 1.0 : order; })
-        .value_or(order);
+    const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
+    return entry != nullptr && entry->forgotten == glsum::Forgotten::increments ? order - 1.0 : order;
 }
 
 bool serves(const std::string& kernel, double order) {
-    return of_history(kernel, glsum::order_in_range(order), [&]<class K>() {
-        return K::order_in_range(order) &&
-               (!glsum::keeps_running_sum<typename K::HistoryPart> || glsum::modes::is_integral(order));
-    });
+    const glsum::CatalogueEntry& entry = facts_of(kernel);
+    return entry.takes_order(order) && (!entry.running_sum || glsum::modes::is_integral(order));
 }
 
 bool truncates(const std::string& kernel) {
-    return of_history(kernel, true, []<class K>() {
-        return reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero &&
-               !glsum::keeps_modes<typename K::HistoryPart> && !glsum::keeps_blocks<typename K::HistoryPart>;
-    });
+    return facts_of(kernel).forgotten == glsum::Forgotten::zero && !has_modes(kernel) && !has_blocks(kernel);
 }
 
 Length length_with_modes(const std::string& kernel, double order, std::size_t taps) {
@@ -158,9 +128,8 @@ Length length_of(const std::string& kernel, double order, std::size_t taps, std:
 }
 
 Length as_counted(const std::string& kernel, const Length& read) {
-    const bool blocks = find_of_history(kernel, false, []<class K>() {
-                            return glsum::keeps_blocks<typename K::HistoryPart>;
-                        }).value_or(false);
+    const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
+    const bool blocks = entry != nullptr && entry->family == glsum::Family::logmemory;
     return blocks && read.modes ? Length{read.taps - *read.modes, false, {}, glsum::Blocks{*read.modes, 1}} : read;
 }
 

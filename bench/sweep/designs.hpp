@@ -8,26 +8,32 @@
 #include "bench/sweep/sweep.hpp"
 #include "glsum/kernel.hpp"
 
+namespace glsum {
+struct CatalogueEntry;
+}
+
 namespace bench {
 
-/// Whether a kernel keeps near taps and modes in place of a window. \throws std::out_of_range for a name that is not in
-/// the registry.
+/// What the catalogue (glsum/catalogue.hpp) says of a kernel. \throws std::out_of_range for a name that is not in it.
+[[nodiscard]] const glsum::CatalogueEntry& facts_of(const std::string& kernel);
+
+/// Whether a kernel keeps near taps and modes in place of a window. \throws as facts_of.
 [[nodiscard]] bool has_modes(const std::string& kernel);
 
 /// Whether the slowest of a kernel's modes is a running sum: integrals alone. Of any other name no.
 [[nodiscard]] bool adds_up(const std::string& kernel);
 
-/// Whether a kernel keeps near taps and blocks in place of a window. \throws as has_modes.
+/// Whether a kernel keeps near taps and blocks in place of a window. \throws as facts_of.
 [[nodiscard]] bool has_blocks(const std::string& kernel);
 
 /// The order whose weights a kernel sums over what it keeps: v, or v - 1 over increments. Of any other name v.
 [[nodiscard]] double order_of_weights(const std::string& kernel, double order);
 
-/// Whether a kernel takes an order. \throws as has_modes.
+/// Whether a kernel takes an order. \throws as facts_of.
 [[nodiscard]] bool serves(const std::string& kernel, double order);
 
 /// Whether a kernel takes what leaves its window as 0: then its error follows from the length as truncation's does.
-/// \throws as has_modes.
+/// \throws as facts_of.
 [[nodiscard]] bool truncates(const std::string& kernel);
 
 /// The length of a design of `taps` coefficients: `modes_within` of them are modes. The order is that of the weights;

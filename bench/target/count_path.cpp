@@ -4,8 +4,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "glsum/computes_in_double.hpp"
-#include "glsum/registry.hpp"
+#include "bench/sweep/designs.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace bench {
 namespace {
@@ -50,8 +50,6 @@ CountPath count_path(const std::string& kernel, const glsum::Design& design) {
     });
 }
 
-bool double_in_software(const std::string& kernel) {
-    return of_kernel(kernel, []<class K>() { return glsum::computes_in_double<K>(); });
-}
+bool double_in_software(const std::string& kernel) { return facts_of(kernel).in_double; }
 
 }  // namespace bench

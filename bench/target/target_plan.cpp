@@ -8,7 +8,7 @@
 
 #include "bench/sweep/designs.hpp"
 #include "bench/target/count_path.hpp"
-#include "glsum/registry.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace bench {
 namespace {
@@ -22,11 +22,12 @@ constexpr std::size_t longest_replay_in_software = 128;
 
 std::vector<std::string> target_kernels(const Sweep& sweep) {
     std::vector<std::string> kernels;
-    glsum::Registry::for_each([&]<class K>() {
-        if (!K::host_only && std::find(sweep.kernels.begin(), sweep.kernels.end(), K::name()) != sweep.kernels.end()) {
-            kernels.emplace_back(K::name());
+    for (const glsum::CatalogueEntry& kernel : glsum::catalogue) {
+        if (!kernel.host_only &&
+            std::find(sweep.kernels.begin(), sweep.kernels.end(), kernel.name) != sweep.kernels.end()) {
+            kernels.emplace_back(kernel.name);
         }
-    });
+    }
     return kernels;
 }
 

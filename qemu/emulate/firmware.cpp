@@ -11,8 +11,7 @@
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
-#include "glsum/computes_in_double.hpp"
-#include "glsum/registry.hpp"
+#include "glsum/catalogue.hpp"
 #include "qemu/emulate/answers.hpp"
 #include "qemu/emulate/elf.hpp"
 #include "qemu/emulate/modelled_calls.hpp"
@@ -162,9 +161,8 @@ void summarise(MeasuredRow& row, Calls& calls, std::uint32_t entry, const firmwa
 }
 
 bool computes_in_double(const std::string& kernel) {
-    bool computes = false;
-    glsum::Registry::for_each([&]<class K>() { computes |= K::name() == kernel && glsum::computes_in_double<K>(); });
-    return computes;
+    const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
+    return entry != nullptr && entry->in_double;
 }
 
 }  // namespace
@@ -191,9 +189,8 @@ firmware::TimedCalls timed_calls(const std::string& kernel, std::size_t taps) {
 std::size_t calls_to_measure(const std::string& kernel, std::size_t taps) { return timed_calls(kernel, taps).calls(); }
 
 std::size_t calls_hashed(const std::string& kernel, std::size_t calls) {
-    bool halves = false;
-    glsum::Registry::for_each([&]<class K>() { halves |= K::name() == kernel && glsum::InHalves<K>; });
-    return calls + 1 + (halves ? firmware::calls_in_halves : 0);
+    const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
+    return calls + 1 + (entry != nullptr && entry->in_halves ? firmware::calls_in_halves : 0);
 }
 
 ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {

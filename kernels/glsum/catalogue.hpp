@@ -1,0 +1,94 @@
+// The registry as facts: what kind of kernel a name stands for. One entry a kernel, made from its type at compile time,
+// so that whoever has only the name need not search types, or the name, for it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+#include <type_traits>
+
+#include "glsum/computes_in_double.hpp"
+#include "glsum/registry.hpp"
+
+namespace glsum {
+
+/// What a kernel keeps of the past.
+enum class Family {
+    nothing,       ///< `null`
+    window,        ///< the newest samples
+    lookahead,     ///< the newest samples, summed for several coming outputs at once
+    exponentials,  ///< a few samples, and decaying averages of all that lie behind them
+    logmemory,     ///< a few samples, and sums over blocks that grow with their age
+};
+
+/// What a kernel takes for the samples that it keeps neither as such nor in its averages or blocks.
+enum class Forgotten {
+    zero,        ///< 0
+    increments,  ///< 0 for their increments: as if they had been constant
+    held,        ///< the oldest sample kept
+    line,        ///< the line from that to the record's first
+};
+
+struct CatalogueEntry {
+    std::string_view name;
+    std::string_view history;  ///< the name's words; empty for `null`, which has none
+    std::string_view technique;
+    std::string_view format;
+    Family family = Family::nothing;
+    Forgotten forgotten = Forgotten::zero;
+    bool running_sum = false;  ///< of exponentials: the slowest is a running sum, for integrals alone
+    bool in_halves = false;    ///< it answers before it settles (InHalves)
+    bool host_only = false;    ///< it needs the host's vector unit
+    bool exact_sums = false;   ///< products and their sum are exact: every order of summation gives the same bits
+    bool in_double = false;    ///< it computes in double precision: in software on a core without a double unit
+    bool (*takes_order)(double order) = nullptr;  ///< the orders that `prepare` takes
+};
+
+template <Kernel K>
+[[nodiscard]] constexpr CatalogueEntry catalogue_entry() {
+    CatalogueEntry entry{.name = K::name(), .history = {}, .technique = {}, .format = {}};
+    entry.in_halves = InHalves<K>;
+    entry.host_only = K::host_only;
+    entry.in_double = computes_in_double<K>();
+    if constexpr (requires { typename K::HistoryPart; }) {
+        using History = typename K::HistoryPart;
+        entry.history = History::word;
+        entry.technique = K::TechniquePart::word;
+        entry.format = K::FormatPart::word;
+        entry.exact_sums = K::FormatPart::fixed_point;
+        entry.takes_order = K::order_in_range;
+        entry.running_sum = keeps_running_sum<History>;
+        entry.family = keeps_modes<History> || keeps_running_sum<History>                     ? Family::exponentials
+                       : keeps_blocks<History>                                                ? Family::logmemory
+                       : std::is_same_v<History, Block> || std::is_same_v<History, HostBlock> ? Family::lookahead
+                                                                                              : Family::window;
+        if constexpr (keeps_increments<History>) {
+            entry.forgotten = Forgotten::increments;
+        } else if constexpr (guesses_tail<History>) {
+            entry.forgotten = History::to_first ? Forgotten::line : Forgotten::held;
+        }
+    } else {
+        entry.takes_order = glsum::order_in_range;
+    }
+    return entry;
+}
+
+/// An entry for each kernel of `Registry`, in its order.
+inline constexpr auto catalogue = [] {
+    std::array<CatalogueEntry, Registry::count> entries{};
+    std::size_t next = 0;
+    Registry::for_each([&]<class K>() { entries[next++] = catalogue_entry<K>(); });
+    return entries;
+}();
+
+/// The kernel of this name; null if there is none.
+[[nodiscard]] constexpr const CatalogueEntry* find_kernel(std::string_view name) {
+    for (const CatalogueEntry& entry : catalogue) {
+        if (entry.name == name) {
+            return &entry;
+        }
+    }
+    return nullptr;
+}
+
+}  // namespace glsum

@@ -1,0 +1,106 @@
+// The catalogue against the types it is made from, and against what names promise.
+#include "glsum/catalogue.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace {
+
+using glsum::CatalogueEntry;
+using glsum::Family;
+using glsum::find_kernel;
+using glsum::Forgotten;
+
+static_assert(glsum::catalogue.size() == glsum::Registry::count);
+static_assert(find_kernel("ring_plain_f32")->format == "f32", "at compile time");
+
+// The names of those that `holds` is true of, without the words behind the first: "modes", "modessum", ...
+template <class Holds>
+std::set<std::string> histories_of(Holds holds) {
+    std::set<std::string> histories;
+    for (const CatalogueEntry& entry : glsum::catalogue) {
+        if (holds(entry)) {
+            histories.insert(std::string(entry.history));
+        }
+    }
+    return histories;
+}
+std::set<std::string> histories_of(Family family) {
+    return histories_of([&](const CatalogueEntry& entry) { return entry.family == family; });
+}
+std::set<std::string> histories_of(Forgotten forgotten) {
+    return histories_of([&](const CatalogueEntry& entry) { return entry.forgotten == forgotten; });
+}
+
+TEST(Catalogue, HasAKernelForEachLineWithTheWordsOfItsName) {
+    std::set<std::string> names;
+    for (const CatalogueEntry& entry : glsum::catalogue) {
+        EXPECT_TRUE(names.insert(std::string(entry.name)).second) << entry.name;
+        EXPECT_EQ(find_kernel(entry.name), &entry);
+        if (entry.name == "null") {
+            EXPECT_TRUE(entry.history.empty() && entry.technique.empty() && entry.format.empty());
+            EXPECT_EQ(entry.family, Family::nothing);
+        } else {
+            EXPECT_EQ(std::string(entry.history) + "_" + std::string(entry.technique) + "_" + std::string(entry.format),
+                      entry.name);
+        }
+    }
+    std::vector<std::string> in_order;
+    glsum::Registry::for_each([&]<class K>() { in_order.emplace_back(K::name()); });
+    EXPECT_TRUE(std::equal(in_order.begin(), in_order.end(), glsum::catalogue.begin(), glsum::catalogue.end(),
+                           [](const std::string& name, const CatalogueEntry& entry) { return name == entry.name; }));
+    EXPECT_EQ(find_kernel("ring_plain_f33"), nullptr);
+    EXPECT_EQ(find_kernel("ring_plain"), nullptr);
+    EXPECT_EQ(find_kernel(""), nullptr);
+}
+
+TEST(Catalogue, SaysWhatIsKeptAndWhatIsForgotten) {
+    using Words = std::set<std::string>;
+    EXPECT_EQ(histories_of(Family::nothing), Words{""});
+    EXPECT_EQ(histories_of(Family::window),
+              (Words{"shift", "ring", "mirror", "mirrordelta", "mirrorhold", "mirrorlinear"}));
+    EXPECT_EQ(histories_of(Family::lookahead), Words{"block"});
+    EXPECT_EQ(histories_of(Family::exponentials), (Words{"modes", "modessum", "modesdelta"}));
+    EXPECT_EQ(histories_of(Family::logmemory), Words{"nested"});
+    EXPECT_EQ(histories_of(Forgotten::increments), (Words{"mirrordelta", "modesdelta"}));
+    EXPECT_EQ(histories_of(Forgotten::held), Words{"mirrorhold"});
+    EXPECT_EQ(histories_of(Forgotten::line), Words{"mirrorlinear"});
+    EXPECT_EQ(histories_of([](const CatalogueEntry& entry) { return entry.running_sum; }), Words{"modessum"});
+}
+
+TEST(Catalogue, SaysWhichNumbersAKernelComputesIn) {
+    for (const CatalogueEntry& entry : glsum::catalogue) {
+        const std::string format(entry.format);
+        EXPECT_EQ(entry.in_double, format == "f64" || format == "f32a64") << entry.name;
+        EXPECT_EQ(entry.exact_sums, format == "q31" || format == "q15" || format == "q15c31") << entry.name;
+    }
+}
+
+TEST(Catalogue, SaysWhereAKernelRunsAndInHowManySteps) {
+    for (const CatalogueEntry& entry : glsum::catalogue) {
+        const std::string technique(entry.technique);
+        EXPECT_EQ(entry.host_only, technique == "simd" || technique == "simdfma") << entry.name;
+    }
+    glsum::Registry::for_each(
+        []<class K>() { EXPECT_EQ(find_kernel(K::name())->in_halves, glsum::InHalves<K>) << K::name(); });
+    EXPECT_TRUE(find_kernel("block_plain_q31")->in_halves);
+    EXPECT_FALSE(find_kernel("ring_plain_q31")->in_halves);
+}
+
+TEST(Catalogue, SaysWhichOrdersAKernelTakes) {
+    for (const CatalogueEntry& entry : glsum::catalogue) {
+        EXPECT_TRUE(entry.takes_order(0.5)) << entry.name;
+        EXPECT_TRUE(entry.takes_order(2.0)) << entry.name;
+        EXPECT_FALSE(entry.takes_order(2.1)) << entry.name;
+        EXPECT_FALSE(entry.takes_order(-2.0)) << entry.name;
+        // Of increments the sum is of order v - 1.
+        EXPECT_EQ(entry.takes_order(-1.5), entry.forgotten != Forgotten::increments) << entry.name;
+    }
+}
+
+}  // namespace
