@@ -9,7 +9,7 @@
 #include "gap/drive/base/find.hpp"
 #include "gap/drive/decide.hpp"
 #include "gap/drive/question.hpp"
-#include "gap/locate.hpp"
+#include "gap/drive/residuals/locate.hpp"
 
 namespace gap {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "gap/drive/candidate.hpp"
-#include "gap/whiten.hpp"
+#include "gap/drive/residuals/whiten.hpp"
 
 namespace gap {
 

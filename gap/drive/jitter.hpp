@@ -2,7 +2,7 @@
 #pragma once
 
 #include "gap/drive/candidate.hpp"
-#include "gap/whiten.hpp"
+#include "gap/drive/residuals/whiten.hpp"
 
 namespace gap {
 

@@ -8,8 +8,8 @@
 
 #include "gap/drive/coverage.hpp"
 #include "gap/drive/outside.hpp"
-#include "gap/locate.hpp"
-#include "gap/pattern.hpp"
+#include "gap/drive/residuals/locate.hpp"
+#include "gap/drive/residuals/pattern.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // What a model without physics foresees: anything that one of its features makes, and of noise nothing.
-#include "gap/flexible.hpp"
+#include "gap/drive/residuals/flexible.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Where a gap lies: parts whose shares are known because the residuals were put there.
-#include "gap/locate.hpp"
+#include "gap/drive/residuals/locate.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Bursts and waves stand out of noise of any colour, and noise has none.
-#include "gap/pattern.hpp"
+#include "gap/drive/residuals/pattern.hpp"
 
 #include <gtest/gtest.h>
 

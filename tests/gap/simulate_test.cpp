@@ -10,8 +10,8 @@
 #include "drive/simulation.hpp"
 #include "gap/drive/audit.hpp"
 #include "gap/drive/effect.hpp"
-#include "gap/flexible.hpp"
-#include "gap/whiten.hpp"
+#include "gap/drive/residuals/flexible.hpp"
+#include "gap/drive/residuals/whiten.hpp"
 #include "stand_case.hpp"
 
 namespace {

@@ -1,5 +1,5 @@
 // Coloured residuals made white: the recursion, its likelihood and its order by hand; and sums drawn again.
-#include "gap/whiten.hpp"
+#include "gap/drive/residuals/whiten.hpp"
 
 #include <gtest/gtest.h>
 

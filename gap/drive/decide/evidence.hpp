@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gap/drive/ranking.hpp"
-#include "gap/flexible.hpp"
+#include "gap/drive/residuals/flexible.hpp"
 
 namespace gap {
 

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "gap/drive/decide/rule.hpp"
-#include "gap/pattern.hpp"
+#include "gap/drive/residuals/pattern.hpp"
 
 namespace gap {
 namespace {

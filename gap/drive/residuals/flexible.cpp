@@ -1,4 +1,4 @@
-#include "gap/flexible.hpp"
+#include "gap/drive/residuals/flexible.hpp"
 
 #include <Eigen/Cholesky>
 #include <algorithm>

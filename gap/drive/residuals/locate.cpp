@@ -1,4 +1,4 @@
-#include "gap/locate.hpp"
+#include "gap/drive/residuals/locate.hpp"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "gap/whiten.hpp"
+#include "gap/drive/residuals/whiten.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "gap/pattern.hpp"
+#include "gap/drive/residuals/pattern.hpp"
 
 #include <algorithm>
 #include <cmath>
