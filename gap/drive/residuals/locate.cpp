@@ -46,7 +46,7 @@ void normalise(std::vector<Share>& shares) {
 
 // Where the input leaves a stretch that it had rested in: within a fiftieth of its span, so that steps of 5 % are
 // moves, and a ramp is one.
-std::vector<std::pair<std::size_t, std::string>> moves_of(const Record& record) {
+std::vector<std::pair<std::size_t, std::string>> level_moves_of(const Record& record) {
     const std::vector<double>& input = record.input;
     const auto [low, high] = std::minmax_element(input.begin(), input.end());
     const double small = 0.02 * (*high - *low) * (1.0 - 1e-9);
@@ -82,7 +82,7 @@ std::vector<std::pair<std::size_t, std::string>> moves_of(const Record& record) 
 std::vector<Share> segments_of(const Record& record, const std::vector<double>& squares) {
     const double length_s = record.time_s.back() - record.time_s.front();
     std::vector<std::pair<double, std::string>> starts = {{record.time_s.front(), "start"}};
-    for (const auto& [at, what] : moves_of(record)) {
+    for (const auto& [at, what] : level_moves_of(record)) {
         starts.emplace_back(record.time_s[at], what);
     }
     if (starts.size() > most_segments || starts.size() < 2) {
