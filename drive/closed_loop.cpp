@@ -22,8 +22,9 @@ public:
         : response_(response), functions_(functions), time_s_(time_s), delay_s_(delay_s) {
         const std::size_t count = time_s.size();
         const double step_s = time_s.back() / static_cast<double>(count - 1);
-        for (std::size_t k = 0; k < count; ++k) {
-            even_ = even_ && std::fabs(time_s[k] - static_cast<double>(k) * step_s) < 1e-7 * step_s;
+        for (double k = 0.0; const double stamp_s : time_s) {
+            even_ = even_ && std::fabs(stamp_s - k * step_s) < 1e-7 * step_s;
+            k += 1.0;
         }
         table_.resize(count * functions_);
         for (std::size_t k = 0; even_ && k < count; ++k) {

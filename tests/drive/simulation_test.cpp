@@ -129,6 +129,19 @@ TEST(Simulate, AMergedTableIsTheSumOfTheOrders) {
     EXPECT_THROW((void)stepped(undelayed(), {.merged = true, .kernel = "ring_horner_q31"}), glsum::Failure);
 }
 
+// (1 - z) / h twice over: 1, -2, 1; on increments once: 1, -1. As many as were asked for, the newest at least.
+TEST(Simulate, MergedWeightsAreAsManyAsWereAskedFor) {
+    const std::vector<drive::Term> terms{{1.0, 2.0}, {3.0, 0.0}};
+    const auto weights = [&](std::size_t count, bool increments) {
+        return drive::merged_weights(terms, 0.5, count, increments);
+    };
+    EXPECT_EQ(weights(4, false), (std::vector{7.0, -8.0, 4.0, 0.0}));
+    EXPECT_EQ(weights(4, true), (std::vector{4.0, -4.0, 0.0, 0.0}));
+    EXPECT_EQ(weights(1, false), std::vector{7.0});
+    EXPECT_EQ(weights(0, false), std::vector{7.0});
+    EXPECT_EQ(weights(0, true), std::vector{4.0});
+}
+
 // 16 multiplications where 5000 taps err as much; as a table of its own for each order, and one for all.
 TEST(Simulate, ModesStandForFullMemory) {
     const auto full = stepped(undelayed(), {.increments = true}, 5.0);

@@ -53,34 +53,6 @@ TEST(Outside, WhatLastsThroughoutIsNoEvent) {
     EXPECT_FALSE(gap::lasts_throughout(record, {5.4, std::nullopt}, 0.5));  // a jump
 }
 
-// A move is three hundredths of the greatest input at once, up or down.
-TEST(Outside, AMoveIsThreeHundredthsOfTheGreatestInput) {
-    gap::Record record = stepped();
-    for (std::size_t i = 1500; i < record.input.size(); ++i) {
-        record.input[i] = 0.0302;
-    }
-    EXPECT_NEAR(gap::chance_of_meeting(record, 15.1, 0.0), 6 * 0.1 / 20.0, 1e-9);
-    for (std::size_t i = 1500; i < record.input.size(); ++i) {
-        record.input[i] = -0.0302;
-    }
-    EXPECT_NEAR(gap::chance_of_meeting(record, 15.1, 0.0), 6 * 0.1 / 20.0, 1e-9);
-    for (std::size_t i = 1500; i < record.input.size(); ++i) {
-        record.input[i] = 0.0298;
-    }
-    EXPECT_NEAR(gap::chance_of_meeting(record, 15.1, 0.0), (6.2 + 6.2) / 20.0, 1e-9);
-    // A record that begins under a level begins with a move.
-    std::fill(record.input.begin(), record.input.end(), -2.0);
-    EXPECT_NEAR(gap::chance_of_meeting(record, 0.5, 0.0), 0.5 / 20.0, 1e-9);
-}
-
-TEST(Outside, WhatLastsToTheLastFiftiethLastsThroughout) {
-    const gap::Record record = stepped();
-    EXPECT_TRUE(gap::lasts_throughout(record, {5.4, 19.602}, 0.5));
-    EXPECT_FALSE(gap::lasts_throughout(record, {5.4, 19.598}, 0.5));
-    EXPECT_TRUE(gap::lasts_throughout(record, {5.499, 20.0}, 0.5));
-    EXPECT_FALSE(gap::lasts_throughout(record, {5.501, 20.0}, 0.5));
-}
-
 // A spring that is harder the further it is bent: under one level a force as long as the level.
 TEST(Verdict, OfAForceThatComesWithTheInputIsUnknown) {
     const auto verdict = [](double from_s, double to_s) {
