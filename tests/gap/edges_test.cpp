@@ -226,10 +226,18 @@ TEST(CoverageEdges, ABandIsThereOrLacks) {
         };
     };
     const double there = std::sqrt(0.02 / 0.98);
-    EXPECT_THAT(lacks(waves(0.0), waves(1.1 * there)), Contains(StartsWith("faster than ")));
-    EXPECT_THAT(lacks(waves(0.0), waves(0.9 * there)), Not(Contains(StartsWith("faster than "))));
-    EXPECT_THAT(lacks(waves(std::sqrt(0.055)), waves(1.0)), Not(Contains(StartsWith("faster than "))));
-    EXPECT_THAT(lacks(waves(std::sqrt(0.045)), waves(1.0)), Contains(StartsWith("faster than ")));
+    EXPECT_THAT(lacks(waves(0.0), waves(1.003 * there)), Contains(StartsWith("faster than ")));
+    EXPECT_THAT(lacks(waves(0.0), waves(0.997 * there)), Not(Contains(StartsWith("faster than "))));
+    EXPECT_THAT(lacks(waves(std::sqrt(0.0502)), waves(1.0)), Not(Contains(StartsWith("faster than "))));
+    EXPECT_THAT(lacks(waves(std::sqrt(0.0498)), waves(1.0)), Contains(StartsWith("faster than ")));
+    // Bands are half-decades above 0.9 periods in the record: the fourth edge lies at 0.9009 Hz.
+    const auto two = [](double slow, double fast) {
+        return [=](double t) {
+            return std::sin(2.0 * std::numbers::pi * slow * t) + std::sin(2.0 * std::numbers::pi * fast * t);
+        };
+    };
+    EXPECT_THAT(lacks(two(0.5, 0.5), two(0.5, 0.91)), Contains("faster than 0.9 Hz"));
+    EXPECT_THAT(lacks(two(0.5, 0.5), two(0.5, 0.88)), Not(Contains(StartsWith("faster than "))));
 }
 
 // --- Events.

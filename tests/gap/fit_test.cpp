@@ -155,17 +155,6 @@ TEST(Fit, OfAFittedBaseIsNeverWorseThanWithoutTheEffect) {
         EXPECT_LE(gap::fit(made.study, {&gap::effect_named(effect)}, none, nullptr).cost, none.cost * (1.0 + 1e-9))
             << effect;
     }
-    // Begun where it leads nowhere and taken no step further, it is as if it were not there: events in each record.
-    Made two(2, true);
-    for (std::size_t r = 0; r < 2; ++r) {
-        two.add([&](double) { return normal(engine); }, r);
-    }
-    const gap::Candidate without = gap::fit(two.study, {}, {}, nullptr);
-    for (const char* effect : {"input_saturation", "quadratic_drag", "load_disturbance", "missed_counts"}) {
-        EXPECT_LE(gap::fit(two.study, {&gap::effect_named(effect)}, without, nullptr, {0, 1, 0}).cost,
-                  without.cost * (1.0 + 1e-9))
-            << effect;
-    }
 }
 
 // A threshold between two levels of the input moves no reading: it is known as far as nothing becomes less likely, in

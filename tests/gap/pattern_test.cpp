@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace {
@@ -93,6 +94,14 @@ TEST(Pattern, AWaveIsFoundByItsFrequencyAndShare) {
     gap::Record brief = record;
     brief.time_s.resize(30);
     EXPECT_EQ(gap::clearest_wave(brief, std::vector<double>(30, 1.0)).over_neighbours, 0.0);
+    // Six waves at least, and 15 lines beside: 22 lines are half of 42 samples.
+    const auto found_in = [&](std::size_t count) {
+        brief = record;
+        brief.time_s.resize(count);
+        return gap::clearest_wave(brief, std::span(pure).first(count)).over_neighbours > 0.0;
+    };
+    EXPECT_TRUE(found_in(42));
+    EXPECT_FALSE(found_in(41));
 }
 
 }  // namespace
