@@ -237,6 +237,15 @@ TEST(EffectReadings, JumpAndStayAndAreRounded) {
     expect_near(reading, {0.1, 0.21, 0.29, 0.41, -0.55});
 }
 
+TEST(EffectReadings, AreHeldWhereTheLogRepeatsItself) {
+    gap::Record record;
+    record.time_s = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5};
+    record.output = {1.0, 1.0, 2.0, 2.0, 2.0, 3.0};
+    Values reading{10.0, 20.0, 30.0, 40.0, 50.0, 60.0};
+    with("dropped_samples", {0.07}).logger.at(0)(reading, record);
+    expect_near(reading, {10.0, 10.0, 30.0, 30.0, 30.0, 60.0});
+}
+
 TEST(EffectReadings, AreWithinATurn) {
     gap::Record record;
     record.time_s = {0.0, 0.1, 0.2};
