@@ -227,6 +227,16 @@ TEST(ChoiceTable, OfTheHostAndOfInstructionsHasTheirWords) {
             " instead of 0.125 (times 1.1): ring_plain_f32 with 50 taps, error 0.138, 400 instructions, 408 bytes\n"),
         std::string::npos)
         << missed;
+    // A limit that may be typed: three digits, upwards; what has no more stays.
+    const auto limit = [&](double to) {
+        answer.choice.relaxed.front().to = to;
+        const std::string table = to_table(answer, false);
+        const std::size_t from = table.find("with --max-error ") + 17;
+        return table.substr(from, table.find(' ', from) - from);
+    };
+    EXPECT_EQ(limit(0.5), "0.5");
+    EXPECT_EQ(limit(0.25001), "0.251");
+    EXPECT_EQ(limit(0.00345), "0.00345");
 }
 
 }  // namespace
