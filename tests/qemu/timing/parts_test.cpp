@@ -64,6 +64,20 @@ TEST(Predictor, AForwardBranchIsNotTakenAtFirst) {
     EXPECT_EQ(predictor.meet(beq, 0x110, 0x120), timing::Prediction::wrong);
 }
 
+// Of four states two say taken: one that was taken once is turned by one miss, one that never was by two.
+TEST(Predictor, RemembersInTwoBits) {
+    timing::Predictor predictor(64);
+    const auto beq = branch(timing::Branch::conditional);
+    const auto meets = [&](bool taken) { return predictor.meet(beq, 0x110, taken ? 0x120 : 0x112); };
+    EXPECT_EQ(meets(true), timing::Prediction::wrong);
+    EXPECT_EQ(meets(false), timing::Prediction::wrong);
+    EXPECT_EQ(meets(false), timing::Prediction::right);
+    EXPECT_EQ(meets(false), timing::Prediction::right);
+    EXPECT_EQ(meets(true), timing::Prediction::wrong);
+    EXPECT_EQ(meets(true), timing::Prediction::wrong);
+    EXPECT_EQ(meets(true), timing::Prediction::right);
+}
+
 TEST(Predictor, AReturnGoesWhereItWentLast) {
     timing::Predictor predictor(64);
     const auto bx = branch(timing::Branch::back);
