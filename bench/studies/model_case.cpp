@@ -1,0 +1,134 @@
+#include "bench/studies/model_case.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "bench/rows/result_file.hpp"
+#include "bench/target/target_rows.hpp"
+
+namespace bench {
+
+Json to_row(const ModelCase& one, const std::string& target, std::optional<std::size_t> core, double clock_hz) {
+    Json row =
+        make_row(fmt::format("drive/{}/{}/taps:{}/{}", one.model, one.name, one.length(), target), one.steps + 1);
+    row["error_max"] = one.error_max;
+    row["error_rms"] = one.error_rms;
+    row["final_output"] = one.final_output;
+    if (one.design.memory().modes == 0) {
+        row["effective_taps"] = one.design.memory().taps;
+    }
+    row["macs_per_sample"] = one.macs;
+    row["horizon_samples"] = one.design.memory().modes == 0 ? one.design.memory().taps : one.steps;
+    if (!one.fault.empty()) {
+        mark_error(row, one.fault);
+        return row;
+    }
+    if (one.kernel.find("_q") != std::string::npos) {
+        row["saturations"] = one.saturations;
+    }
+    if (target == "host") {
+        row["real_time"] = row["cpu_time"] = row["ns_per_sample"] = one.host_ns;
+        return row;
+    }
+    const qemu::MeasuredRow& counted = *one.counted;
+    row["label"] = std::string(core ? "modelled cycles" : "instructions only") +
+                   (one.in_double() ? "; double precision in software, where the count depends on the data" : "");
+    row["instructions_per_sample"] = counted.instructions;
+    row["loads_per_sample"] = counted.loads;
+    row["stores_per_sample"] = counted.stores;
+    row["branches_per_sample"] = counted.branches;
+    row["first_instructions"] = counted.first.instructions;
+    row["worst_instructions"] = counted.worst_instructions;
+    row["instructions_share_of_period"] = static_cast<double>(counted.worst_instructions) / period_cycles;
+    if (core) {
+        const qemu::ModelledCall& modelled = counted.cores.at(*core);
+        add_modelled(row, modelled, clock_hz);
+        row["share_of_period"] = modelled.worst_cycles / (clock_hz * model_step_s);
+    }
+    row["code_bytes"] = counted.code_bytes;
+    row["stack_bytes"] = counted.stack_bytes;
+    row["state_bytes"] = counted.state_bytes;
+    row["coefficient_bytes"] = counted.coefficient_bytes;
+    if (core && !counted.unknown_encodings.empty()) {
+        mark_error(row, fmt::format("the timing model does not know {} encodings, the first at {:#010x}",
+                                    counted.unknown_encodings.size(), counted.unknown_encodings.front()));
+    }
+    if (!one.same_bits) {
+        mark_error(row, "the target's outputs differ from the host's");
+    }
+    return row;
+}
+
+std::string to_table(const std::vector<ModelCase>& cases, const std::string& model) {
+    std::string text = fmt::format("\n{}\n  {:<28} {:>6} {:>5} {:>5} {:>10} {:>10} {:>10} {:>17} {:>8} {:>8}  {}\n",
+                                   model, "kernel", "taps", "MACs", "for s", "error max", "at the end", "M7 instr.",
+                                   "model cycles", "period", "bytes", "host ns");
+    for (const ModelCase& one : cases) {
+        if (one.model != model) {
+            continue;
+        }
+        text += fmt::format("  {:<28} {:>6} ", one.name, one.length());
+        if (!one.fault.empty()) {
+            text += one.fault + "\n";
+            continue;
+        }
+        text += fmt::format("{:>5} {:>5.0f} {:>10.2e} {:>10.5f} ", one.macs,
+                            static_cast<double>(one.steps) * model_step_s, one.error_max, one.final_output);
+        if (one.counted) {
+            const auto worst = static_cast<double>(one.counted->worst_instructions);
+            const auto& cores = one.counted->cores;
+            text += fmt::format("{:>10.1f} {:>17} {:>7.2f}% {:>8}  ", one.counted->instructions,
+                                cores.empty()                   ? "-"
+                                : cores[0].low == cores[0].high ? fmt::format("{:.0f}", cores[0].cycles)
+                                                                : fmt::format("{:.0f} ({:.0f}-{:.0f})", cores[0].cycles,
+                                                                              cores[0].low, cores[0].high),
+                                100.0 * (cores.empty() ? worst : cores[0].worst_cycles) / period_cycles,
+                                one.counted->state_bytes + one.counted->coefficient_bytes);
+        } else {
+            text += fmt::format("{:>10} {:>17} {:>8} {:>8}  ", "-", "-", "-", "-");
+        }
+        text += fmt::format("{:.1f}{}{}\n", one.host_ns,
+                            one.saturations > 0 ? fmt::format("  {} saturations", one.saturations) : "",
+                            one.same_bits ? "" : "  NOT THE HOST'S BITS");
+    }
+    return text;
+}
+
+std::string deadline_table(const std::vector<ModelCase>& cases) {
+    std::string text = fmt::format(
+        "\nThe longest memory at 1 kHz, 216 000 cycles a step, by the line through two counted lengths\n  {:<10} "
+        "{:<28} "
+        "{:>16} {:>14} {:>16} {:>16}\n",
+        "model", "kernel", "instr. a tap", "bytes a tap", "1 a cycle", "in 320 KB");
+    std::map<std::pair<std::string, std::string>, std::vector<const ModelCase*>> counted;
+    for (const ModelCase& one : cases) {
+        if (one.counted && one.fault.empty() && one.design.memory().modes == 0) {
+            counted[{one.model, one.name}].push_back(&one);
+        }
+    }
+    for (const auto& [key, list] : counted) {
+        const auto [shortest, longest] = std::minmax_element(
+            list.begin(), list.end(),
+            [](const ModelCase* a, const ModelCase* b) { return a->design.memory().taps < b->design.memory().taps; });
+        const auto taps = [](const ModelCase* one) { return static_cast<double>(one->design.memory().taps); };
+        const auto cost = [](const ModelCase* one) { return static_cast<double>(one->counted->worst_instructions); };
+        const auto bytes = [](const ModelCase* one) {
+            return static_cast<double>(one->counted->state_bytes + one->counted->coefficient_bytes);
+        };
+        if (taps(*longest) < taps(*shortest) + 32.0) {
+            continue;  // whole orders: the memory ends by itself
+        }
+        const double span = taps(*longest) - taps(*shortest);
+        text += fmt::format(
+            "  {:<10} {:<28} {:>16.2f} {:>14.1f} {:>16} {:>16}\n", key.first, key.second,
+            (cost(*longest) - cost(*shortest)) / span, (bytes(*longest) - bytes(*shortest)) / span,
+            drive::largest_taps(taps(*shortest), cost(*shortest), taps(*longest), cost(*longest), period_cycles),
+            drive::largest_taps(taps(*shortest), bytes(*shortest), taps(*longest), bytes(*longest), 320.0 * 1024.0));
+    }
+    return text +
+           "  Instructions are not cycles: waits make the length shorter, a second instruction in a cycle longer.\n";
+}
+
+}  // namespace bench

@@ -1,0 +1,53 @@
+// One model with one kernel and memory: what is stepped, and what that showed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/rows/row.hpp"
+#include "drive/realtime.hpp"
+#include "qemu/emulate/model_run.hpp"
+
+namespace bench {
+
+constexpr double model_step_s = 0.001;
+constexpr double period_cycles = 216e6 * model_step_s;  ///< an STM32F746 at 1 kHz
+constexpr std::size_t emulated_double_taps = 600;       ///< longer ones take minutes in software
+
+struct ModelCase {
+    std::string model;
+    std::string name;  ///< with the writing
+    std::string kernel;
+    drive::Writing writing;
+    bool full;
+    drive::RealtimeModel design;
+    std::size_t steps;
+    const std::vector<double>* exact;
+    double error_max = 0.0;
+    double error_rms = 0.0;
+    double final_output = 0.0;
+    std::uint32_t saturations = 0;
+    double host_ns = 0.0;
+    std::size_t macs = 0;
+    std::optional<qemu::MeasuredRow> counted = {};
+    bool same_bits = true;
+    std::string fault = {};
+
+    [[nodiscard]] std::string length() const { return full ? "full" : design.memory().text(); }
+    [[nodiscard]] bool in_double() const { return kernel.ends_with("f64"); }
+    [[nodiscard]] bool runs_on_target() const { return !in_double() || design.memory().taps <= emulated_double_taps; }
+};
+
+/// \param core  which of the counted row's modelled cores; counts alone without
+[[nodiscard]] Json to_row(const ModelCase& one, const std::string& target, std::optional<std::size_t> core = {},
+                          double clock_hz = 1.0);
+
+/// Of one model. \param model  its name
+[[nodiscard]] std::string to_table(const std::vector<ModelCase>& cases, const std::string& model);
+
+/// The longest memory that a period leaves, if every cycle took an instruction, and what bytes 320 KB leave.
+[[nodiscard]] std::string deadline_table(const std::vector<ModelCase>& cases);
+
+}  // namespace bench

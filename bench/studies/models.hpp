@@ -1,0 +1,36 @@
+// Whole models stepped in real time at 1 kHz, on this machine and on the emulated Cortex-M7.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/studies/study.hpp"
+#include "drive/realtime.hpp"
+#include "qemu/emulate/firmware.hpp"
+
+namespace bench {
+
+/// What a kernel is asked for: nothing is full memory.
+using ModelLengths = std::vector<std::optional<drive::Memory>>;
+
+constexpr std::size_t model_response_steps = 5000;  ///< 5 s behind the dead time
+
+struct Models {
+    std::vector<std::string> kernels{"*"};  ///< globs
+    ModelLengths lengths;                   ///< empty: the usual ones
+    std::vector<std::string> targets{"host", "m7"};
+    std::vector<std::string> cores;  ///< of the timing model; the first is what the table shows
+    bool quick = false;              ///< fewer lengths, and no records of an hour
+    unsigned jobs = 1;
+    std::filesystem::path models;           ///< the folder of fopdt.json, sopdt.json and niopdt.json
+    std::filesystem::path core_files;       ///< the folder of those
+    std::optional<qemu::Board> board = {};  ///< with the target m7
+};
+
+/// Rows `drive/<model>/<kernel>/taps:<L>/<target>`. \param say  told of what is left out, and why
+/// \throws glsum::Failure (bad input): nothing that can be stepped
+[[nodiscard]] Study measure_models(const Models& wanted, const std::function<void(const std::string&)>& say);
+
+}  // namespace bench
