@@ -25,7 +25,7 @@ Json to_row(const ModelCase& one, const std::string& target, std::optional<std::
         mark_error(row, one.fault);
         return row;
     }
-    if (one.kernel.find("_q") != std::string::npos) {
+    if (facts_of(one.kernel).exact_sums) {  // fixed point
         row["saturations"] = one.saturations;
     }
     if (target == "host") {

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "bench/rows/row.hpp"
+#include "bench/sweep/designs.hpp"
 #include "drive/realtime.hpp"
+#include "glsum/catalogue.hpp"
 #include "qemu/emulate/model_run.hpp"
 
 namespace bench {
@@ -36,7 +38,7 @@ struct ModelCase {
     std::string fault = {};
 
     [[nodiscard]] std::string length() const { return full ? "full" : design.memory().text(); }
-    [[nodiscard]] bool in_double() const { return kernel.ends_with("f64"); }
+    [[nodiscard]] bool in_double() const { return facts_of(kernel).in_double; }
     [[nodiscard]] bool runs_on_target() const { return !in_double() || design.memory().taps <= emulated_double_taps; }
 };
 
