@@ -93,7 +93,12 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
         answer.lag_wanted = !linear_of(best).empty();
     }
     std::vector<std::size_t> shown = answer.decision.effects;
-    shown.push_back(answer.decision.suspect.value_or(answer.decision.chosen));
+    shown.push_back(answer.decision.chosen);
+    if (answer.decision.suspect) {
+        shown.push_back(*answer.decision.suspect);
+    }
+    std::sort(shown.begin(), shown.end());
+    shown.erase(std::unique(shown.begin(), shown.end()), shown.end());
     for (const std::size_t i : shown) {
         add_intervals(study, answer.ranking[i].trained, fits_by);
         add_intervals(validation, answer.ranking[i].candidate, fits_by);

@@ -28,22 +28,20 @@ Balance::Balance(const Scenario& scenario, double mass, double constant, double 
         power_ = 1.0 + forces_.outflow->curvature;
         bend_at_zero_ = std::pow(at_zero, power_);
         bend_at_reference_ = std::pow(1.0 + at_zero, power_) - bend_at_zero_;
-        at_rest_ = bent(operating_);
+        at_rest_ = std::copysign(
+            outflow_of(std::pow(std::fabs(operating_) / forces_.outflow->reference + at_zero, power_)), operating_);
     }
 }
 
 double Balance::increment(double forcing, double known, double y) const {
-    const double net = forcing - known - resisting(y, 0.0);
-    if (forces_.friction_of_speed) {
-        return against_speed(net, y);
-    }
-    return against_motion(forcing, net, y);
+    const double net = forcing - known - resisting(y, 0.0, 0.0).value;
+    return forces_.friction_of_speed ? against_speed(net, y) : against_motion(forcing, net, y);
 }
 
 double Balance::unbalanced(double forcing, double derivatives, double y, double e) const {
-    const double net = forcing - derivatives - resisting(y, 0.0);
+    const double net = forcing - derivatives - resisting(y, 0.0, 0.0).value;
     const double way = forces_.friction_of_speed ? y + operating_ : e;
-    const double of_load = forces_.friction_share * carried(forcing, y);
+    const double of_load = friction_of_load(forcing, y);
     const double up = net - forces_.friction_up - of_load;
     const double down = net + forces_.friction_down + of_load;
     if (way != 0.0) {
@@ -55,7 +53,7 @@ double Balance::unbalanced(double forcing, double derivatives, double y, double 
 void Balance::advance(double y, double e) { travelled_ += step_s_ * (y + operating_ + 0.5 * e); }
 
 double Balance::against_motion(double forcing, double net, double y) const {
-    const double of_load = forces_.friction_share * carried(forcing, y);
+    const double of_load = friction_of_load(forcing, y);
     if (net > forces_.friction_up + of_load) {
         return solve(net - forces_.friction_up - of_load, y, forces_.friction_share);
     }
@@ -76,103 +74,98 @@ double Balance::against_speed(double net, double y) const {
     return speed + down < 0.0 ? down : -speed;
 }
 
-double Balance::carried(double forcing, double y) const {
-    return std::fabs(forcing) + std::fabs(constant_ * restoring(y));
+double Balance::friction_of_load(double forcing, double y) const {
+    if (forces_.friction_share == 0.0) {
+        return 0.0;
+    }
+    return forces_.friction_share * (std::fabs(forcing) + std::fabs(constant_ * restoring(y).value));
 }
 
 double Balance::solve(double left, double y, double share) const {
-    const double stiffness = mass_ + constant_ * slope(y) + 2.0 * forces_.drag_of_speed * std::fabs(y + operating_);
     if (linear_) {
-        return left / stiffness;
+        return left / (mass_ + constant_);
     }
     if (left == 0.0) {
         return 0.0;
     }
-    const double at_rest = resisting(y, 0.0);
-    const double load = std::fabs(constant_ * restoring(y));
-    const auto miss = [&](double e) {
-        const double more_load = share == 0.0 ? 0.0 : std::fabs(constant_ * restoring(y + e)) - load;
-        return resisting(y, e) - at_rest + share * more_load - left;
-    };
-    const auto slope_of_miss = [&](double e) {
-        const double of_load =
-            share == 0.0 ? 0.0 : std::copysign(constant_ * slope(y + e), constant_ * restoring(y + e));
-        return slope_of_resisting(y, e) + share * of_load;
-    };
-    // A force that gives way, as a sine does behind its top, may have its balance farther off than its slope says:
-    // outwards until it is passed, then by Newton's steps as long as these stay within.
+    const double at_rest = resisting(y, 0.0, share).value;
+    const double stiffness =
+        mass_ + constant_ * restoring(y).slope + 2.0 * forces_.drag_of_speed * std::fabs(y + operating_);
+    // Newton's steps, as long as these stay within what is known of the balance: beyond `near`, and, once it was
+    // passed, before `far`. A force that gives way, as a sine does behind its top, has it farther off than its slope
+    // says.
     double near = 0.0;
-    double far = left / (stiffness > 0.0 ? stiffness : mass_);
-    constexpr int doublings = 60;
-    for (int i = 0; i < doublings && miss(far) * left < 0.0; ++i) {
-        near = far;
-        far *= 2.0;
-    }
-    if (!(miss(far) * left >= 0.0)) {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
-    double e = far;
-    constexpr int most_steps = 80;
+    double far = 0.0;
+    bool passed = false;
+    double e = left / (stiffness > 0.0 ? stiffness : mass_);
+    constexpr int most_steps = 140;
     for (int i = 0; i < most_steps; ++i) {
-        const double value = miss(e);
-        (value * left < 0.0 ? near : far) = e;
-        double next = e - value / slope_of_miss(e);
-        if (!((next - near) * (next - far) < 0.0)) {
-            next = value == 0.0 ? e : 0.5 * (near + far);
+        const Force now = resisting(y, e, share);
+        const double miss = now.value - at_rest - left;
+        if (!std::isfinite(miss)) {
+            return std::numeric_limits<double>::quiet_NaN();
+        }
+        const bool before = miss * left < 0.0;
+        passed = passed || !before;
+        (before ? near : far) = e;
+        double next = e - miss / now.slope;
+        const bool sensible = passed ? (next - near) * (next - far) < 0.0
+                                     : (next - near) * left > 0.0 && std::fabs(next) <= 2.0 * std::fabs(e);
+        if (!sensible) {
+            next = miss == 0.0 ? e : passed ? 0.5 * (near + far) : 2.0 * e;
         }
         const double by = next - e;
         e = next;
-        if (std::fabs(by) <= 1e-12 * std::fabs(e) + 1e-15 * std::fabs(y)) {
-            break;
+        // Newton's steps square what is left: after one of so much of e the next is rounding.
+        const double last = sensible ? 1e-7 : 1e-12;
+        const bool near_it = passed || std::fabs(miss) <= 1e-6 * std::fabs(left);
+        if (near_it && std::fabs(by) <= last * std::fabs(e) + 1e-15 * std::fabs(y)) {
+            return e;
         }
     }
-    return e;
+    return passed ? e : std::numeric_limits<double>::quiet_NaN();
 }
 
-double Balance::resisting(double y, double e) const {
-    double force = mass_ * e + constant_ * restoring(y + e) + drag_ * e * std::fabs(e) +
-                   forces_.drag_of_speed * (squared(y + e + operating_) - squared(operating_));
+Balance::Force Balance::resisting(double y, double e, double share) const {
+    const Force spring = restoring(y + e);
+    const double speed = y + e + operating_;
+    Force force{
+        mass_ * e + constant_ * spring.value + drag_ * squared(e) +
+            forces_.drag_of_speed * (squared(speed) - squared(operating_)),
+        mass_ + constant_ * spring.slope + 2.0 * drag_ * std::fabs(e) + 2.0 * forces_.drag_of_speed * std::fabs(speed)};
+    if (share != 0.0) {
+        const double load = constant_ * spring.value;
+        force.value += share * std::fabs(load);
+        force.slope += share * std::copysign(1.0, load) * constant_ * spring.slope;
+    }
     for (const Cogging& cogging : forces_.cogging) {
-        const double at = cogging.of_speed ? travelled_ + step_s_ * (y + operating_ + 0.5 * e) : y + e + operating_;
-        force -= cogging.size * std::sin(2.0 * std::numbers::pi * cogging.per_unit * at + cogging.phase_rad);
+        const double at = cogging.of_speed ? travelled_ + step_s_ * (y + operating_ + 0.5 * e) : speed;
+        const double rate = 2.0 * std::numbers::pi * cogging.per_unit;
+        const double phase = rate * at + cogging.phase_rad;
+        force.value -= cogging.size * std::sin(phase);
+        force.slope -= cogging.size * rate * (cogging.of_speed ? 0.5 * step_s_ : 1.0) * std::cos(phase);
     }
     return force;
 }
 
-double Balance::slope_of_resisting(double y, double e) const {
-    double rise = mass_ + constant_ * slope(y + e) + 2.0 * drag_ * std::fabs(e) +
-                  2.0 * forces_.drag_of_speed * std::fabs(y + e + operating_);
-    for (const Cogging& cogging : forces_.cogging) {
-        const double at = cogging.of_speed ? travelled_ + step_s_ * (y + operating_ + 0.5 * e) : y + e + operating_;
-        const double rate = 2.0 * std::numbers::pi * cogging.per_unit;
-        rise -=
-            cogging.size * rate * (cogging.of_speed ? 0.5 * step_s_ : 1.0) * std::cos(rate * at + cogging.phase_rad);
-    }
-    return rise;
-}
-
-double Balance::restoring(double y) const {
-    if (forces_.outflow) {
-        return bent(y + operating_) - at_rest_ + forces_.cubic * y * y * y;
-    }
+Balance::Force Balance::restoring(double y) const {
+    const double cube = forces_.cubic * y * y;
     const double kappa = forces_.angle_per_unit;
-    return (kappa == 0.0 ? y : std::sin(kappa * y) / kappa) + forces_.cubic * y * y * y;
-}
-
-double Balance::slope(double y) const {
-    const double of_cube = 3.0 * forces_.cubic * y * y;
     if (forces_.outflow) {
-        const double share = std::fabs(y + operating_) / forces_.outflow->reference;
-        return power_ * std::pow(share + at_zero, power_ - 1.0) / bend_at_reference_ + of_cube;
+        const double level = y + operating_;
+        const double from_zero = std::fabs(level) / forces_.outflow->reference + at_zero;
+        const double power = std::pow(from_zero, power_);
+        return {std::copysign(outflow_of(power), level) - at_rest_ + cube * y,
+                power_ * power / from_zero / bend_at_reference_ + 3.0 * cube};
     }
-    const double kappa = forces_.angle_per_unit;
-    return (kappa == 0.0 ? 1.0 : std::cos(kappa * y)) + of_cube;
+    if (kappa != 0.0) {
+        return {std::sin(kappa * y) / kappa + cube * y, std::cos(kappa * y) + 3.0 * cube};
+    }
+    return {y + cube * y, 1.0 + 3.0 * cube};
 }
 
-double Balance::bent(double level) const {
-    const double share = std::fabs(level) / forces_.outflow->reference;
-    const double of_reference = (std::pow(share + at_zero, power_) - bend_at_zero_) / bend_at_reference_;
-    return std::copysign(forces_.outflow->reference * of_reference, level);
+double Balance::outflow_of(double power) const {
+    return forces_.outflow->reference * (power - bend_at_zero_) / bend_at_reference_;
 }
 
 }  // namespace gap

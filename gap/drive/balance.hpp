@@ -26,16 +26,21 @@ public:
     void advance(double y, double e);
 
 private:
-    // Forces beside friction that the place y + e and the increment e make, against motion upwards.
-    [[nodiscard]] double resisting(double y, double e) const;
-    [[nodiscard]] double slope_of_resisting(double y, double e) const;
-    [[nodiscard]] double restoring(double y) const;
-    [[nodiscard]] double slope(double y) const;
-    [[nodiscard]] double bent(double level) const;
-    [[nodiscard]] double carried(double forcing, double y) const;
+    // A force, and how it grows with the place.
+    struct Force {
+        double value;
+        double slope;
+    };
+    // Forces beside friction that the place y + e and the increment e make, against motion upwards, and a share of the
+    // load that the spring is.
+    [[nodiscard]] Force resisting(double y, double e, double share) const;
+    [[nodiscard]] Force restoring(double y) const;
+    // \param power  of a level, in shares of the reference and beyond `at_zero`
+    [[nodiscard]] double outflow_of(double power) const;
+    [[nodiscard]] double friction_of_load(double forcing, double y) const;
     [[nodiscard]] double against_motion(double forcing, double net, double y) const;
     [[nodiscard]] double against_speed(double net, double y) const;
-    // e where resisting(y, e) - resisting(y, 0) + share (|a_0 restoring(y + e)| - |a_0 restoring(y)|) = left.
+    // e where resisting(y, e, share) - resisting(y, 0, share) = left.
     [[nodiscard]] double solve(double left, double y, double share) const;
 
     const Forces& forces_;
