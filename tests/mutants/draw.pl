@@ -1,10 +1,10 @@
 #!/usr/bin/perl
 # draw.pl ROOT SEED COUNT AREA: draws one-line changes of the product's code at random. Prints for each a line as planted/bugs.txt
-# has them: name | file | substitution. The same seed draws the same from the same code. What is in comments, in texts, in
-# includes and in the lists of names (*.def) is no code; equivalent.txt says which changes alter nothing. Left out as whole classes,
-# since no answer depends on them: what shows progress on a terminal; reserve(), which only saves time; and, in the files that lay
-# out pictures alone, numbers (where a key or a margin lies), and in bench/run/pieces.cpp (how long work is expected to take, by which
-# shards are dealt). Their other code is drawn, as is every threshold elsewhere.
+# has them, with its place, LINE:COLUMN, instead of a symbol. The same seed draws the same from the same code. What is in comments,
+# in texts, in includes and in the lists of names (*.def) is no code; equivalent.txt says which changes alter nothing. Left out as
+# whole classes, since no answer depends on them: what shows progress on a terminal; reserve(), which only saves time; and, in the
+# files that lay out pictures alone, numbers (where a key or a margin lies), and in bench/run/pieces.cpp (how long work is expected
+# to take, by which shards are dealt). Their other code is drawn, as is every threshold elsewhere.
 use strict;
 use warnings;
 
@@ -107,8 +107,5 @@ for (my $i = 0; $i < $count;) {
     next if $drawn{$name}++;
     ++$i;
     if ($equivalent{$name}) { print "# equivalent: $name\n"; next; }
-    my ($quoted, $put) = ("\Q$old\E", $new);
-    # The line is found by its number, as its text may stand elsewhere too.
-    my $before = $line - 1;
-    print "$name | $file | s{\\A((?:.*\\n){$before}.{$column})$quoted}{\${1}$put}\n";
+    print "$name | $file | $line:@{[$column + 1]} | $old => $new\n";
 }

@@ -1,9 +1,10 @@
 #!/bin/sh
-# plant.sh [--bugs FILE] [--rotate N] [--only GLOB]... [--list]: plants the bugs of bugs.txt one at a time in a copy of the project, builds,
-# runs the unit tests there, and reports each bug that they do not catch. Exit 0 when all were caught.
+# plant.sh [--bugs FILE] [--rotate N] [--only GLOB]... [--list | --check]: plants the bugs of bugs.txt one at a time in a copy of the
+# project, builds, runs the unit tests there, and reports each bug that they do not catch. Exit 0 when all were caught.
 #   --bugs FILE  those of another list; each in the libraries and in the tests, which see headers
 #   --rotate N   only N of them, the next N at each commit: in time, all
 #   --only GLOB  only those whose name matches one of the globs
+#   --check      plants none and builds nothing: says which cannot be planted in today's sources
 #   --alone      with --bugs, for a first look: what its tests miss of a file that is compiled alone is missed
 # The copy stays in build/planted; a second run starts faster.
 set -eu
@@ -12,6 +13,7 @@ source=$(cd "$here/../.." && pwd)
 rotate=0
 only=
 list=no
+check=no
 alone_only=no
 file=$here/bugs.txt
 mark=
@@ -20,36 +22,13 @@ while [ $# -gt 0 ]; do
         --rotate) rotate=$2; shift 2 ;;
         --only) only="$only $2"; shift 2 ;;
         --list) list=yes; shift ;;
+        --check) check=yes; shift ;;
         --alone) alone_only=yes; shift ;;
         --bugs) file=$2; mark='!'; shift 2 ;;
-        *) echo "plant.sh: expected --bugs FILE, --rotate N, --only GLOB, --alone or --list, found $1" >&2; exit 2 ;;
+        *) echo "plant.sh: expected --bugs FILE, --rotate N, --only GLOB, --alone, --list or --check, found $1" >&2; exit 2 ;;
     esac
 done
 
-bugs=$(sed "/^ *#/d; /^ *\$/d; s/^/$mark/" "$file")
-total=$(printf '%s\n' "$bugs" | wc -l)
-[ "$list" = no ] || { printf '%s\n' "$bugs" | cut -d '|' -f 1; echo "$total bugs"; exit 0; }
-if [ "$rotate" -gt 0 ]; then
-    commits=$(git -C "$source" rev-list --count HEAD 2>/dev/null || echo 0)
-    first=$((commits * rotate % total))
-    bugs=$(printf '%s\n%s\n' "$bugs" "$bugs" | sed -n "$((first + 1)),$((first + rotate))p")
-fi
-
-# The copy: what git tracks, as it is in the working tree; unchanged files keep their times, so that ninja keeps its objects.
-# Its build folder lies as the project's own does, so that a compiler cache, where one is in use, knows its objects again.
-copy=$source/build/planted/source
-build=$copy/build/host
-mkdir -p "$copy" "$build"
-export CCACHE_BASEDIR="$copy" CCACHE_NOHASHDIR=1
-exec 9>"$source/build/planted/lock"
-flock --nonblock 9 || { echo "plant.sh: another run is at work in build/planted" >&2; exit 2; }
-(cd "$source" && git ls-files --cached --others --exclude-standard) | while IFS= read -r file; do
-    [ -f "$source/$file" ] || continue
-    cmp -s "$source/$file" "$copy/$file" && continue
-    mkdir -p "$copy/$(dirname "$file")"
-    cp -p "$source/$file" "$copy/$file"
-    touch "$copy/$file"
-done
 # The library that a file belongs to, and the tests that are to notice.
 library_of() {
     case $1 in
@@ -79,7 +58,7 @@ library_of() {
         qemu/emulate/answers.cpp | qemu/emulate/elf.cpp) echo qemu/libglsum_readers.a ;;
         qemu/emulate/*) echo qemu/libglsum_qemu.a ;;
         qemu/*) echo qemu/libglsum_stream.a ;;
-        *) echo "plant.sh: no library is known for $1" >&2; exit 2 ;;
+        *) echo "plant.sh: no library is known for $1" >&2; return 2 ;;
     esac
 }
 tests_of() {
@@ -101,6 +80,37 @@ tests_of() {
         *) echo qemu_tests bench_tests ;;
     esac
 }
+bugs=$(sed "/^ *#/d; /^ *\$/d; s/^/$mark/" "$file")
+total=$(printf '%s\n' "$bugs" | wc -l)
+[ "$list" = no ] || { printf '%s\n' "$bugs" | cut -d '|' -f 1; echo "$total bugs"; exit 0; }
+if [ "$check" = yes ]; then
+    status=0
+    printf '%s\n' "$bugs" | perl "$here/plant.pl" --check "$source" || status=1
+    for file in $(printf '%s\n' "$bugs" | sed '/^!/d' | cut -d '|' -f 2 | sort -u); do library_of "$file" >/dev/null || status=1; done
+    [ "$status" -ne 0 ] || echo "$total bugs can be planted"
+    exit "$status"
+fi
+if [ "$rotate" -gt 0 ]; then
+    commits=$(git -C "$source" rev-list --count HEAD 2>/dev/null || echo 0)
+    first=$((commits * rotate % total))
+    bugs=$(printf '%s\n%s\n' "$bugs" "$bugs" | sed -n "$((first + 1)),$((first + rotate))p")
+fi
+
+# The copy: what git tracks, as it is in the working tree; unchanged files keep their times, so that ninja keeps its objects.
+# Its build folder lies as the project's own does, so that a compiler cache, where one is in use, knows its objects again.
+copy=$source/build/planted/source
+build=$copy/build/host
+mkdir -p "$copy" "$build"
+export CCACHE_BASEDIR="$copy" CCACHE_NOHASHDIR=1
+exec 9>"$source/build/planted/lock"
+flock --nonblock 9 || { echo "plant.sh: another run is at work in build/planted" >&2; exit 2; }
+(cd "$source" && git ls-files --cached --others --exclude-standard) | while IFS= read -r file; do
+    [ -f "$source/$file" ] || continue
+    cmp -s "$source/$file" "$copy/$file" && continue
+    mkdir -p "$copy/$(dirname "$file")"
+    cp -p "$source/$file" "$copy/$file"
+    touch "$copy/$file"
+done
 # What runs on the emulated board: its own tests notice, where there is a board.
 firmware=${GLSUM_FIRMWARE_BUILD:-$source/build/mps2-an500}
 of_firmware() {
@@ -161,11 +171,12 @@ wanted() {
     set +f
     return 1
 }
-printf '%s\n' "$bugs" | while IFS='|' read -r name file plant; do
+printf '%s\n' "$bugs" | while IFS='|' read -r name file symbol change; do
     name=$(echo $name) file=$(echo $file)
-    ! wanted "${name#!}" || printf '%s|%s|%s\n' "$name" "$file" "$(printf '%s' "$plant" | sed 's/^ *//; s/ *$//')"
+    ! wanted "${name#!}" || printf '%s|%s|%s|%s\n' "$name" "$file" "$(echo "$symbol" | sed 's/^ *//; s/ *$//')" \
+        "$(printf '%s' "$change" | sed 's/^ *//; s/ *$//')"
 done >"$source/build/planted/bugs"
-all_tests=$(while IFS='|' read -r name file plant; do tests_of "$file"; done <"$source/build/planted/bugs" | tr ' ' '\n' | sort -u)
+all_tests=$(while IFS='|' read -r name file symbol change; do tests_of "$file"; done <"$source/build/planted/bugs" | tr ' ' '\n' | sort -u)
 # A run that was killed left a bug in objects whose source looks older: none of them can be trusted.
 [ ! -e "$build/marker" ] || find "$build" -name '*.o' -delete
 (cd "$copy" && cmake --preset host -D GLSUM_FIRMWARE_BUILD="$firmware") >"$source/build/planted/configure.log" 2>&1 ||
@@ -228,14 +239,13 @@ caught=0
 missed=''
 number=0
 count=$(wc -l <"$source/build/planted/bugs")
-while IFS='|' read -r name file plant <&3; do
+while IFS='|' read -r name file symbol change <&3; do
     number=$((number + 1))
     tests=$(tests_of "$file")
     cp -p "$copy/$file" "$build/original"
     touch "$build/marker"
-    perl -0pi -e "$plant" "$copy/$file"
     how=missed
-    cmp -s "$copy/$file" "$build/original" && how="stale: its substitution does not match in $file"
+    stale=$(perl "$here/plant.pl" "$copy/$file" "$symbol" "$change" 2>&1) || how="stale: in $file: $stale"
     case $how$name in
         stale*) ;;
         missed!*)
