@@ -41,6 +41,7 @@ library_of() {
         bench/sweep/*) echo bench/libglsum_sweep.a ;;
         bench/host/*) echo bench/libglsum_host.a ;;
         bench/target/*) echo bench/libglsum_target.a ;;
+        bench/studies/horizons.cpp | bench/studies/model*.cpp | bench/studies/records.cpp) echo bench/libglsum_drive_studies.a ;;
         bench/studies/*) echo bench/libglsum_studies.a ;;
         bench/report/table.cpp | bench/report/plot.cpp | bench/report/discretisation_table.cpp) echo bench/libglsum_shown.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
