@@ -1,5 +1,4 @@
-
-// ---- The rows, out of their columns.
+// The rows of a result file, out of the columns that the page holds, and what each kernel does in them.
 
 function decodeBytes(text) {
   const letters = atob(text), bytes = new Uint8Array(letters.length);
@@ -49,15 +48,15 @@ function decodeTable(table) {
   return decoded;
 }
 
-const textOf = (table, name, row) => table.text[name] ? table.text[name](row) : "";
-const numberOf = (table, name, row) => table.number[name] ? table.number[name](row) : NaN;
+export const textOf = (table, name, row) => table.text[name] ? table.text[name](row) : "";
+export const numberOf = (table, name, row) => table.number[name] ? table.number[name](row) : NaN;
 
 // "2+7" are two taps and seven modes: nine of something.
-const tapsNumber = (taps, samples, longest) =>
+export const tapsNumber = (taps, samples, longest) =>
   taps === "full" ? samples || longest * 1.7 : d3.sum(taps.split("+"), part => /^\d+$/.test(part) ? Number(part) : NaN) || NaN;
 
 // The three words of a kernel's name; peers and others are their own.
-function wordsOf(kernel) {
+export function wordsOf(kernel) {
   const words = kernel.split("_");
   return words.length === 3 ? {history: words[0], technique: words[1], format: words[2]}
                             : {history: kernel, technique: kernel, format: kernel};
@@ -67,7 +66,7 @@ const wholeSignal = signal => !signal.includes(",");  // the amplitude sweep is 
 
 /// What each kernel does at each order and length of one file, whatever the signal: cases[order][kernel][taps] =
 /// {kernel, order, taps, at: number of taps, accuracy: table, signals: {signal: its row}, host, m7: {core: counters}, fault}.
-function joinFile(file) {
+export function joinFile(file) {
   const tables = file.tables.map(decodeTable);
   const accuracy = tables.find(table => table.aspect === "accuracy");
   const samples = file.context.n_samples;
@@ -145,14 +144,14 @@ function joinFile(file) {
 }
 
 /// A counter of a case at a signal; undefined without it.
-function accuracyOf(found, signal, counter) {
+export function accuracyOf(found, signal, counter) {
   const row = found.signals[signal], cells = found.accuracy && found.accuracy.number[counter];
   const value = row === undefined || !cells ? NaN : cells(row);
   return Number.isNaN(value) ? undefined : value;
 }
 
 /// The error of a case for one signal, or the worst of the signals: {value, signal}; undefined if there is none.
-function errorOf(found, counter, signal) {
+export function errorOf(found, counter, signal) {
   if (signal !== "worst") {
     const value = accuracyOf(found, signal, counter);
     return value === undefined ? undefined : {value, signal};
@@ -168,10 +167,10 @@ function errorOf(found, counter, signal) {
 }
 
 // What does not depend on the signal, at the first one.
-const atFirstSignal = (found, counter) => accuracyOf(found, Object.keys(found.signals)[0], counter);
+export const atFirstSignal = (found, counter) => accuracyOf(found, Object.keys(found.signals)[0], counter);
 
 // State and coefficients, on the target where the kernel runs there.
-function bytesOf(found) {
+export function bytesOf(found) {
   for (const counters of [...Object.values(found.m7), found.host || {}]) {
     if (counters.state_bytes !== undefined && counters.coefficient_bytes !== undefined) {
       return counters.state_bytes + counters.coefficient_bytes;
@@ -182,7 +181,7 @@ function bytesOf(found) {
 }
 
 /// What an error is drawn against: {id, title, unit, aspect, cost(case), band(case)}.
-function axesOf(files) {
+export function axesOf(files) {
   const aspects = [...new Set(files.flatMap(file => file.tables.map(table => table.aspect)))].filter(a => a.startsWith("m7"));
   const has = (aspect, counter) =>
     files.some(file => file.tables.some(table => table.aspect === aspect && table.number[counter]));

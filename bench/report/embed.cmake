@@ -47,11 +47,22 @@ function(part name file)
     endif()
 endfunction()
 
-file(WRITE ${OUT}.js "\"use strict\";\n")
+# Modules become one script, since a page of file:// may load no other file: each is a block of its own, in the order of SCRIPTS,
+# takes what it imports from `modules` and leaves there what it exports. Only what this needs is taken: one import a line, and an export
+# before a const or a function.
+file(WRITE ${OUT}.js "\"use strict\";\nconst modules = {};\n")
 string(REPLACE "," ";" scripts "${SCRIPTS}")
 foreach(script ${scripts})
     file(READ ${FOLDER}/${script} content)
-    file(APPEND ${OUT}.js "${content}")
+    string(REGEX REPLACE "(^|\n)import ({[^\n]*}) from \"\\./([a-z]+\\.js)\";" "\\1const \\2 = modules[\"\\3\"];" content "${content}")
+    string(REGEX MATCHALL "(^|\n)export (const|function) [A-Za-z]+" exported "${content}")
+    list(TRANSFORM exported REPLACE "^.* " "")
+    list(JOIN exported ", " exported)
+    string(REGEX REPLACE "(^|\n)export (const|function) " "\\1\\2 " content "${content}")
+    if(content MATCHES "(^|\n)[ ]*((import|export) [^\n]*)")
+        message(FATAL_ERROR "${FOLDER}/${script}: expected import {names} from \"./x.js\"; or export const or function, found ${CMAKE_MATCH_2}")
+    endif()
+    file(APPEND ${OUT}.js "\n{ // ${script}\n${content}modules[\"${script}\"] = {${exported}};\n}\n")
 endforeach()
 
 file(WRITE ${OUT}.partial "#include \"bench/report/page_parts.hpp\"\n\nnamespace bench::report::page_parts {\n")

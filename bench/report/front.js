@@ -1,7 +1,6 @@
-
-// ---- The Pareto front: as front.hpp says.
+// The Pareto front: as front.hpp says.
 
 const sameError = 1.01;
 const dominates = (one, other) => one.cost <= other.cost && one.error <= other.error * sameError &&
   (one.cost < other.cost || one.error * sameError < other.error);
-const onFront = points => points.map(point => !points.some(other => dominates(other, point)));
+export const onFront = points => points.map(point => !points.some(other => dominates(other, point)));

@@ -1,15 +1,14 @@
-
-// ---- Colours and marks: a colour is never alone.
+// Colours and marks: a colour is never alone.
 
 // Okabe and Ito's palette, which colour-blind readers can tell apart; the sixth and fifth are darker on white (page.css).
-const colourCount = 8;
+export const colourCount = 8;
 const shapes = [d3.symbolCircle, d3.symbolSquare, d3.symbolTriangle, d3.symbolDiamond, d3.symbolStar, d3.symbolWye, d3.symbolCross];
 
 // The colour and shape of a word: by its place, a new pair for each of the first 56.
-const styleOf = index => ({colour: "c" + index % colourCount, shape: shapes[(index + Math.floor(index / colourCount)) % shapes.length]});
+export const styleOf = index => ({colour: "c" + index % colourCount, shape: shapes[(index + Math.floor(index / colourCount)) % shapes.length]});
 
 // Many marks as one path: D3's shapes, moved.
-function marksPath(points, shape, size) {
+export function marksPath(points, shape, size) {
   const path = d3.path();
   for (const [x, y] of points) {
     shape.draw({
@@ -23,25 +22,9 @@ function marksPath(points, shape, size) {
   return path.toString();
 }
 
-// ---- Numbers as a person reads them.
-
-const superscript = text => String(text).replace(/[-\d]/g, c => c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]);
-const grouped = d3.format(",");
-
-function show(value) {
-  if (value === undefined || Number.isNaN(value)) return "";
-  if (value === 0) return "0";
-  const size = Math.abs(value);
-  if (size < 1e-3 || size >= 1e9) return value.toExponential(3);
-  if (Number.isInteger(value)) return grouped(value);
-  return size >= 1000 ? grouped(Number(value.toFixed(1))) : String(Number(value.toPrecision(4)));
+/// A short line with one mark, as a kernel's curve looks.
+export function drawSample(svg, style, second) {
+  svg.attr("width", 30).attr("height", 12).attr("aria-hidden", "true").attr("class", "sample kernel " + style.colour + (second ? " second" : ""));
+  svg.append("path").attr("class", "line").attr("d", "M1,6H29");
+  svg.append("path").attr("class", "marks").attr("d", marksPath([[15, 6]], style.shape, 34));
 }
-
-function tick(value) {
-  if (value === 0) return "0";
-  if (value >= 1e6) return Number((value / 1e6).toPrecision(3)) + "M";
-  if (value >= 1e3) return Number((value / 1e3).toPrecision(3)) + "k";
-  return value >= 0.01 ? String(Number(value.toPrecision(3))) : value.toExponential(0);
-}
-
-const tenTo = exponent => exponent === 0 ? "1" : "10" + superscript(exponent);

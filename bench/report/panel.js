@@ -1,10 +1,11 @@
+// A panel: series over a cost, on one error axis; hover and arrow keys.
 
-// ---- A panel: series over a cost, on one error axis; hover, arrow keys, highlight.
+import {marksPath, styleOf} from "./marks.js";
+import {tenTo, tick} from "./numbers.js";
+import {hideTip, showTip} from "./tip.js";
 
 const panelHeight = 320;
 const margin = {top: 10, right: 16, bottom: 44, left: 50};
-const panels = [];             // all that are drawn: {svg, groups: Map(kernel -> elements)}
-let lit = null;                // the kernel under the pointer or the focus
 
 function scaleOf(values, range, linear) {
   const positive = values.filter(value => value > 0);
@@ -76,9 +77,10 @@ function placeLabels(svg, wanted, width, height) {
   }
 }
 
-/// panel: {id, order, label, xTitle, xTicks, yDomain: values, linear, series, lines, describe(point), pinned: Set, onPin}.
-/// series: {kernel, style, dim, second: whether of the second file, points: [{x, y, band, front, key}]}; lines: {text, kind, points}.
-function drawPanel(node, panel) {
+/// panel: {id, order, label, xTitle, xTicks, yDomain: values, linear, series, lines, describe(point), pinned: Set}; acts: {pin(kernel),
+/// point(kernel)}, the latter with "" where no kernel is pointed at any more.
+/// series: {kernel, place: of its style, dim, second: whether of the second file, points: [{x, y, band, front, key}]}; lines: {text, kind, points}.
+export function drawPanel(node, panel, acts) {
   const width = Math.max(240, Math.floor(node.getBoundingClientRect().width)), height = panelHeight;
   const all = panel.series.flatMap(series => series.points);
   panel.zero = panel.yValues.some(value => value === 0);
@@ -96,23 +98,21 @@ function drawPanel(node, panel) {
   drawAxes(svg, panel, x, y, width, height);
 
   const line = d3.line().x(px).y(py);
-  const groups = new Map();
   const drawn = [...panel.series].sort((a, b) => d3.descending(a.dim, b.dim));
   for (const series of drawn) {
     const points = series.points.filter(point => point.x > 0 || panel.linear);
     series.drawn = points;
+    const style = styleOf(series.place);
     if (points.length === 0) continue;
     const group = svg.append("g").attr("data-kernel", series.kernel)
-      .attr("class", `kernel ${series.style.colour}${series.dim ? " dim" : ""}${series.second ? " second" : ""}${panel.pinned.has(series.kernel) ? " pinned" : ""}`);
+      .attr("class", `kernel ${style.colour}${series.dim ? " dim" : ""}${series.second ? " second" : ""}${panel.pinned.has(series.kernel) ? " pinned" : ""}`);
     const bands = points.filter(point => point.band);
     if (bands.length > 0) {
       group.append("path").attr("class", "band")
         .attr("d", bands.map(point => `M${x(point.band[0])},${py(point) - 3}v6m0,-3H${x(point.band[1])}m0,-3v6`).join(""));
     }
     group.append("path").attr("class", "line").attr("d", line(points));
-    group.append("path").attr("class", "marks").attr("d", marksPath(points.map(point => [px(point), py(point)]), series.style.shape, series.dim ? 16 : 34));
-    if (!groups.has(series.kernel)) groups.set(series.kernel, []);
-    groups.get(series.kernel).push(group.node());
+    group.append("path").attr("class", "marks").attr("d", marksPath(points.map(point => [px(point), py(point)]), style.shape, series.dim ? 16 : 34));
   }
   for (const one of panel.lines) {
     const points = one.points.filter(point => point.y > 0);
@@ -159,12 +159,12 @@ function drawPanel(node, panel) {
     ring.attr("visibility", "visible").attr("cx", px(found.point)).attr("cy", py(found.point));
     const box = svg.node().getBoundingClientRect();
     showTip(panel.describe(found.point), box.left + px(found.point), box.top + py(found.point));
-    light(found.series.kernel);
+    acts.point(found.series.kernel);
   };
   const leave = () => {
     ring.attr("visibility", "hidden");
     hideTip();
-    light(null);
+    acts.point("");
   };
   const nearest = event => {
     const box = svg.node().getBoundingClientRect();
@@ -178,7 +178,7 @@ function drawPanel(node, panel) {
     if (found) select(found); else leave();
   }).on("pointerleave", leave).on("blur", leave).on("click", () => {
     const found = nearest(d3.event);
-    if (found) panel.onPin(found.series.kernel);
+    if (found) acts.pin(found.series.kernel);
   }).on("focus", () => {
     if (svg.node().matches(":focus-visible") && points.length > 0) select(current || points[points.length - 1]);
   }).on("keydown", () => {
@@ -194,7 +194,7 @@ function drawPanel(node, panel) {
     if (moves[key]) {
       select(moves[key]());
     } else if (key === "Enter" || key === " ") {
-      panel.onPin(found.series.kernel);
+      acts.pin(found.series.kernel);
     } else if (key === "Escape") {
       leave();
     } else {
@@ -202,40 +202,4 @@ function drawPanel(node, panel) {
     }
     d3.event.preventDefault();
   });
-  panels.push({svg, groups});
 }
-
-// One kernel in front of the others, in every panel and in the list.
-function light(kernel) {
-  if (kernel === lit) return;
-  const each = (name, on) => {
-    for (const panel of panels) {
-      for (const node of panel.groups.get(name) || []) node.classList.toggle("lit", on);
-    }
-    for (const node of document.querySelectorAll("#kernels button")) {
-      if (node.dataset.kernel === name) node.classList.toggle("lit", on);
-    }
-  };
-  if (lit !== null) each(lit, false);
-  lit = kernel;
-  if (kernel !== null) each(kernel, true);
-  document.getElementById("layout").classList.toggle("has-lit", kernel !== null);
-}
-
-/// What the tip says: [title, [[name, value]...]], at a place of the window.
-function showTip([title, rows], x, y) {
-  const tip = d3.select("#tip").attr("hidden", null);
-  tip.selectAll("*").remove();
-  tip.append("strong").text(title);
-  const list = tip.append("dl");
-  for (const [name, value] of rows) {
-    list.append("dt").text(name);
-    list.append("dd").text(value);
-  }
-  const box = tip.node().getBoundingClientRect();
-  const left = x + 16 + box.width < document.documentElement.clientWidth ? x + 16 : Math.max(4, x - 16 - box.width);
-  const top = Math.max(4, Math.min(y - box.height / 2, document.documentElement.clientHeight - box.height - 4));
-  tip.style("left", left + "px").style("top", top + "px");
-}
-
-const hideTip = () => d3.select("#tip").attr("hidden", true);

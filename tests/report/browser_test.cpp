@@ -261,7 +261,10 @@ TEST_F(Page, TheFrontIsThatOfTheTables) {
             }
         }
         const std::set<std::string> found =
-            run("return placed(pointsOf(files[0], '0.5'), axes.find(axis => axis.id === arguments[0]))"
+            run("const {placed, pointsOf} = modules['select.js'];"
+                "const all = modules['catalogue.js'].catalogueOf(JSON.parse(document.getElementById('data').textContent));"
+                "const {now} = modules['state.js'].makeState(modules['choices.js'].choicesOf(all));"
+                "return placed(pointsOf(all, now, all.files[0], '0.5'), all.axes.find(axis => axis.id === arguments[0]))"
                 ".filter(point => point.front).map(point => point.kernel + ' ' + point.taps)",
                 Json::array({axis}));
         EXPECT_EQ(found, expected) << axis;
