@@ -8,6 +8,7 @@
 
 #include "bench/gate/host_time.hpp"
 #include "bench/gate/row_table.hpp"
+#include "bench/rows/counters.hpp"
 
 namespace bench::gate {
 namespace {
@@ -30,6 +31,12 @@ void set_ratio(Pair& pair, std::optional<Better> better) {
         const bool lower = pair.b < pair.a;
         pair.better = *better == Better::equal ? -1 : lower == (*better == Better::lower) ? 1 : -1;
     }
+}
+
+// What the clock decides: of two runs only repetitions tell.
+bool is_of_the_clock(const std::string& counter) {
+    const CounterFacts* facts = find_counter(counter);
+    return facts != nullptr && facts->layer == CounterLayer::host_time;
 }
 
 double median(std::vector<double> values) {
@@ -106,14 +113,14 @@ Comparison compare(const Results& results_a, const Results& results_b, const Rul
             comparison.wrong.push_back(name);
             continue;
         }
+        const Kind kind = kind_of(name);
         for (const auto& [counter, value] : in_a->first().items()) {
             const auto other = in_b->first().find(counter);
             if (!is_counter(counter, value) || other == in_b->first().end() || !other->is_number() ||
-                !matches_any(counters, counter) ||
-                (kind_of(name) == Kind::host && (counter.ends_with("_time") || counter.ends_with("_per_sample")))) {
+                !matches_any(counters, counter) || (kind == Kind::host && is_of_the_clock(counter))) {
                 continue;
             }
-            const auto [direction, is_new] = directions.try_emplace({kind_of(name), counter});
+            const auto [direction, is_new] = directions.try_emplace({kind, counter});
             if (is_new) {
                 direction->second = better_of(rules, name, counter);
             }
@@ -125,7 +132,7 @@ Comparison compare(const Results& results_a, const Results& results_b, const Rul
             set_ratio(pair, direction->second);
             comparison.pairs.push_back(std::move(pair));
         }
-        if (kind_of(name) == Kind::host && matches_any(counters, "cpu_time")) {
+        if (kind == Kind::host && matches_any(counters, "cpu_time")) {
             add_times(a, b, name, rules, comparison.pairs);
         }
     }

@@ -1,17 +1,12 @@
 #include "bench/gate/row_table.hpp"
 
 #include <algorithm>
-#include <string_view>
 
+#include "bench/rows/counters.hpp"
 #include "bench/rows/results.hpp"
 
 namespace bench::gate {
 namespace {
-
-constexpr std::string_view bookkeeping[] = {"family_index", "per_family_instance_index",
-                                            "repetitions",  "repetition_index",
-                                            "threads",      "iterations",
-                                            "real_time",    "cpu_time"};
 
 bool is_wrong(const Json& row) {
     const auto error = row.find("error_occurred");
@@ -80,7 +75,7 @@ Kind kind_of(const std::string& name) {
 }
 
 bool is_counter(const std::string& key, const Json& value) {
-    return value.is_number() && std::find(std::begin(bookkeeping), std::end(bookkeeping), key) == std::end(bookkeeping);
+    return value.is_number() && is_measured(key);
 }
 
 std::string subject_of(const std::string& name) {

@@ -35,7 +35,7 @@ private:
 enum class Kind { accuracy, host, target_count, target_model, other };
 [[nodiscard]] Kind kind_of(const std::string& name);
 
-/// Whether a field of a row is a counter: a number that is not Google Benchmark's bookkeeping.
+/// Whether a field of a row is a counter: a number, and not one of Google Benchmark's own.
 [[nodiscard]] bool is_counter(const std::string& key, const Json& value);
 
 /// "gl/<kernel>/order:<v>/taps:<L>": what is moot once an answer there is wrong. Of another row, its name.

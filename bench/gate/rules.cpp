@@ -195,6 +195,8 @@ double Rule::excess(double baseline, double current) const {
             return -change - allowed(baseline);
         case Better::equal:
             return std::fabs(change) - allowed(baseline);
+        case Better::neither:
+            break;
     }
     return 0.0;
 }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/rows/counters.hpp"
+
 namespace bench::gate {
 
 /// What is asked of a run, in this order: a later question is moot where an earlier one has failed.
@@ -17,14 +19,14 @@ inline constexpr std::array layers = {
     Layer::rows, Layer::answer, Layer::accuracy, Layer::instructions_and_bytes, Layer::model_cycles, Layer::host_time};
 [[nodiscard]] std::string_view name_of(Layer layer);
 
-enum class Better { lower, higher, equal };
+using bench::Better;
 
 /// What may happen to some counters of some rows.
 struct Rule {
     Layer layer = Layer::accuracy;
     std::vector<std::string> rows;      ///< globs of row names; `*` matches slashes too
     std::vector<std::string> counters;  ///< globs of counter names
-    Better better = Better::lower;
+    Better better = Better::lower;      ///< never `neither`
     double relative = 0.0;  ///< change for the worse that is allowed, as a share of the baseline's value
     double absolute = 0.0;  ///< the same in the counter's unit; the larger of both counts
     bool fails = true;      ///< else it only warns

@@ -17,12 +17,13 @@
 #include <unordered_map>
 
 #include "base/failure.hpp"
+#include "bench/rows/counters.hpp"
 #include "bench/rows/results.hpp"
 
 namespace bench::report {
 namespace {
 
-constexpr std::size_t most_stalls = 64;
+constexpr std::size_t most_of_a_family = 64;
 constexpr std::size_t longest_text = 300;
 
 // Little-endian bytes of each value, as base64.
@@ -83,7 +84,8 @@ struct Table {
     }
     void set_number(const std::string& field, double number) {
         const auto [found, is_new] = known.try_emplace(field, nullptr);
-        if (is_new && is_counter(field)) {
+        if (const CounterFacts* facts = is_new ? find_counter(field) : nullptr;
+            facts != nullptr && facts->shown != Shown::nowhere) {
             found->second = &numbers[field];
         }
         if (found->second != nullptr) {
@@ -216,27 +218,20 @@ Json to_tables(const std::vector<Json>& rows) {
             cells.resize(table.rows);
             encoded["texts"][name] = encode_texts(cells);
         }
-        const auto stalls = std::count_if(table.numbers.begin(), table.numbers.end(),
-                                          [](const auto& column) { return column.first.starts_with("stall_"); });
-        if (static_cast<std::size_t>(stalls) > most_stalls) {
-            throw glsum::Failure(glsum::Exit::bad_input,
-                                 fmt::format("rows of aspect {}: expected at most {} counters stall_<cause>, found {}",
-                                             aspect, most_stalls, stalls));
-        }
-        const auto encode = [&](const std::string& name) {
-            if (const auto found = table.numbers.find(name); found != table.numbers.end()) {
-                found->second.resize(table.rows, std::numeric_limits<double>::quiet_NaN());
-                encoded["numbers"][name] = name.ends_with("error_max") || name.ends_with("error_rms")
-                                               ? encode_errors(found->second)
-                                               : encode_numbers(found->second);
+        for (const CounterFacts& facts : counter_table()) {  // in this order they are read
+            std::size_t members = 0;
+            for (auto& [name, cells] : table.numbers) {
+                if (find_counter(name) == &facts) {
+                    ++members;
+                    cells.resize(table.rows, std::numeric_limits<double>::quiet_NaN());
+                    encoded["numbers"][name] =
+                        facts.digits == Digits::four ? encode_errors(cells) : encode_numbers(cells);
+                }
             }
-        };
-        for (const std::string_view name : counters) {  // in this order they are read
-            encode(std::string(name));
-        }
-        for (const auto& [name, cells] : table.numbers) {
-            if (name.starts_with("stall_")) {
-                encode(name);
+            if (members > most_of_a_family) {
+                throw glsum::Failure(glsum::Exit::bad_input,
+                                     fmt::format("rows of aspect {}: expected at most {} counters {}<cause>, found {}",
+                                                 aspect, most_of_a_family, facts.name, members));
             }
         }
         all.push_back(std::move(encoded));

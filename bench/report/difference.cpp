@@ -9,14 +9,17 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "bench/rows/counters.hpp"
 #include "bench/rows/results.hpp"
 
 namespace bench::report {
 namespace {
 
-const std::unordered_set<std::string> bookkeeping = {
-    "family_index", "per_family_instance_index", "repetitions", "repetition_index", "threads", "iterations",
-    "cpu_time"};
+// Of the two times of a sample the wall's, where one was taken: elsewhere it is made from modelled cycles.
+bool is_compared(const std::string& field, bool timed) {
+    const CounterFacts* facts = find_counter(field);
+    return is_measured(field) || (facts == &facts_of(Counter::real_time) && timed);
+}
 
 struct Row {
     std::map<std::string, std::vector<double>> counters;
@@ -42,7 +45,7 @@ Rows rows_by_name(const std::vector<Json>& rows) {
         const auto key = parse_key(name);
         const bool timed = !key || key->aspect == "host";
         for (const auto& [field, value] : row.items()) {
-            if (value.is_number() && !bookkeeping.contains(field) && (timed || field != "real_time")) {
+            if (value.is_number() && is_compared(field, timed)) {
                 into.counters[field].push_back(value.get<double>());
             }
         }

@@ -8,6 +8,7 @@
 #include "base/build_info.hpp"
 #include "bench/report/columns.hpp"
 #include "bench/report/page_parts.hpp"
+#include "bench/rows/counters.hpp"
 
 namespace bench::report {
 namespace {
@@ -18,6 +19,28 @@ Json to_json(const TruncationBounds& bounds) {
     json["missing"] = bounds.missing;
     json["of"] = bounds.of;
     return json;
+}
+
+// Of the table of counters what the page shows, in its order.
+Json shown_counters() {
+    Json all = Json::array();
+    for (const CounterFacts& facts : counter_table()) {
+        if (facts.shown == Shown::nowhere) {
+            continue;
+        }
+        Json counter;
+        counter["name"] = facts.name;
+        counter["family"] = facts.is_family;
+        counter["is_time"] = facts.role == Role::time;
+        counter["unit"] = facts.unit;
+        counter["layer"] = name_of(facts.layer);
+        counter["compared"] = facts.shown >= Shown::compared;
+        counter["drawn"] = facts.shown >= Shown::drawn;
+        counter["title"] = facts.title;
+        counter["meaning"] = facts.meaning;
+        all.push_back(std::move(counter));
+    }
+    return all;
 }
 
 Json to_json(const Input& input) {
@@ -79,6 +102,7 @@ std::string make_page(const Input& input, const Input* other) {
     Json data;
     data["version"] = build_info::version;
     data["d3"] = page_parts::d3_version;
+    data["counters"] = shown_counters();
     data["files"] = Json::array({to_json(input)});
     if (other != nullptr) {
         data["files"].push_back(to_json(*other));

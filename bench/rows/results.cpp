@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include <unordered_map>
 
 #include "base/files.hpp"
+#include "bench/rows/counters.hpp"
 #include "glsum/catalogue.hpp"
 
 namespace bench {
@@ -186,15 +188,18 @@ std::optional<double> taps_number(const std::string& taps) {
 }
 
 std::string to_csv(const std::vector<Json>& rows) {
-    static const std::set<std::string> bookkeeping = {
-        "name",     "family_index", "per_family_instance_index", "run_name",
-        "run_type", "repetitions",  "repetition_index",          "threads",
-        "time_unit"};
+    const auto has_column = [](const std::string& field) {
+        static const std::set<std::string> texts_of_every_row = {"name", "run_name", "run_type", "time_unit"};
+        const CounterFacts* facts = find_counter(field);
+        return facts != nullptr ? facts->role != Role::index : !texts_of_every_row.contains(field);
+    };
+    constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
     std::vector<std::string> columns;
     std::unordered_map<std::string, std::size_t> column_of;
     for (const Json& row : rows) {
         for (const auto& [key, value] : row.items()) {
-            if (!bookkeeping.contains(key) && column_of.try_emplace(key, columns.size()).second) {
+            if (const auto [found, is_new] = column_of.try_emplace(key, no_column); is_new && has_column(key)) {
+                found->second = columns.size();
                 columns.push_back(key);
             }
         }
@@ -214,8 +219,8 @@ std::string to_csv(const std::vector<Json>& rows) {
         }
         values.assign(columns.size(), nullptr);
         for (const auto& [field, value] : row.items()) {
-            if (const auto column = column_of.find(field); column != column_of.end()) {
-                values[column->second] = &value;
+            if (const std::size_t column = column_of.at(field); column != no_column) {
+                values[column] = &value;
             }
         }
         for (const Json* value : values) {

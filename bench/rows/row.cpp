@@ -1,12 +1,6 @@
 #include "bench/rows/row.hpp"
 
-#include <algorithm>
-
 namespace bench {
-
-bool is_counter(std::string_view field) {
-    return field.starts_with("stall_") || std::find(counters.begin(), counters.end(), field) != counters.end();
-}
 
 Json make_row(const std::string& name, std::size_t iterations) {
     Json row;
