@@ -1,14 +1,7 @@
 // What the files hold, whatever is chosen: errors, axes, orders, signals, lengths, kernels and the words of their names.
 
+import {countersOf} from "./counters.js";
 import {axesOf, joinFile, textOf, wordsOf} from "./data.js";
-
-const errors = [
-  {id: "error_max", title: "total error", text: "largest distance from the exact full-memory sum"},
-  {id: "error_rms", title: "total error, rms", text: "root mean square distance from the exact full-memory sum"},
-  {id: "rounding_error_max", title: "rounding error", text: "largest distance from the exact sum of the same length"},
-  {id: "truncation_error_max", title: "truncation error", text: "largest distance of the exact sum of that length from full memory"},
-  {id: "discretisation_error_max", title: "discretisation error", text: "distance of the exact full-memory sum from h^v times the exact derivative"}
-];
 
 export const union = lists => [...new Set(lists.flat())];
 
@@ -19,7 +12,8 @@ const signalsOf = file => union(file.tables.filter(table => table.aspect === "ac
 const placesOf = names => new Map(names.map((name, index) => [name, index]));
 
 export function catalogueOf(data) {
-  const files = data.files.map(joinFile);
+  const counters = countersOf(data.counters);
+  const files = data.files.map(file => joinFile(file, counters.ofTheClock));
   const kernels = union(files.map(file => file.kernels));
   const measured = kernels.filter(kernel => files.some(file => [...file.cases.values()].some(byKernel =>
     byKernel.has(kernel) && [...byKernel.get(kernel).values()].some(found => Object.keys(found.signals).length > 0))));
@@ -31,8 +25,8 @@ export function catalogueOf(data) {
     places[word] = placesOf(word === "format" ? formats : used);
   }
   const all = {
-    version: data.version, d3: data.d3, files, measured, words, places, axes: axesOf(files),
-    errors: errors.filter(error => files.some(file => file.tables.some(table => table.number[error.id]))),
+    version: data.version, d3: data.d3, counters, files, measured, words, places, axes: axesOf(files),
+    errors: counters.drawn.filter(error => files.some(file => file.tables.some(table => table.number[error.id]))),
     orders: union(files.map(file => [...file.cases.keys()])),
     signals: union(files.map(signalsOf)),
     taps: union(files.map(file => [...file.lengths.keys()])),
@@ -40,18 +34,18 @@ export function catalogueOf(data) {
   };
   // How long a memory is, in the file that has it shortest.
   all.lengths = new Map(all.taps.map(taps => [taps, Math.min(...files.map(file => file.lengths.get(taps) ?? Infinity))]));
-  all.stalls = stallsOf(files[0]);
+  all.stalls = stallsOf(files[0], counters.stall);
   return all;
 }
 
 // Where cycles are lost: {order, kernel, taps, aspect, counters, causes, id: of its case}.
-function stallsOf(file) {
+function stallsOf(file, family) {
   const found = [];
   for (const [order, byKernel] of file.cases) {
     for (const [kernel, byTaps] of byKernel) {
       for (const one of byTaps.values()) {
         for (const aspect in one.m7) {
-          const causes = Object.keys(one.m7[aspect]).filter(counter => counter.startsWith("stall_"));
+          const causes = Object.keys(one.m7[aspect]).filter(counter => counter.startsWith(family));
           if (causes.length === 0 || one.fault) continue;
           found.push({order, kernel, taps: one.taps, aspect, counters: one.m7[aspect], causes, id: `${order}|${one.taps}|${aspect}`});
         }

@@ -66,7 +66,7 @@ const wholeSignal = signal => !signal.includes(",");  // the amplitude sweep is 
 
 /// What each kernel does at each order and length of one file, whatever the signal: cases[order][kernel][taps] =
 /// {kernel, order, taps, at: number of taps, accuracy: table, signals: {signal: its row}, host, m7: {core: counters}, fault}.
-export function joinFile(file) {
+export function joinFile(file, ofTheClock) {
   const tables = file.tables.map(decodeTable);
   const accuracy = tables.find(table => table.aspect === "accuracy");
   const samples = file.context.n_samples;
@@ -131,7 +131,7 @@ export function joinFile(file) {
         if (timed.fault) found.fault = found.fault || "host: " + timed.fault;
         if (timed.repetitions.length > 0) {
           found.host = {...timed.repetitions[0]};
-          for (const counter of ["real_time", "cycles_per_sample"]) {
+          for (const counter of ofTheClock) {
             const value = d3.median(timed.repetitions, repetition => repetition[counter]);
             if (value !== undefined) found.host[counter] = value;
           }

@@ -2,16 +2,11 @@
 
 import {textOf} from "./data.js";
 
-export const comparable = ["error_max", "error_rms", "rounding_error_max", "truncation_error_max", "discretisation_error_max", "saturations",
-  "effective_taps", "real_time", "cycles_per_sample", "instructions_per_sample", "worst_instructions", "loads_per_sample",
-  "stores_per_sample", "branches_per_sample", "model_cycles_per_sample", "worst_model_cycles", "code_bytes", "stack_bytes",
-  "state_bytes", "coefficient_bytes"];
-
 // The rows of a file by what they measure: key -> {parts, counters, fault}; of repetitions the median.
-function rowsByKey(file) {
+function rowsByKey(file, counters) {
   const byKey = new Map();
   for (const table of file.tables) {
-    const names = comparable.filter(name => table.number[name] && (name !== "real_time" || table.aspect === "host"));
+    const names = counters.compared.filter(name => table.number[name] && counters.isTold(name, table.aspect));
     for (let row = 0; row < table.rows; ++row) {
       const parts = {aspect: table.aspect, kernel: textOf(table, "kernel", row) || textOf(table, "name", row),
                      order: textOf(table, "order", row), taps: textOf(table, "taps", row), signal: textOf(table, "signal", row)};
@@ -29,8 +24,8 @@ function rowsByKey(file) {
 }
 
 /// {rows: [{..parts, counter, a, b, ratio, size}], equal, onlyA, onlyB}: what differs, the largest ratio first.
-export function differences(a, b) {
-  const [rowsA, rowsB] = [rowsByKey(a), rowsByKey(b)];
+export function differences(a, b, counters) {
+  const [rowsA, rowsB] = [rowsByKey(a, counters), rowsByKey(b, counters)];
   const found = {rows: [], equal: 0, onlyA: 0, onlyB: 0};
   for (const [key, one] of rowsA) {
     const other = rowsB.get(key);

@@ -3,7 +3,7 @@
 import {union} from "./catalogue.js";
 import {tablesOf} from "./choices.js";
 import {textOf} from "./data.js";
-import {comparable, differences} from "./difference.js";
+import {differences} from "./difference.js";
 import {grouped, show} from "./numbers.js";
 import {shownRow} from "./select.js";
 
@@ -16,7 +16,7 @@ const column = (title, name) => ({title, text: row => row[name]});
 const partColumns = [column("kernel", "kernel"), column("order", "order"), column("taps", "taps"), column("rows", "aspect"), column("signal", "signal")];
 
 /// The second file against the first; null without one. It takes long: ask once.
-export const comparisonOf = all => all.files.length > 1 ? differences(all.files[0], all.files[1]) : null;
+export const comparisonOf = all => all.files.length > 1 ? differences(all.files[0], all.files[1], all.counters) : null;
 
 /// {text, counters, columns, rows} of a comparison.
 export function differenceShown(all, now, compared) {
@@ -24,7 +24,7 @@ export function differenceShown(all, now, compared) {
   return {
     text: `A is ${a.name}, B is ${b.name}. ${grouped(compared.equal)} rows are equal in every counter; ` +
       `${grouped(compared.onlyA)} are only in A, ${grouped(compared.onlyB)} only in B. Sorted by the size of the ratio. Host times of two runs are not comparable one by one: the machine may have changed between them.`,
-    counters: comparable.filter(name => compared.rows.some(row => row.counter === name)),
+    counters: all.counters.compared.filter(name => compared.rows.some(row => row.counter === name)),
     columns: [
       ...partColumns, {title: "counter", text: row => row.counter || row.note},
       {title: "B / A", text: row => row.counter ? row.a === 0 ? "from 0" : row.ratio.toPrecision(4) : "", number: row => row.counter ? row.ratio : NaN},
@@ -51,9 +51,8 @@ export function rowsShown(all, now) {
   const rows = rowsOf(table).filter(row => shownRow(all, now, partsOf(table, row)));
   const texts = ["name", "kernel", "order", "taps", "signal", "label", "fault"].filter(name => table.text[name])
     .map(name => ({title: name, text: table.text[name]}));
-  const hidden = ["iterations", "repetition_index", ...(timed ? [] : ["real_time"])];
-  const numbers = Object.keys(table.number).filter(name => !hidden.includes(name)).map(name =>
-    ({title: name === "real_time" ? "real_time (ns)" : name, text: row => show(table.number[name](row)), number: table.number[name]}));
+  const numbers = Object.keys(table.number).filter(name => all.counters.isTold(name, table.aspect)).map(name =>
+    ({title: all.counters.titleOf(name), text: row => show(table.number[name](row)), number: table.number[name]}));
   return {
     ids, chosen: chosen.id, rows, columns: [...texts, ...numbers],
     text: `${grouped(rows.length)} of ${grouped(table.rows)} rows of ${chosen.id} pass the filters.` +

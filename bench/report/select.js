@@ -227,7 +227,7 @@ export function effectiveOf(all, now) {
 
 // ---- Stalls.
 
-const causeName = cause => cause === "" ? "issuing" : cause.slice(6).replace(/_/g, " ");
+const causeName = (all, cause) => cause === "" ? "issuing" : cause.slice(all.counters.stall.length).replace(/_/g, " ");
 
 /// {cases: [{id, text}], causes: [{cause, text}], bars: [{kernel, total, length, parts: [{cause, place, value}], tip}]}; "" is issuing, of
 /// place -1.
@@ -245,7 +245,7 @@ export function stallsShown(all, now) {
     const parts = [{cause: "", place: -1, value: left}, ...causes.map((cause, place) => ({cause, place, value: lostTo(one, cause)}))].filter(part => part.value > 0);
     const told = total === undefined ? lost : total;
     return {kernel: one.kernel, total: told, length, parts, tip: [one.kernel, [["modelled cycles", show(told)],
-      ...parts.map(part => [causeName(part.cause), `${show(part.value)} (${(100 * part.value / length).toFixed(0)} %)`])]]};
+      ...parts.map(part => [causeName(all, part.cause), `${show(part.value)} (${(100 * part.value / length).toFixed(0)} %)`])]]};
   }).sort((a, b) => a.length - b.length);
-  return {cases, causes: ["", ...causes].map((cause, index) => ({cause, place: index - 1, text: causeName(cause)})), bars};
+  return {cases, causes: ["", ...causes].map((cause, index) => ({cause, place: index - 1, text: causeName(all, cause)})), bars};
 }

@@ -33,7 +33,14 @@ const a = file("a.json", [
 ]);
 const b = file("b.json", [["ring_plain_f32", "0.5", "600", "step", "", 0.02, 1e-6, 0.01, 600, 40, 10]],
   [["ring_plain_f32", "0.5", "600", "", 1000, 100, 300]], {n_samples: 2000});
-const page = data => { const all = catalogueOf({version: "1", d3: "5", ...data}); return {all, state: makeState(choicesOf(all))}; };
+const counter = (name, more) => ({name, family: false, is_time: false, unit: "", layer: "accuracy", compared: true, drawn: false, title: "", meaning: "", ...more});
+const drawn = (name, title) => counter(name, {drawn: true, title, meaning: title + " means"});
+const counters = [
+  drawn("error_max", "total error"), drawn("rounding_error_max", "rounding error"), drawn("truncation_error_max", "truncation error"),
+  counter("effective_taps"), counter("state_bytes"), counter("coefficient_bytes"), counter("model_cycles_per_sample"),
+  counter("real_time", {is_time: true, unit: "ns", layer: "host_time"}), counter("stall_", {family: true, compared: false})
+];
+const page = data => { const all = catalogueOf({version: "1", d3: "5", counters, ...data}); return {all, state: makeState(choicesOf(all))}; };
 
 const tests = {
   theStateChangesInOneWay() {
