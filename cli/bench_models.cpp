@@ -8,7 +8,6 @@
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "bench/rows/result_file.hpp"
-#include "bench/rows/results.hpp"
 #include "bench/studies/models.hpp"
 #include "bench/sweep/sweep.hpp"
 #include "cli/board.hpp"

@@ -10,7 +10,7 @@
 #include "bench/report/discretisation_table.hpp"
 #include "bench/report/plot.hpp"
 #include "bench/report/table.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/csv.hpp"
 #include "bench/sweep/truncation_bound.hpp"
 
 namespace cli {
@@ -37,8 +37,7 @@ void finish_run(const std::filesystem::path& out, const bench::Results& results,
 }
 
 void check_rows(const bench::Results& results) {
-    const auto wrong = std::count_if(results.rows.begin(), results.rows.end(),
-                                     [](const bench::Json& row) { return row.value("error_occurred", false); });
+    const auto wrong = std::count_if(results.rows.begin(), results.rows.end(), bench::is_wrong);
     if (wrong > 0) {
         throw glsum::Failure(glsum::Exit::check_failed,
                              fmt::format("{} of {} rows are wrong or impossible; they are marked and not ranked", wrong,

@@ -7,7 +7,7 @@
 #include "base/progress.hpp"
 #include "bench/choose/earlier.hpp"
 #include "bench/host/host_timing.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
 #include "bench/target/count_path.hpp"
@@ -16,10 +16,7 @@
 namespace choose {
 namespace {
 
-double number(const bench::Json& row, const char* counter) {
-    const auto found = row.find(counter);
-    return found != row.end() && found->is_number() ? found->get<double>() : 0.0;
-}
+double number(const bench::Json& row, bench::Counter counter) { return bench::value_of(row, counter).value_or(0.0); }
 
 // Of values in any order, at least one.
 double quantile(std::vector<double> values, double share) {
@@ -79,7 +76,7 @@ std::vector<Cost> OnTarget::costs(const std::vector<Case>& cases) {
             if (row.status != glsum::Status::ok) {
                 cost.fault = bench::to_text(row.status);
             } else if (!counted[i].same_bits) {
-                cost.fault = "the target's outputs differ from the host's";
+                cost.fault = bench::other_bits;
             }
             known_[planned[i]] = cost;
         }
@@ -104,7 +101,8 @@ std::vector<Cost> HostTimes::costs(const std::vector<Case>& cases) {
     cycle_counter_ = timing.context.value("cycle_counter", "unknown");
     std::vector<Cost> costs;
     for (const bench::Timed& one : timed) {
-        costs.push_back(cost_of_times(timing.rows, bench::row_name(one.name, order_, one.length, "host")));
+        costs.push_back(
+            cost_of_times(timing.rows, to_name(bench::row_key(one.name, order_, one.length, bench::RowKey::host))));
     }
     return costs;
 }
@@ -117,13 +115,13 @@ Cost cost_of_times(const std::vector<bench::Json>& rows, const std::string& name
         if (row.value("run_name", "") != name || row.value("run_type", "iteration") != "iteration") {
             continue;
         }
-        if (row.value("error_occurred", false)) {
+        if (bench::is_wrong(row)) {
             cost.fault = row.value("error_message", "wrong");
             continue;
         }
-        ns.push_back(number(row, "real_time"));
-        cycles.push_back(number(row, "cycles_per_sample"));
-        cost.bytes = number(row, "state_bytes") + number(row, "coefficient_bytes");
+        ns.push_back(number(row, bench::Counter::real_time));
+        cycles.push_back(number(row, bench::Counter::cycles_per_sample));
+        cost.bytes = number(row, bench::Counter::state_bytes) + number(row, bench::Counter::coefficient_bytes);
     }
     if (ns.empty()) {
         cost.fault = cost.fault.empty() ? "not timed" : cost.fault;

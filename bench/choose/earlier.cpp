@@ -10,6 +10,9 @@
 namespace choose {
 namespace {
 
+using bench::Counter;
+using bench::value_of;
+
 std::string text(const bench::Json& context, const char* field) {
     const auto found = context.find(field);
     return found == context.end() ? "" : found->is_string() ? found->get<std::string>() : found->dump();
@@ -36,7 +39,7 @@ void for_each_row(const Earlier& earlier, const Question& question, Visit visit)
     const std::string order = fmt::format("{}", question.conditions.order);
     for (const bench::Json& row : earlier.rows) {
         const auto key = bench::parse_key(row.value("name", ""));
-        if (!key || key->order != order || !key->amplitude.empty() || row.value("error_occurred", false) ||
+        if (!key || key->order != order || !key->amplitude.empty() || bench::is_wrong(row) ||
             row.value("run_type", "iteration") != "iteration") {
             continue;
         }
@@ -116,8 +119,8 @@ void remember(const Earlier& earlier, const Question& question, MeasuredErrors& 
         return;
     }
     for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
-        if (key.aspect == "accuracy" && row.contains("error_max") && row["error_max"].is_number()) {
-            errors.remember(key.kernel, taps, key.signal, row["error_max"].get<double>());
+        if (const auto error = value_of(row, Counter::error_max); error && key.is_accuracy()) {
+            errors.remember(key.kernel, taps, key.signal, *error);
         }
     });
 }
@@ -126,14 +129,13 @@ void remember(const Earlier& earlier, const Question& question, OnTarget& costs)
     if (!earlier.on_target) {
         return;
     }
-    const char* const counter = costs.modelled() ? "model_cycles_per_sample" : "instructions_per_sample";
-    const char* const limit = costs.modelled() ? "model_cycles_high" : counter;
+    const Counter counter = costs.modelled() ? Counter::model_cycles_per_sample : Counter::instructions_per_sample;
+    const Counter limit = costs.modelled() ? Counter::model_cycles_high : counter;
     const std::string here = fmt::format("counted at order {}", question.conditions.order);
     for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
-        if (costs.modelled() ? key.aspect != "m7:" + question.core : !key.aspect.starts_with("m7:")) {
-            return;
-        }
-        if (!row.contains(counter) || !row.contains(limit)) {
+        const auto value = value_of(row, counter);
+        const auto limited = value_of(row, limit);
+        if (!key.is_target() || (costs.modelled() && key.core() != question.core) || !value || !limited) {
             return;
         }
         // In software double the data decides, and with it the order at which the count was taken.
@@ -142,9 +144,10 @@ void remember(const Earlier& earlier, const Question& question, OnTarget& costs)
             return;
         }
         Cost cost;
-        cost.value = row.value(counter, 0.0);
-        cost.limited = std::max(cost.value, row.value(limit, 0.0));
-        cost.bytes = row.value("state_bytes", 0.0) + row.value("coefficient_bytes", 0.0);
+        cost.value = *value;
+        cost.limited = std::max(*value, *limited);
+        cost.bytes =
+            value_of(row, Counter::state_bytes).value_or(0.0) + value_of(row, Counter::coefficient_bytes).value_or(0.0);
         costs.remember({key.kernel, taps}, cost);
     });
 }

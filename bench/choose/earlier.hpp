@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/choose/question.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/rows/result_file.hpp"
-#include "bench/rows/results.hpp"
 
 namespace choose {
 

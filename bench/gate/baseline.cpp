@@ -27,9 +27,16 @@ Json small_row(const Json& row) {
     const auto name = row["name"].get<std::string>();
     Json small{{"name", name}};
     if (kind_of(name) == Kind::host) {
-        for (const char* key : {"run_type", "repetition_index", "iterations", "real_time", "cpu_time", "time_unit"}) {
-            if (row.contains(key)) {
-                small[key] = row[key];
+        // What tells repetitions and their times, in the order of a row.
+        const auto is_kept = [](const std::string& key) {
+            return key == "run_type" || key == "time_unit" ||
+                   std::ranges::any_of(std::array{Counter::repetition_index, Counter::iterations, Counter::real_time,
+                                                  Counter::cpu_time},
+                                       [&](Counter counter) { return key == name_of(counter); });
+        };
+        for (const auto& [key, value] : row.items()) {
+            if (is_kept(key)) {
+                small[key] = value;
             }
         }
         return small;

@@ -49,7 +49,7 @@ void add_times(const RowTable& a, const RowTable& b, const std::string& name, co
                std::vector<Pair>& pairs) {
     Pair pair;
     pair.row = name;
-    pair.counter = "cpu_time";
+    pair.counter = name_of(Counter::cpu_time);
     const std::vector<double> times_a = a.find(name)->times();
     const std::vector<double> times_b = b.find(name)->times();
     if (times_a.empty() || times_b.empty()) {
@@ -60,10 +60,9 @@ void add_times(const RowTable& a, const RowTable& b, const std::string& name, co
     const auto rule = std::find_if(rules.begin(), rules.end(), [&](const Rule& candidate) {
         return candidate.layer == Layer::host_time && candidate.wants_row(name);
     });
-    std::string anchor = name;
     const std::string kernel = kernel_of(name);
     if (rule != rules.end() && !kernel.empty() && kernel != rule->anchor) {
-        anchor.replace(3, kernel.size(), rule->anchor);
+        const std::string anchor = row_of(rule->anchor, name);
         const Measured* anchor_a = a.find(anchor);
         const Measured* anchor_b = b.find(anchor);
         const auto enough = [](const std::vector<double>& times) {
@@ -132,7 +131,7 @@ Comparison compare(const Results& results_a, const Results& results_b, const Rul
             set_ratio(pair, direction->second);
             comparison.pairs.push_back(std::move(pair));
         }
-        if (kind == Kind::host && matches_any(counters, "cpu_time")) {
+        if (kind == Kind::host && matches_any(counters, std::string(name_of(Counter::cpu_time)))) {
             add_times(a, b, name, rules, comparison.pairs);
         }
     }

@@ -11,6 +11,7 @@
 
 #include "bench/gate/host_time.hpp"
 #include "bench/gate/row_table.hpp"
+#include "bench/rows/key.hpp"
 
 namespace bench::gate {
 namespace {
@@ -143,7 +144,7 @@ private:
             }
         }
         for (const auto& [kernel, rows] : lost_kernels) {
-            lost("gl/" + kernel + "/*", fmt::format("the kernel is lost: all {} of its rows are missing", rows));
+            lost(rows_of(kernel), fmt::format("the kernel is lost: all {} of its rows are missing", rows));
         }
         std::map<std::string, std::size_t> new_kernels;
         for (const std::string& name : added) {
@@ -155,8 +156,7 @@ private:
             }
         }
         for (const auto& [kernel, rows] : new_kernels) {
-            note(Layer::rows, "gl/" + kernel + "/*",
-                 fmt::format("a new kernel: {} rows that are not in the baseline", rows));
+            note(Layer::rows, rows_of(kernel), fmt::format("a new kernel: {} rows that are not in the baseline", rows));
         }
     }
 
@@ -311,11 +311,6 @@ private:
         return timing;
     }
 
-    // The same measurement of another kernel.
-    static std::string row_of(const std::string& kernel, std::string name) {
-        return name.replace(3, kernel_of(name).size(), kernel);
-    }
-
     // The witness of this order and length that moved most, if beyond half of what is allowed to kernels: some suffer
     // more.
     std::string what_moved(const Rule& rule, const std::string& anchor_row) const {
@@ -348,8 +343,8 @@ private:
         std::map<std::pair<const Rule*, std::string>, std::string> unsettled;  // by the anchor's row: what moved there
         for (const std::string& name : verdict_.rows) {
             const std::vector<std::size_t> of_row = rules_of_row(Layer::host_time, name);
-            const Rule* fails = first_rule(Layer::host_time, true, of_row, "cpu_time");
-            const Rule* warns = first_rule(Layer::host_time, false, of_row, "cpu_time");
+            const Rule* fails = first_rule(Layer::host_time, true, of_row, std::string(name_of(Counter::cpu_time)));
+            const Rule* warns = first_rule(Layer::host_time, false, of_row, std::string(name_of(Counter::cpu_time)));
             if (fails == nullptr && warns == nullptr) {
                 continue;
             }
@@ -397,7 +392,7 @@ private:
         Finding finding;
         finding.layer = Layer::host_time;
         finding.row = row;
-        finding.counter = "cpu_time";
+        finding.counter = std::string(name_of(Counter::cpu_time));
         finding.change = change.estimate;
         finding.change_low = change.low;
         finding.change_high = change.high;

@@ -3,26 +3,24 @@
 #include <algorithm>
 
 #include "bench/rows/counters.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 
 namespace bench::gate {
 namespace {
 
-bool is_wrong(const Json& row) {
-    const auto error = row.find("error_occurred");
-    // Newer versions of Google Benchmark write a text `skipped` besides.
-    return (error != row.end() && error->is_boolean() && error->get<bool>()) || row.contains("skipped");
-}
+// Newer versions of Google Benchmark write a text `skipped` besides.
+bool is_wrong_or_skipped(const Json& row) { return is_wrong(row) || row.contains("skipped"); }
 
 }  // namespace
 
 bool Measured::wrong() const {
-    return std::any_of(repetitions.begin(), repetitions.end(), [](const Json* row) { return is_wrong(*row); });
+    return std::any_of(repetitions.begin(), repetitions.end(),
+                       [](const Json* row) { return is_wrong_or_skipped(*row); });
 }
 
 std::string Measured::error() const {
     for (const Json* row : repetitions) {
-        if (is_wrong(*row)) {
+        if (is_wrong_or_skipped(*row)) {
             const auto message = row->find("error_message");
             return message != row->end() && message->is_string() ? message->get<std::string>() : "marked as wrong";
         }
@@ -33,8 +31,8 @@ std::string Measured::error() const {
 std::vector<double> Measured::times() const {
     std::vector<double> times;
     for (const Json* row : repetitions) {
-        if (const auto time = row->find("cpu_time"); time != row->end() && time->is_number()) {
-            times.push_back(time->get<double>());
+        if (const auto time = value_of(*row, Counter::cpu_time)) {
+            times.push_back(*time);
         }
     }
     return times;
@@ -62,30 +60,36 @@ const Measured* RowTable::find(const std::string& name) const {
 }
 
 Kind kind_of(const std::string& name) {
-    if (name.find("/accuracy/") != std::string::npos) {
-        return Kind::accuracy;
+    const auto key = parse_any_key(name);
+    if (!key) {
+        return Kind::other;
     }
-    if (name.ends_with("/host")) {
-        return Kind::host;
-    }
-    if (name.ends_with("/m7:count")) {
-        return Kind::target_count;
-    }
-    return name.find("/m7:") != std::string::npos ? Kind::target_model : Kind::other;
+    return key->is_accuracy()          ? Kind::accuracy
+           : key->is_host()            ? Kind::host
+           : !key->is_target()         ? Kind::other
+           : key->core() == count_only ? Kind::target_count
+                                       : Kind::target_model;
 }
 
-bool is_counter(const std::string& key, const Json& value) {
-    return value.is_number() && is_measured(key);
-}
+bool is_counter(const std::string& key, const Json& value) { return value.is_number() && is_measured(key); }
 
 std::string subject_of(const std::string& name) {
     const auto key = parse_key(name);
-    return key ? "gl/" + key->kernel + "/order:" + key->order + "/taps:" + key->taps : name;
+    return key ? bench::subject_of(*key) : name;
 }
 
 std::string kernel_of(const std::string& name) {
     const auto key = parse_key(name);
     return key ? key->kernel : "";
+}
+
+std::string row_of(const std::string& kernel, const std::string& name) {
+    auto key = parse_key(name);
+    if (!key) {
+        return name;
+    }
+    key->kernel = kernel;
+    return to_name(*key);
 }
 
 }  // namespace bench::gate

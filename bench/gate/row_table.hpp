@@ -38,10 +38,14 @@ enum class Kind { accuracy, host, target_count, target_model, other };
 /// Whether a field of a row is a counter: a number, and not one of Google Benchmark's own.
 [[nodiscard]] bool is_counter(const std::string& key, const Json& value);
 
-/// "gl/<kernel>/order:<v>/taps:<L>": what is moot once an answer there is wrong. Of another row, its name.
+/// What all rows of its kernel, order and length share: what is moot once an answer there is wrong. Of another row, its
+/// name.
 [[nodiscard]] std::string subject_of(const std::string& name);
 
 /// The kernel of a row; empty where the name has none.
 [[nodiscard]] std::string kernel_of(const std::string& name);
+
+/// The name of the same measurement of another kernel; the same name where it has none.
+[[nodiscard]] std::string row_of(const std::string& kernel, const std::string& name);
 
 }  // namespace bench::gate

@@ -27,9 +27,9 @@ struct Rule {
     std::vector<std::string> rows;      ///< globs of row names; `*` matches slashes too
     std::vector<std::string> counters;  ///< globs of counter names
     Better better = Better::lower;      ///< never `neither`
-    double relative = 0.0;  ///< change for the worse that is allowed, as a share of the baseline's value
-    double absolute = 0.0;  ///< the same in the counter's unit; the larger of both counts
-    bool fails = true;      ///< else it only warns
+    double relative = 0.0;              ///< change for the worse that is allowed, as a share of the baseline's value
+    double absolute = 0.0;              ///< the same in the counter's unit; the larger of both counts
+    bool fails = true;                  ///< else it only warns
     std::string reason;
     // Of host_time only:
     std::string anchor;  ///< kernel of the same run, order and length that times are divided by

@@ -103,8 +103,9 @@ void report(benchmark::State& state, const std::vector<reference::Real>& weights
         state.SkipWithError(fmt::format("wrong answer: error {} beyond its bound {}", error, bound).c_str());
         return;
     }
-    state.counters["cycles_per_sample"] = static_cast<double>(cycles) / static_cast<double>(state.iterations());
-    state.counters["ns_per_sample"] =
+    state.counters[std::string(name_of(Counter::cycles_per_sample))] =
+        static_cast<double>(cycles) / static_cast<double>(state.iterations());
+    state.counters[std::string(name_of(Counter::ns_per_sample))] =
         benchmark::Counter(1e-9, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
@@ -151,9 +152,9 @@ double time_line(benchmark::State* state, const std::vector<Sample>& samples,
 
 void set_sizes(benchmark::State* state, std::size_t macs, std::size_t coefficient_bytes, std::size_t state_bytes) {
     if (state != nullptr) {
-        state->counters["macs_per_sample"] = static_cast<double>(macs);
-        state->counters["coefficient_bytes"] = static_cast<double>(coefficient_bytes);
-        state->counters["state_bytes"] = static_cast<double>(state_bytes);
+        state->counters[std::string(name_of(Counter::macs_per_sample))] = static_cast<double>(macs);
+        state->counters[std::string(name_of(Counter::coefficient_bytes))] = static_cast<double>(coefficient_bytes);
+        state->counters[std::string(name_of(Counter::state_bytes))] = static_cast<double>(state_bytes);
     }
 }
 
@@ -297,8 +298,9 @@ HostTiming time_on_host(const std::vector<Timed>& cases, std::size_t samples, un
     words.insert(words.end(), flags.begin(), flags.end());  // the later ones count
     initialise(words, true);
     const auto add = [&](const Timed& timed, const std::function<double(benchmark::State*)>& work) {
-        auto* registered = benchmark::RegisterBenchmark(row_name(timed.name, timed.order, timed.length, "host").c_str(),
-                                                        [work](benchmark::State& state) { work(&state); });
+        auto* registered =
+            benchmark::RegisterBenchmark(to_name(row_key(timed.name, timed.order, timed.length, RowKey::host)).c_str(),
+                                         [work](benchmark::State& state) { work(&state); });
         if (repetitions > 1) {
             registered->Iterations(iterations_for(work(nullptr), timed.length.taps));
         }

@@ -18,7 +18,7 @@
 
 #include "base/failure.hpp"
 #include "bench/rows/counters.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 
 namespace bench::report {
 namespace {

@@ -8,6 +8,7 @@
 
 #include "base/files.hpp"
 #include "bench/report/front.hpp"
+#include "bench/rows/csv.hpp"
 
 namespace bench::report {
 

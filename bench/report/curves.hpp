@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rows/results.hpp"
+#include "bench/rows/groups.hpp"
 #include "bench/sweep/truncation_bound.hpp"
 
 namespace bench::report {

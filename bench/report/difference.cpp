@@ -10,7 +10,8 @@
 #include <unordered_set>
 
 #include "bench/rows/counters.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/csv.hpp"
+#include "bench/rows/key.hpp"
 
 namespace bench::report {
 namespace {
@@ -41,9 +42,9 @@ Rows rows_by_name(const std::vector<Json>& rows) {
             named.emplace_back(name, Row{});
         }
         Row& into = named[found->second].second;
-        into.wrong = into.wrong || row.value("error_occurred", false);
+        into.wrong = into.wrong || is_wrong(row);
         const auto key = parse_key(name);
-        const bool timed = !key || key->aspect == "host";
+        const bool timed = !key || key->is_host();
         for (const auto& [field, value] : row.items()) {
             if (value.is_number() && is_compared(field, timed)) {
                 into.counters[field].push_back(value.get<double>());

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 
 namespace bench {
 namespace {
@@ -17,17 +17,17 @@ void add_new(std::vector<std::string>& texts, const std::string& text) {
     }
 }
 
-std::string of_counter(const std::vector<Json>& rows, const char* counter, const std::string& title) {
+std::string of_counter(const std::vector<Json>& rows, Counter counter, const std::string& title) {
     std::vector<std::string> orders;  // as they come
     std::vector<std::string> signals;
     std::map<std::pair<std::string, std::string>, double> errors;
     for (const Json& row : rows) {
-        const auto found = row.find(counter);
+        const auto found = value_of(row, counter);
         const auto key = parse_key(row.value("name", ""));
-        if (found != row.end() && found->is_number() && key && key->amplitude.empty()) {
+        if (found && key && key->amplitude.empty()) {
             add_new(orders, key->order);
             add_new(signals, key->signal);
-            errors[{key->order, key->signal}] = found->get<double>();
+            errors[{key->order, key->signal}] = *found;
         }
     }
     if (errors.empty()) {
@@ -57,9 +57,9 @@ std::string discretisation_table(const Json& context, const std::vector<Json>& r
     const std::string weights = named == context.end() ? "gl"
                                 : named->is_string()   ? named->get<std::string>()
                                                        : named->dump();
-    return of_counter(rows, "discretisation_error_max",
+    return of_counter(rows, Counter::discretisation_error_max,
                       fmt::format("discretisation error max, weights {}: of the exact sum, by h alone", weights)) +
-           of_counter(rows, "discretisation_error_late_max", "the same in the second half of the record");
+           of_counter(rows, Counter::discretisation_error_late_max, "the same in the second half of the record");
 }
 
 }  // namespace bench

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/gnuplot.hpp"
+#include "bench/rows/key.hpp"
 
 namespace bench {
 namespace {

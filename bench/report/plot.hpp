@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "bench/rows/results.hpp"
+#include "bench/rows/groups.hpp"
 #include "bench/sweep/truncation_bound.hpp"
 
 namespace bench {

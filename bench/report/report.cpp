@@ -7,7 +7,7 @@
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
 #include "bench/report/plot.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/csv.hpp"
 
 namespace bench::report {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/rows/results.hpp"
+#include "bench/rows/groups.hpp"
 
 namespace bench {
 

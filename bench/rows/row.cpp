@@ -1,5 +1,7 @@
 #include "bench/rows/row.hpp"
 
+#include "bench/rows/key.hpp"
+
 namespace bench {
 
 Json make_row(const std::string& name, std::size_t iterations) {
@@ -22,6 +24,20 @@ Json make_row(const std::string& name, std::size_t iterations) {
 void mark_error(Json& row, const std::string& message) {
     row["error_occurred"] = true;
     row["error_message"] = message;
+}
+
+bool is_wrong(const Json& row) { return row.value("error_occurred", false); }
+
+std::optional<double> value_of(const Json& row, Counter counter) {
+    const auto found = row.find(name_of(counter));
+    return found != row.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;
+}
+
+Row::Row(const RowKey& key, std::size_t iterations) : json_(make_row(to_name(key), iterations)) {}
+
+void Row::set_time(double ns) {
+    set(Counter::real_time, ns);
+    set(Counter::cpu_time, ns);
 }
 
 std::string to_text(glsum::Status status) {

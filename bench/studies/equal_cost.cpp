@@ -72,10 +72,16 @@ Targets targets_of(const std::string& signal, double order, std::size_t samples)
     return made;
 }
 
-void add_tuning(Json& row, const std::string& before, const TunedOustaloup& tuned) {
-    row[before + "mapping"] = to_text(tuned.mapping);
-    row[before + "low_rad_s"] = tuned.band.low_rad_s;
-    row[before + "high_rad_s"] = tuned.band.high_rad_s;
+void add_tuning(Row& row, const TunedOustaloup& tuned) {
+    row.set_text("mapping", to_text(tuned.mapping));
+    row.set(Counter::low_rad_s, tuned.band.low_rad_s);
+    row.set(Counter::high_rad_s, tuned.band.high_rad_s);
+}
+
+void add_late_tuning(Row& row, const TunedOustaloup& tuned) {
+    row.set_text("late_mapping", to_text(tuned.mapping));
+    row.set(Counter::late_low_rad_s, tuned.band.low_rad_s);
+    row.set(Counter::late_high_rad_s, tuned.band.high_rad_s);
 }
 
 // Of one order and cost: the filter that is tuned once for all signals, then those tuned to one derivative.
@@ -83,12 +89,17 @@ std::vector<Json> filter_rows(const EqualCost& wanted, const std::vector<Targets
                               std::size_t cost) {
     const std::size_t poles = (cost - 1) / 2;
     const auto row_of = [&](std::string_view way, std::size_t signal) {
-        Json row = make_row(
-            fmt::format("filter/{}/order:{}/poles:{}/accuracy/signal:{}", way, order, poles, wanted.signals[signal]),
-            wanted.samples);
-        row["macs_per_sample"] = Oustaloup::multiplications(poles);
-        row["cost"] = cost;
-        row["way"] = way;
+        RowKey key;
+        key.kind = RowKind::filter;
+        key.kernel = way;
+        key.order = fmt::format("{}", order);
+        key.poles = std::to_string(poles);
+        key.aspect = RowKey::accuracy;
+        key.signal = wanted.signals[signal];
+        Row row(key, wanted.samples);
+        row.set(Counter::macs_per_sample, Oustaloup::multiplications(poles));
+        row.set(Counter::cost, cost);
+        row.set_text("way", way);
         return row;
     };
     std::vector<FilterTarget> sums;
@@ -100,23 +111,23 @@ std::vector<Json> filter_rows(const EqualCost& wanted, const std::vector<Targets
     std::vector<Json> rows;
     for (std::size_t i = 0; i < targets.size(); ++i) {
         const bool has_formula = !targets[i].derivative.wanted.empty();
-        Json row = row_of(oustaloup_of_sums, i);
-        row["error_max"] = error_of(filter, targets[i].sum);
+        Row row = row_of(oustaloup_of_sums, i);
+        row.set(Counter::error_max, error_of(filter, targets[i].sum));
         if (has_formula) {
-            row["derivative_error_max"] = error_of(filter, targets[i].derivative);
-            row["derivative_error_late_max"] = error_of(filter, targets[i].late);
+            row.set(Counter::derivative_error_max, error_of(filter, targets[i].derivative));
+            row.set(Counter::derivative_error_late_max, error_of(filter, targets[i].late));
         }
-        add_tuning(row, "", once);
-        rows.push_back(std::move(row));
+        add_tuning(row, once);
+        rows.push_back(std::move(row).take());
         if (has_formula) {
             const TunedOustaloup whole = tune_oustaloup(order, step_s, poles, {&targets[i].derivative, 1});
             const TunedOustaloup late = tune_oustaloup(order, step_s, poles, {&targets[i].late, 1});
-            Json own = row_of(oustaloup_of_derivative, i);
-            own["derivative_error_max"] = whole.error;
-            add_tuning(own, "", whole);
-            own["derivative_error_late_max"] = late.error;
-            add_tuning(own, "late_", late);
-            rows.push_back(std::move(own));
+            Row own = row_of(oustaloup_of_derivative, i);
+            own.set(Counter::derivative_error_max, whole.error);
+            add_tuning(own, whole);
+            own.set(Counter::derivative_error_late_max, late.error);
+            add_late_tuning(own, late);
+            rows.push_back(std::move(own).take());
         }
     }
     return rows;
@@ -152,7 +163,7 @@ std::vector<Json> measure_equal_cost(const EqualCost& wanted) {
     sweep.signals = wanted.signals;
     sweep.samples = wanted.samples;
     sweep.jobs = wanted.jobs;
-    // Costs and ways that a measured row is there for, by what its name begins with.
+    // Costs and ways that a measured row is there for, by its subject.
     std::map<std::string, std::vector<std::pair<std::size_t, std::string_view>>> asked;
     std::set<std::size_t> windows;
     std::set<std::pair<std::size_t, std::size_t>> with_modes;
@@ -164,7 +175,7 @@ std::vector<Json> measure_equal_cost(const EqualCost& wanted) {
         sweep.kernels.push_back(kernel);
         for (const double order : wanted.orders) {
             const auto ask = [&](std::size_t cost, const Length& length) {
-                asked[row_name(kernel, order, length, "")].emplace_back(cost, way.name);
+                asked[subject_of(row_key(kernel, order, length, ""))].emplace_back(cost, way.name);
             };
             if (kernel == FullMemory::name()) {
                 ask(wanted.samples - 1, {wanted.samples, true});
@@ -194,15 +205,15 @@ std::vector<Json> measure_equal_cost(const EqualCost& wanted) {
     std::vector<Json> rows;
     for (const std::vector<Json>& of_case : measure_accuracy(sweep, cases)) {
         for (const Json& row : of_case) {
-            const std::string name = row.at("name").get<std::string>();
-            const auto found = asked.find(name.substr(0, name.find("accuracy/")));
+            const auto found = asked.find(subject_of(parse_key(row.at("name").get<std::string>()).value()));
             if (found == asked.end()) {
                 continue;  // of a length that is another kernel's
             }
             for (const auto& [cost, way] : found->second) {
-                rows.push_back(row);
-                rows.back()["cost"] = cost;
-                rows.back()["way"] = way;
+                Row at_cost(row);
+                at_cost.set(Counter::cost, cost);
+                at_cost.set_text("way", way);
+                rows.push_back(std::move(at_cost).take());
             }
         }
     }

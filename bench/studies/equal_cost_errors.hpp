@@ -17,6 +17,6 @@ using EqualCostErrors = std::map<std::string, double>;  ///< "<way>|<cost>|<orde
                                  const std::string& signal);
 
 /// One counter of all rows that have it, of full amplitude alone.
-[[nodiscard]] EqualCostErrors errors_by_key(const std::vector<Json>& rows, const char* counter);
+[[nodiscard]] EqualCostErrors errors_by_key(const std::vector<Json>& rows, Counter counter);
 
 }  // namespace bench

@@ -22,7 +22,7 @@ std::vector<EqualCostWay> drawn_ways() {
 }  // namespace
 
 void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, const std::filesystem::path& stem) {
-    const EqualCostErrors found = errors_by_key(rows, "error_max");
+    const EqualCostErrors found = errors_by_key(rows, Counter::error_max);
     const std::vector<EqualCostWay> drawn_here = drawn_ways();
     constexpr double floor = 1e-10;  // exact ones would flatten all others
     const std::size_t height = 130 + 210 * wanted.orders.size();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "bench/rows/key.hpp"
 #include "bench/studies/equal_cost.hpp"
 #include "bench/studies/equal_cost_errors.hpp"
 
@@ -22,26 +23,19 @@ constexpr EqualCostWay ways[] = {
     {"mirror_multi_f64", "full memory"},
 };
 
-// The part of a name behind `key`, to the next slash.
-std::string part(const std::string& name, std::string_view key) {
-    const std::size_t at = name.find(key);
-    return at == std::string::npos ? ""
-                                   : name.substr(at + key.size(), name.find('/', at + key.size()) - at - key.size());
-}
-
 }  // namespace
 
 std::string key_of(std::string_view way, std::size_t cost, const std::string& order, const std::string& signal) {
     return fmt::format("{}|{}|{}|{}", way, cost, order, signal);
 }
 
-EqualCostErrors errors_by_key(const std::vector<Json>& rows, const char* counter) {
+EqualCostErrors errors_by_key(const std::vector<Json>& rows, Counter counter) {
     EqualCostErrors found;
     for (const Json& row : rows) {
-        const std::string name = row.at("name").get<std::string>();
-        if (row.contains(counter) && name.find("/amplitude:") == std::string::npos) {
-            found[key_of(row.at("way").get<std::string>(), row.at("cost").get<std::size_t>(), part(name, "order:"),
-                         part(name, "signal:"))] = row.at(counter).get<double>();
+        const auto key = parse_any_key(row.at("name").get_ref<const std::string&>());
+        if (const auto error = value_of(row, counter); error && key && key->amplitude.empty()) {
+            found[key_of(row.at("way").get<std::string>(), row.at("cost").get<std::size_t>(), key->order,
+                         key->signal)] = *error;
         }
     }
     return found;
@@ -51,13 +45,13 @@ std::span<const EqualCostWay> equal_cost_ways() { return ways; }
 
 std::string to_table(const EqualCost& wanted, const std::vector<Json>& rows) {
     struct Against {
-        const char* counter;
+        Counter counter;
         const char* title;
     };
     constexpr Against all[] = {
-        {"error_max", "the exact sum"},
-        {"derivative_error_max", "the exact derivative, where the signal has a formula"},
-        {"derivative_error_late_max", "the exact derivative, in the second half: the signal's start has faded"},
+        {Counter::error_max, "the exact sum"},
+        {Counter::derivative_error_max, "the exact derivative, where the signal has a formula"},
+        {Counter::derivative_error_late_max, "the exact derivative, in the second half: the signal's start has faded"},
     };
     std::vector<std::size_t> costs = wanted.costs;
     costs.push_back(wanted.samples - 1);

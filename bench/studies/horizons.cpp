@@ -105,12 +105,16 @@ void measure_errors(std::vector<Cost>& all, const std::vector<double>& orders,
     }
 }
 
-Json to_row(const Cost& cost, std::string_view kernel, std::size_t macs) {
-    Json row =
-        make_row(fmt::format("horizon/{}/order:{}/error:{:g}/samples:{}", kernel, cost.order, cost.error, cost.samples),
-                 cost.samples);
-    row["horizon_samples"] = cost.samples;
-    row["macs_per_sample"] = macs;
+Row to_row(const Cost& cost, std::string_view kernel, std::size_t macs) {
+    RowKey key;
+    key.kind = RowKind::horizon;
+    key.kernel = kernel;
+    key.order = fmt::format("{}", cost.order);
+    key.error = fmt::format("{:g}", cost.error);
+    key.samples = std::to_string(cost.samples);
+    Row row(key, cost.samples);
+    row.set(Counter::horizon_samples, cost.samples);
+    row.set(Counter::macs_per_sample, macs);
     return row;
 }
 
@@ -253,24 +257,24 @@ Study measure_horizons(const Horizons& wanted) {
         study.text += to_table(order, of_order);
     }
     for (const Cost& cost : all) {
-        study.rows.push_back(to_row(cost, "window", cost.window.value_or(cost.samples - 1)));
+        study.rows.push_back(to_row(cost, "window", cost.window.value_or(cost.samples - 1)).take());
         if (cost.blocks) {
-            study.rows.push_back(to_row(cost, "nested", *cost.blocks));
+            study.rows.push_back(to_row(cost, "nested", *cost.blocks).take());
         }
         if (cost.modes) {
-            Json row = to_row(cost, "modes", cost.modes->multiplications());
-            row["near_taps"] = cost.modes->near_taps;
-            row["modes"] = cost.modes->modes.size();
-            row["design_error"] = cost.modes->error;
-            row["absolute_error_max"] = cost.largest_error;
+            Row row = to_row(cost, "modes", cost.modes->multiplications());
+            row.set(Counter::near_taps, cost.modes->near_taps);
+            row.set(Counter::modes, cost.modes->modes.size());
+            row.set(Counter::design_error, cost.modes->error);
+            row.set(Counter::absolute_error_max, cost.largest_error);
             if (cost.cycles) {
-                row["model_cycles_per_sample"] = *cost.cycles;
+                row.set(Counter::model_cycles_per_sample, *cost.cycles);
             }
             if (cost.largest_error > cost.promised) {
-                mark_error(row, fmt::format("errs by {:.3g}, promised {:.3g}", cost.largest_error, cost.promised));
+                row.mark_error(fmt::format("errs by {:.3g}, promised {:.3g}", cost.largest_error, cost.promised));
                 ++study.wrong;
             }
-            study.rows.push_back(row);
+            study.rows.push_back(std::move(row).take());
         }
     }
     Sweep sweep;

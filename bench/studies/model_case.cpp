@@ -10,55 +10,51 @@
 
 namespace bench {
 
-Json to_row(const ModelCase& one, const std::string& target, std::optional<std::size_t> core, double clock_hz) {
-    Json row =
-        make_row(fmt::format("drive/{}/{}/taps:{}/{}", one.model, one.name, one.length(), target), one.steps + 1);
-    row["error_max"] = one.error_max;
-    row["error_rms"] = one.error_rms;
-    row["final_output"] = one.final_output;
+Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::size_t> core, double clock_hz) {
+    RowKey key;
+    key.kind = RowKind::model;
+    key.model = one.model;
+    key.kernel = one.name;
+    key.taps = one.length();
+    key.aspect = aspect;
+    Row row(key, one.steps + 1);
+    row.set(Counter::error_max, one.error_max);
+    row.set(Counter::error_rms, one.error_rms);
+    row.set(Counter::final_output, one.final_output);
     if (one.design.memory().modes == 0) {
-        row["effective_taps"] = one.design.memory().taps;
+        row.set(Counter::effective_taps, one.design.memory().taps);
     }
-    row["macs_per_sample"] = one.macs;
-    row["horizon_samples"] = one.design.memory().modes == 0 ? one.design.memory().taps : one.steps;
+    row.set(Counter::macs_per_sample, one.macs);
+    row.set(Counter::horizon_samples, one.design.memory().modes == 0 ? one.design.memory().taps : one.steps);
     if (!one.fault.empty()) {
-        mark_error(row, one.fault);
-        return row;
+        row.mark_error(one.fault);
+        return std::move(row).take();
     }
     if (facts_of(one.kernel).exact_sums) {  // fixed point
-        row["saturations"] = one.saturations;
+        row.set(Counter::saturations, one.saturations);
     }
-    if (target == "host") {
-        row["real_time"] = row["cpu_time"] = row["ns_per_sample"] = one.host_ns;
-        return row;
+    if (key.is_host()) {
+        row.set_time(one.host_ns);
+        row.set(Counter::ns_per_sample, one.host_ns);
+        return std::move(row).take();
     }
     const qemu::MeasuredRow& counted = *one.counted;
-    row["label"] = std::string(core ? "modelled cycles" : "instructions only") +
-                   (one.in_double() ? "; double precision in software, where the count depends on the data" : "");
-    row["instructions_per_sample"] = counted.instructions;
-    row["loads_per_sample"] = counted.loads;
-    row["stores_per_sample"] = counted.stores;
-    row["branches_per_sample"] = counted.branches;
-    row["first_instructions"] = counted.first.instructions;
-    row["worst_instructions"] = counted.worst_instructions;
-    row["instructions_share_of_period"] = static_cast<double>(counted.worst_instructions) / period_cycles;
+    row.set_text("label", label_of(core.has_value(), "", one.in_double()));
+    add_instructions(row, counted);
+    row.set(Counter::instructions_share_of_period, static_cast<double>(counted.worst_instructions) / period_cycles);
     if (core) {
         const qemu::ModelledCall& modelled = counted.cores.at(*core);
         add_modelled(row, modelled, clock_hz);
-        row["share_of_period"] = modelled.worst_cycles / (clock_hz * model_step_s);
+        row.set(Counter::share_of_period, modelled.worst_cycles / (clock_hz * model_step_s));
     }
-    row["code_bytes"] = counted.code_bytes;
-    row["stack_bytes"] = counted.stack_bytes;
-    row["state_bytes"] = counted.state_bytes;
-    row["coefficient_bytes"] = counted.coefficient_bytes;
-    if (core && !counted.unknown_encodings.empty()) {
-        mark_error(row, fmt::format("the timing model does not know {} encodings, the first at {:#010x}",
-                                    counted.unknown_encodings.size(), counted.unknown_encodings.front()));
+    add_bytes(row, counted);
+    if (core) {
+        mark_unknown_encodings(row, counted);
     }
     if (!one.same_bits) {
-        mark_error(row, "the target's outputs differ from the host's");
+        row.mark_error(other_bits);
     }
-    return row;
+    return std::move(row).take();
 }
 
 std::string to_table(const std::vector<ModelCase>& cases, const std::string& model) {

@@ -42,8 +42,9 @@ struct ModelCase {
     [[nodiscard]] bool runs_on_target() const { return !in_double() || design.memory().taps <= emulated_double_taps; }
 };
 
+/// \param aspect  host, or of the target
 /// \param core  which of the counted row's modelled cores; counts alone without
-[[nodiscard]] Json to_row(const ModelCase& one, const std::string& target, std::optional<std::size_t> core = {},
+[[nodiscard]] Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::size_t> core = {},
                           double clock_hz = 1.0);
 
 /// Of one model. \param model  its name

@@ -83,9 +83,17 @@ std::string time_long_records(const drive::Model& model, const std::string& name
             best_seconds(samples > 500'000 ? 2 : 3, [&] { (void)drive::simulate(model, scheme, input); }));
         text += fmt::format("  {:>8} samples {:>10.4f} s {:>10.1f} ns a sample\n", samples, seconds.back(),
                             1e9 * seconds.back() / static_cast<double>(samples));
-        Json row = make_row(fmt::format("drive/{}/blockdelta_fft_f64/taps:{}/host", name, samples), samples);
-        row["real_time"] = row["cpu_time"] = row["ns_per_sample"] = 1e9 * seconds.back() / static_cast<double>(samples);
-        rows.push_back(row);
+        RowKey key;
+        key.kind = RowKind::model;
+        key.model = name;
+        key.kernel = "blockdelta_fft_f64";
+        key.taps = std::to_string(samples);
+        key.aspect = RowKey::host;
+        Row row(key, samples);
+        const double ns = 1e9 * seconds.back() / static_cast<double>(samples);
+        row.set_time(ns);
+        row.set(Counter::ns_per_sample, ns);
+        rows.push_back(std::move(row).take());
     }
     return text + fmt::format("  t(10^6)/t(10^5) = {:.1f}\n", seconds[2] / seconds[1]);
 }
@@ -221,12 +229,12 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
     Study study;
     for (const ModelCase& one : cases) {
         if (wants("host")) {
-            study.rows.push_back(to_row(one, "host"));
+            study.rows.push_back(to_row(one, std::string(RowKey::host)));
         }
         if (one.counted) {
-            study.rows.push_back(to_row(one, "m7:count"));
+            study.rows.push_back(to_row(one, on_target(count_only)));
             for (std::size_t c = 0; c < wanted.cores.size(); ++c) {
-                study.rows.push_back(to_row(one, "m7:" + wanted.cores[c], c, clocks[c]));
+                study.rows.push_back(to_row(one, on_target(wanted.cores[c]), c, clocks[c]));
             }
         }
         study.wrong += one.fault.empty() && one.same_bits ? 0 : 1;

@@ -239,21 +239,28 @@ double ratio(const How& how, const How& other) {
 }
 
 Json to_row(double order, const Size& size, const How& how) {
-    Json row = make_row(fmt::format("record/{}/order:{}/samples:{}/host", how.name, order, size.samples), size.samples);
+    RowKey key;
+    key.kind = RowKind::record;
+    key.kernel = how.name;
+    key.order = fmt::format("{}", order);
+    key.samples = std::to_string(size.samples);
+    key.aspect = RowKey::host;
+    Row row(key, size.samples);
     const auto samples = static_cast<double>(size.samples);
-    row["label"] = how.label;
-    row["real_time"] = 1e9 * how.wall_s() / samples;
-    row["cpu_time"] = row["ns_per_sample"] = 1e9 * how.processor_s() / samples;
-    row["record_ms"] = 1e3 * how.processor_s();
-    row["turns"] = how.turns.size();
-    row["times_peer"] = ratio(how, find(size, "peer_fftw_f64"));
-    row["times_measured_peer"] = ratio(how, find(size, "peer_fftwmeasured_f64"));
-    row["error_max"] = how.error_max;
-    row["sums_compared"] = points_of(size.samples).size();
+    row.set_text("label", how.label);
+    row.set(Counter::real_time, 1e9 * how.wall_s() / samples);
+    row.set(Counter::cpu_time, 1e9 * how.processor_s() / samples);
+    row.set(Counter::ns_per_sample, 1e9 * how.processor_s() / samples);
+    row.set(Counter::record_ms, 1e3 * how.processor_s());
+    row.set(Counter::turns, how.turns.size());
+    row.set(Counter::times_peer, ratio(how, find(size, "peer_fftw_f64")));
+    row.set(Counter::times_measured_peer, ratio(how, find(size, "peer_fftwmeasured_f64")));
+    row.set(Counter::error_max, how.error_max);
+    row.set(Counter::sums_compared, points_of(size.samples).size());
     if (!how.fault.empty()) {
-        mark_error(row, how.fault);
+        row.mark_error(how.fault);
     }
-    return row;
+    return std::move(row).take();
 }
 
 std::string to_table(double order, const std::vector<Size>& sizes) {

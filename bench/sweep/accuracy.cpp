@@ -31,11 +31,11 @@ struct Case {
     Discretisation weights;
     std::string signal;
     std::vector<double> record;
-    std::vector<std::size_t> windows;    // lengths, full memory last
-    std::vector<reference::Sums> exact;  // of each of them
-    double peak = 0.0;                   // max_k |E_k|
+    std::vector<std::size_t> windows;     // lengths, full memory last
+    std::vector<reference::Sums> exact;   // of each of them
+    double peak = 0.0;                    // max_k |E_k|
     std::vector<DerivativeLimit> limits;  // none of a signal without a formula
-    LimitError discretisation;           // of the exact sum
+    LimitError discretisation;            // of the exact sum
     // Of those that do not end with their window: of each length with a window, of each design without one.
     std::map<reference::Dropped, std::vector<reference::Sums>> of_windows;
     std::map<std::pair<reference::Dropped, std::string>, reference::Sums> of_designs;
@@ -53,8 +53,8 @@ struct Case {
             peak = std::max(peak, std::fabs(sum.high));
         }
         limits = derivative_limits(name, sweep.samples, order, weights);
-        discretisation = error_at(
-            limits, [&](const DerivativeLimit& at) { return exact.back()[at.sample].error_of(at.value); });
+        discretisation =
+            error_at(limits, [&](const DerivativeLimit& at) { return exact.back()[at.sample].error_of(at.value); });
     }
 
     /// The exact sums of what a kernel's design stands for.
@@ -138,15 +138,16 @@ std::vector<Kernel> kernels() {
 
 Json measure(const Case& test, const Kernel& kernel, const Length& length, const glsum::Design& design,
              const reference::Sums& same_length, double amplitude) {
-    std::string aspect = "accuracy/signal:" + test.signal;
+    RowKey key = row_key(kernel.name, test.order, length, RowKey::accuracy);
+    key.signal = test.signal;
     if (amplitude != 1.0) {
-        aspect += fmt::format("/amplitude:{}", amplitude);
+        key.amplitude = fmt::format("{}", amplitude);
     }
-    Json row = make_row(row_name(kernel.name, test.order, length, aspect), test.record.size());
+    Row row(key, test.record.size());
     const Run found = kernel.run(design, test.record, amplitude);
     if (found.status != glsum::Status::ok) {
-        mark_error(row, to_text(found.status));
-        return row;
+        row.mark_error(to_text(found.status));
+        return std::move(row).take();
     }
     const reference::Sums& full = test.exact.back();
     double largest = 0.0;
@@ -160,32 +161,33 @@ Json measure(const Case& test, const Kernel& kernel, const Length& length, const
     }
     const double rms = std::sqrt(squares / static_cast<double>(test.record.size()));
     if (!(test.peak > 0.0) || !std::isfinite(largest) || !std::isfinite(rms)) {
-        mark_error(row, "the sum or its reference is not a finite number above 0");
-        return row;
+        row.mark_error("the sum or its reference is not a finite number above 0");
+        return std::move(row).take();
     }
-    row["error_max"] = largest / test.peak;
-    row["error_rms"] = rms / test.peak;
-    row["rounding_error_max"] = rounding / test.peak;
-    row["truncation_error_max"] = largest_difference(same_length, full) / test.peak;
+    row.set(Counter::error_max, largest / test.peak);
+    row.set(Counter::error_rms, rms / test.peak);
+    row.set(Counter::rounding_error_max, rounding / test.peak);
+    row.set(Counter::truncation_error_max, largest_difference(same_length, full) / test.peak);
     if (!test.limits.empty()) {
-        row["discretisation_error_max"] = test.discretisation.largest / test.peak;
-        row["discretisation_error_late_max"] = test.discretisation.late / test.peak;
+        row.set(Counter::discretisation_error_max, test.discretisation.largest / test.peak);
+        row.set(Counter::discretisation_error_late_max, test.discretisation.late / test.peak);
         const LimitError error =
             error_at(test.limits, [&](const DerivativeLimit& at) { return found.sums[at.sample] - at.value; });
-        row["derivative_error_max"] = error.largest / test.peak;
-        row["derivative_error_late_max"] = error.late / test.peak;
+        row.set(Counter::derivative_error_max, error.largest / test.peak);
+        row.set(Counter::derivative_error_late_max, error.late / test.peak);
     }
     if (found.saturations) {
-        row["saturations"] = *found.saturations;
+        row.set(Counter::saturations, *found.saturations);
     }
     if (length.window()) {
-        row["effective_taps"] = found.effective_taps;
+        row.set(Counter::effective_taps, found.effective_taps);
     }
-    row["horizon_samples"] = length.modes ? test.record.size() : std::min(glsum::reach_of(design), test.record.size());
-    row["macs_per_sample"] = found.macs;
-    row["coefficient_bytes"] = found.coefficient_bytes;
-    row["state_bytes"] = found.state_bytes;
-    return row;
+    row.set(Counter::horizon_samples,
+            length.modes ? test.record.size() : std::min(glsum::reach_of(design), test.record.size()));
+    row.set(Counter::macs_per_sample, found.macs);
+    row.set(Counter::coefficient_bytes, found.coefficient_bytes);
+    row.set(Counter::state_bytes, found.state_bytes);
+    return std::move(row).take();
 }
 
 }  // namespace

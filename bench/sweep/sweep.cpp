@@ -29,8 +29,13 @@ std::optional<Length> parse_length(const std::string& text, std::size_t samples)
     return Length{taps + 2 * modes, false, modes};
 }
 
-std::string row_name(const std::string& kernel, double order, const Length& length, const std::string& aspect) {
-    return fmt::format("gl/{}/order:{}/taps:{}/{}", kernel, order, length.text(), aspect);
+RowKey row_key(const std::string& kernel, double order, const Length& length, std::string_view aspect) {
+    RowKey key;
+    key.kernel = kernel;
+    key.order = fmt::format("{}", order);
+    key.taps = length.text();
+    key.aspect = aspect;
+    return key;
 }
 
 }  // namespace bench

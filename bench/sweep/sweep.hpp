@@ -7,8 +7,10 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "bench/rows/key.hpp"
 #include "bench/sweep/discretisation.hpp"
 #include "glsum/kernel.hpp"
 
@@ -35,9 +37,6 @@ struct Length {
 /// The length that `text` writes; `full` is that of a record of `samples`. Empty for what is none: of 1 to 1 000 000
 /// taps, before a plus at least one.
 [[nodiscard]] std::optional<Length> parse_length(const std::string& text, std::size_t samples);
-
-/// In place of a core's name: no timing model, only what the emulator counts.
-inline constexpr const char* count_only = "count";
 
 struct Sweep {
     std::vector<std::string> kernels;  ///< in the registry's order; may hold `null`
@@ -68,8 +67,7 @@ struct Sweep {
     }
 };
 
-/// "gl/<kernel>/order:<v>/taps:<L>/<aspect>"; the order in its shortest round-trip form.
-[[nodiscard]] std::string row_name(const std::string& kernel, double order, const Length& length,
-                                   const std::string& aspect);
+/// Of a sum's row; the order in its shortest round-trip form.
+[[nodiscard]] RowKey row_key(const std::string& kernel, double order, const Length& length, std::string_view aspect);
 
 }  // namespace bench

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "base/parallel.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/sweep/signals.hpp"
 #include "glsum/weights.hpp"
 
@@ -39,7 +39,7 @@ std::vector<Case> cases_of(const std::vector<Json>& rows) {
     std::map<std::string, Case> by_key;
     for (const Json& row : rows) {
         const auto key = parse_key(row.value("name", ""));
-        if (!key || key->aspect != "accuracy" || !key->amplitude.empty() ||
+        if (!key || !key->is_accuracy() || !key->amplitude.empty() ||
             std::find(std::begin(signal_names), std::end(signal_names), key->signal) == std::end(signal_names)) {
             continue;
         }

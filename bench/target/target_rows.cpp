@@ -44,49 +44,66 @@ std::vector<Compared<Outcome>> run_in_shares(const std::vector<qemu::PlannedRow>
 // The row of one of the sweep's cores. \param clock_hz  of a modelled one
 Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::MeasuredRow& measured, const std::string& core,
              const qemu::ModelledCall* modelled, double clock_hz) {
-    const std::string software =
-        row.software_double ? "; double precision in software, where the count depends on the data" : "";
-    Json json = make_row(row_name(row.kernel, row.order, row.length, "m7:" + core), 32);
-    json["label"] = fmt::format("{}; counted at order {}{}",
-                                modelled != nullptr ? "modelled cycles" : "instructions only", counted_at, software);
+    Row made(row_key(row.kernel, row.order, row.length, on_target(core)), 32);
+    made.set_text("label",
+                  label_of(modelled != nullptr, fmt::format("; counted at order {}", counted_at), row.software_double));
     if (measured.status != glsum::Status::ok) {
-        mark_error(json, to_text(measured.status));
-        return json;
+        made.mark_error(to_text(measured.status));
+        return std::move(made).take();
     }
-    json["instructions_per_sample"] = measured.instructions;
-    json["loads_per_sample"] = measured.loads;
-    json["stores_per_sample"] = measured.stores;
-    json["branches_per_sample"] = measured.branches;
-    json["first_instructions"] = measured.first.instructions;
-    json["worst_instructions"] = measured.worst_instructions;
+    add_instructions(made, measured);
     if (modelled != nullptr) {
-        add_modelled(json, *modelled, clock_hz);
+        add_modelled(made, *modelled, clock_hz);
     }
-    json["code_bytes"] = measured.code_bytes;
-    json["stack_bytes"] = measured.stack_bytes;
-    json["state_bytes"] = measured.state_bytes;
-    json["coefficient_bytes"] = measured.coefficient_bytes;
-    if (modelled != nullptr && !measured.unknown_encodings.empty()) {
-        mark_error(json, fmt::format("the timing model does not know {} encodings, the first at {:#010x}",
-                                     measured.unknown_encodings.size(), measured.unknown_encodings.front()));
+    add_bytes(made, measured);
+    if (modelled != nullptr) {
+        mark_unknown_encodings(made, measured);
     }
-    return json;
+    return std::move(made).take();
 }
 
 }  // namespace
 
-void add_modelled(Json& row, const qemu::ModelledCall& call, double clock_hz) {
-    row["real_time"] = row["cpu_time"] = call.cycles / clock_hz * 1e9;
-    row["model_cycles_per_sample"] = call.cycles;
-    row["model_cycles_low"] = call.low;
-    row["model_cycles_high"] = call.high;
-    row["first_model_cycles"] = call.first_cycles;
-    row["worst_model_cycles"] = call.worst_cycles;
-    row["latency_model_cycles"] = call.latency_cycles;
+std::string label_of(bool modelled, const std::string& more, bool software_double) {
+    return fmt::format("{}{}{}", modelled ? "modelled cycles" : "instructions only", more,
+                       software_double ? "; double precision in software, where the count depends on the data" : "");
+}
+
+void add_instructions(Row& row, const qemu::MeasuredRow& counted) {
+    row.set(Counter::instructions_per_sample, counted.instructions);
+    row.set(Counter::loads_per_sample, counted.loads);
+    row.set(Counter::stores_per_sample, counted.stores);
+    row.set(Counter::branches_per_sample, counted.branches);
+    row.set(Counter::first_instructions, counted.first.instructions);
+    row.set(Counter::worst_instructions, counted.worst_instructions);
+}
+
+void add_modelled(Row& row, const qemu::ModelledCall& call, double clock_hz) {
+    row.set_time(call.cycles / clock_hz * 1e9);
+    row.set(Counter::model_cycles_per_sample, call.cycles);
+    row.set(Counter::model_cycles_low, call.low);
+    row.set(Counter::model_cycles_high, call.high);
+    row.set(Counter::first_model_cycles, call.first_cycles);
+    row.set(Counter::worst_model_cycles, call.worst_cycles);
+    row.set(Counter::latency_model_cycles, call.latency_cycles);
     for (std::size_t e = 0; e < timing::effect_count; ++e) {
-        row[fmt::format("stall_{}", timing::effect_names[e])] = call.lost[e];
+        row.set(CounterFamily::stall, timing::effect_names[e], call.lost[e]);
     }
-    row[fmt::format("stall_{}", timing::double_in_software)] = call.double_in_software;
+    row.set(CounterFamily::stall, timing::double_in_software, call.double_in_software);
+}
+
+void add_bytes(Row& row, const qemu::MeasuredRow& counted) {
+    row.set(Counter::code_bytes, counted.code_bytes);
+    row.set(Counter::stack_bytes, counted.stack_bytes);
+    row.set(Counter::state_bytes, counted.state_bytes);
+    row.set(Counter::coefficient_bytes, counted.coefficient_bytes);
+}
+
+void mark_unknown_encodings(Row& row, const qemu::MeasuredRow& counted) {
+    if (!counted.unknown_encodings.empty()) {
+        row.mark_error(fmt::format("the timing model does not know {} encodings, the first at {:#010x}",
+                                   counted.unknown_encodings.size(), counted.unknown_encodings.front()));
+    }
 }
 
 std::vector<double> clocks_of(const timing::TimingRequest& request) {
@@ -167,7 +184,7 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
                 to_json(row, plan.counts[row.count].order, measured, core, call, counted ? 1.0 : clocks[modelled]));
             modelled += counted ? 0 : 1;
             if (!same_bits[i]) {
-                mark_error(rows.back(), "the target's outputs differ from the host's");
+                mark_error(rows.back(), other_bits);
             }
         }
     }

@@ -20,8 +20,20 @@ struct Counted {
 [[nodiscard]] timing::TimingRequest timing_request(const std::filesystem::path& folder,
                                                    const std::vector<std::string>& cores);
 
+/// What a target's row is: modelled or counted alone, `more` that is to be said, and where double is in software.
+[[nodiscard]] std::string label_of(bool modelled, const std::string& more, bool software_double);
+
+/// Instructions, loads, stores and branches of a counted row.
+void add_instructions(Row& row, const qemu::MeasuredRow& counted);
 /// The counters of a modelled call, its time in ns at the core's clock.
-void add_modelled(Json& row, const qemu::ModelledCall& call, double clock_hz);
+void add_modelled(Row& row, const qemu::ModelledCall& call, double clock_hz);
+/// Code, stack, state and coefficients.
+void add_bytes(Row& row, const qemu::MeasuredRow& counted);
+/// Marks a modelled row where the timing model does not know an encoding.
+void mark_unknown_encodings(Row& row, const qemu::MeasuredRow& counted);
+
+/// What marks a row whose outputs are not the host's.
+inline constexpr const char* other_bits = "the target's outputs differ from the host's";
 
 /// The clock of each core of a request, in Hz.
 [[nodiscard]] std::vector<double> clocks_of(const timing::TimingRequest& request);

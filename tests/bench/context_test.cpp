@@ -98,8 +98,9 @@ TEST(TargetRows, HoldTheModelsFigures) {
     for (std::size_t e = 0; e < timing::effect_count; ++e) {
         call.lost[e] = 1.0 + static_cast<double>(e);
     }
-    bench::Json row;
-    bench::add_modelled(row, call, 200e6);
+    bench::Row made{bench::Json()};
+    bench::add_modelled(made, call, 200e6);
+    const bench::Json row = std::move(made).take();
     EXPECT_DOUBLE_EQ(row.at("real_time").get<double>(), 1500.0);  // ns, of 5 each
     EXPECT_EQ(row.at("cpu_time"), row.at("real_time"));
     EXPECT_EQ(row.at("model_cycles_per_sample"), 300.0);
@@ -113,6 +114,9 @@ TEST(TargetRows, HoldTheModelsFigures) {
         EXPECT_EQ(row.at("stall_" + std::string(timing::effect_names[e])), 1.0 + static_cast<double>(e));
     }
     EXPECT_EQ(row.size(), 9U + timing::effect_count);
+    for (const auto& [field, value] : row.items()) {
+        EXPECT_NE(bench::find_counter(field), nullptr) << field;
+    }
 }
 
 TEST(TargetRows, AskForTheCoresByName) {

@@ -12,7 +12,7 @@
 #include "bench/gate/rules.hpp"
 #include "bench/report/difference.hpp"
 #include "bench/report/page.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/csv.hpp"
 #include "bench/studies/equal_cost.hpp"
 #include "bench/sweep/accuracy.hpp"
 #include "bench/sweep/sweep.hpp"

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/sweep/accuracy.hpp"
 #include "bench/sweep/signals.hpp"
 #include "bench/sweep/truncation_bound.hpp"
@@ -33,7 +33,7 @@ TEST(Lengths, AreReadAsTheyAreWritten) {
         const auto length = bench::parse_length(text, 1000);
         ASSERT_TRUE(length) << text;
         EXPECT_EQ(length->text(), text);
-        EXPECT_TRUE(bench::parse_key(bench::row_name("modes_plain_f32", 0.5, *length, "host"))) << text;
+        EXPECT_TRUE(bench::parse_key(to_name(bench::row_key("modes_plain_f32", 0.5, *length, "host")))) << text;
     }
     EXPECT_EQ(bench::parse_length("2+7", 1000)->taps, 16U);
     EXPECT_EQ(bench::parse_length("2+7", 1000)->modes, 7U);

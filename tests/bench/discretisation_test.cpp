@@ -12,7 +12,7 @@
 
 #include "bench/host/host_timing.hpp"
 #include "bench/report/discretisation_table.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/sweep/accuracy.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"

@@ -100,7 +100,7 @@ TEST(HostTiming, OfASweepEachCaseOnceAtItsFirstOrder) {
         for (const double order : sweep.orders) {
             for (const bench::Length& length : bench::lengths_of(sweep, kernel, order)) {
                 if (seen.insert(length.text()).second) {
-                    expected.insert(bench::row_name(kernel, order, length, "host"));
+                    expected.insert(to_name(bench::row_key(kernel, order, length, "host")));
                 }
             }
         }

@@ -8,7 +8,6 @@
 #include <fstream>
 
 #include "base/failure.hpp"
-#include "bench/rows/results.hpp"
 
 namespace {
 

@@ -1,5 +1,5 @@
 // Reading rows, and which of them are ranked.
-#include "bench/rows/results.hpp"
+#include "bench/rows/groups.hpp"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "bench/report/table.hpp"
+#include "bench/rows/csv.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/sweep/sweep.hpp"
 
 namespace {
@@ -38,10 +40,10 @@ const bench::Entry& entry(const std::vector<bench::Group>& groups, const std::st
 }
 
 TEST(Results, NamesAreShortestRoundTripAndReadBack) {
-    EXPECT_EQ(bench::row_name("ring_plain_f32", 0.98319, {600}, "host"),
+    EXPECT_EQ(to_name(bench::row_key("ring_plain_f32", 0.98319, {600}, "host")),
               "gl/ring_plain_f32/order:0.98319/taps:600/host");
-    EXPECT_EQ(bench::row_name("null", -0.5, {1000, true}, "m7:count"), "gl/null/order:-0.5/taps:full/m7:count");
-    EXPECT_EQ(bench::row_name("null", 1.0, {1}, "host"), "gl/null/order:1/taps:1/host");
+    EXPECT_EQ(to_name(bench::row_key("null", -0.5, {1000, true}, "m7:count")), "gl/null/order:-0.5/taps:full/m7:count");
+    EXPECT_EQ(to_name(bench::row_key("null", 1.0, {1}, "host")), "gl/null/order:1/taps:1/host");
     const auto key = bench::parse_key("gl/ring_plain_f32/order:0.5/taps:2+7/accuracy/signal:sine5");
     ASSERT_TRUE(key);
     EXPECT_EQ(key->kernel, "ring_plain_f32");
@@ -61,6 +63,37 @@ TEST(Results, NamesAreShortestRoundTripAndReadBack) {
                              "gl/a/order:1/taps:50/accuracy/signal:a b", "gl//order:1/taps:50/host"}) {
         EXPECT_FALSE(bench::parse_key(name)) << name;
     }
+}
+
+// Of every kind a name is put together as it was taken apart, and has a place of its own for each part.
+TEST(Results, EveryKindOfNameIsReadAsItIsWritten) {
+    for (const char* name :
+         {"gl/ring_plain_f32/order:0.5/taps:2+7/accuracy/signal:sine5/amplitude:0.0625",
+          "gl/ring_plain_f32/order:-0.5/taps:full/m7:stm32f746-itcm", "gl/null/order:1/taps:1/host",
+          "gl/a/order:1/taps:50/accuracy/amplitude:0.5", "drive/niopdt/ringdelta_plain_f32/taps:2+7/m7:count",
+          "record/peer_fftw_f64/order:0.5/samples:1000/host", "horizon/nested/order:0.5/error:1e-06/samples:600",
+          "filter/oustaloup_f64/order:0.5/poles:7/accuracy/signal:step"}) {
+        const auto key = bench::parse_any_key(name);
+        ASSERT_TRUE(key) << name;
+        EXPECT_EQ(to_name(*key), name);
+        EXPECT_EQ(bench::parse_key(name).has_value(), key->kind == bench::RowKind::sum) << name;
+    }
+    const auto model = bench::parse_any_key("drive/niopdt/ringdelta_plain_f32/taps:2+7/m7:count").value();
+    EXPECT_EQ(model.model, "niopdt");
+    EXPECT_EQ(model.kernel, "ringdelta_plain_f32");
+    EXPECT_TRUE(model.is_target());
+    EXPECT_EQ(model.core(), bench::count_only);
+    const auto filter = bench::parse_any_key("filter/oustaloup_f64/order:0.5/poles:7/accuracy/signal:step").value();
+    EXPECT_EQ(filter.poles, "7");
+    EXPECT_EQ(filter.signal, "step");
+    EXPECT_TRUE(filter.is_accuracy());
+    for (const char* name : {"filter/oustaloup_f64/order:0.5/poles:7/accuracy", "drive/a/b/taps:x/host",
+                             "drive/a/taps:50/host", "horizon/nested/order:0.5/error:1e-06/samples:600/host", "gl", "",
+                             "gl/", "other/a/order:1", "record/a/order:0.5/samples:/host"}) {
+        EXPECT_FALSE(bench::parse_any_key(name)) << name;
+    }
+    EXPECT_EQ(subject_of(*bench::parse_key("gl/a/order:1/taps:50/accuracy/signal:step")), "gl/a/order:1/taps:50");
+    EXPECT_EQ(bench::rows_of("a"), "gl/a/*");
 }
 
 TEST(Results, CellsOfACsvAreQuotedWhereTheyMustBe) {

@@ -10,7 +10,7 @@
 #include "bench/choose/brute_force.hpp"
 #include "bench/choose/earlier.hpp"
 #include "bench/choose/question.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/sweep/accuracy.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"

@@ -1,7 +1,7 @@
 // A result file from anywhere: read, grouped, and shown as a table and as CSV.
-#include "bench/rows/results.hpp"
-
 #include "bench/report/table.hpp"
+#include "bench/rows/csv.hpp"
+#include "bench/rows/groups.hpp"
 #include "bench/rows/result_file.hpp"
 #include "tests/fuzz/refused.hpp"
 

@@ -16,7 +16,7 @@
 #include "base/files.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/page.hpp"
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 #include "tests/report/browser.hpp"
 #include "tests/report/pretend_results.hpp"
 
@@ -115,7 +115,7 @@ protected:
                         const std::string& counter) {
         double largest = 0.0;
         for (const bench::Json& row : input.results.rows) {
-            const auto key = bench::parse_key(row["name"]);
+            const auto key = bench::parse_key(row["name"].get<std::string>());
             if (key->kernel == kernel && key->order == order && key->taps == taps && key->aspect == "accuracy") {
                 largest = std::max(largest, row[counter].get<double>());
             }

@@ -36,9 +36,9 @@ bench::Results pretend_results(std::size_t rows, std::uint64_t seed) {
                         const auto at = static_cast<double>(taps);
                         const double truncation = std::pow(at, -1.0 - order);
                         for (const std::string_view signal : bench::signal_names) {
-                            auto& row = results.rows.emplace_back(bench::make_row(
-                                bench::row_name(kernel, order, length, fmt::format("accuracy/signal:{}", signal)),
-                                5000));
+                            bench::RowKey key = bench::row_key(kernel, order, length, bench::RowKey::accuracy);
+                            key.signal = signal;
+                            auto& row = results.rows.emplace_back(bench::make_row(to_name(key), 5000));
                             row["rounding_error_max"] = 1e-6 * noise(random);
                             row["truncation_error_max"] = truncation * noise(random);
                             row["error_max"] = truncation * noise(random) + 1e-6;
@@ -49,7 +49,7 @@ bench::Results pretend_results(std::size_t rows, std::uint64_t seed) {
                             row["state_bytes"] = 4 * taps + 24;
                         }
                         auto& counted = results.rows.emplace_back(
-                            bench::make_row(bench::row_name(kernel, order, length, "m7:pretend"), 32));
+                            bench::make_row(to_name(bench::row_key(kernel, order, length, "m7:pretend")), 32));
                         const double instructions = std::round(5.0 * at * noise(random));
                         const double load_use = at;
                         const double fpu_latency = std::round(2.0 * at * noise(random));
@@ -69,7 +69,7 @@ bench::Results pretend_results(std::size_t rows, std::uint64_t seed) {
         }
         for (const char* format : formats) {
             auto& timed = results.rows.emplace_back(bench::make_row(
-                bench::row_name(fmt::format("ring_plain_{}", format), orders[0], length, "host"), 1000));
+                to_name(bench::row_key(fmt::format("ring_plain_{}", format), orders[0], length, "host")), 1000));
             timed["real_time"] = static_cast<double>(taps) * noise(random);
             timed["cycles_per_sample"] = timed["real_time"].get<double>() * 2.5;
         }

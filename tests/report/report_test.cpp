@@ -19,6 +19,8 @@
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
 #include "bench/report/front.hpp"
+#include "bench/rows/csv.hpp"
+#include "bench/rows/key.hpp"
 #include "tests/report/pretend_results.hpp"
 
 namespace {

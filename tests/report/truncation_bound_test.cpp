@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "bench/rows/results.hpp"
+#include "bench/rows/key.hpp"
 #include "bench/run/run.hpp"
 #include "bench/sweep/signals.hpp"
 
@@ -69,7 +69,7 @@ TEST_F(MeasuredTruncation, NeverExceedsTheBoundAndAStepReachesIt) {
     EXPECT_EQ(bounds.missing, "");
     std::size_t held = 0;
     for (const bench::Json& row : rows) {
-        const auto key = bench::parse_key(row["name"]);
+        const auto key = bench::parse_key(row["name"].get<std::string>());
         ASSERT_TRUE(key);
         if (key->taps == "full") {
             continue;

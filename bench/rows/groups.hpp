@@ -1,7 +1,6 @@
-// What can be read off the rows of a run.
+// What can be read off the rows of a run: what each kernel does at each order and length.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -10,30 +9,6 @@
 #include "bench/rows/row.hpp"
 
 namespace bench {
-
-/// The parts of "gl/<kernel>/order:<v>/taps:<L>/<aspect>[/signal:<s>[/amplitude:<a>]]".
-struct RowKey {
-    std::string kernel;
-    std::string order;
-    std::string taps;
-    std::string aspect;  ///< accuracy, host, m7:<core>
-    std::string signal;
-    std::string amplitude;  ///< empty: 1
-};
-/// Empty for another kind of row, and for one whose parts are not what ours are: words of letters and digits, numbers,
-/// lengths, and nothing more behind them.
-[[nodiscard]] std::optional<RowKey> parse_key(const std::string& name);
-
-/// A text as one field of a CSV line (RFC 4180): in quotes where it holds a comma, a quote or a line's end.
-[[nodiscard]] std::string csv_field(const std::string& text);
-
-/// One line a row; the columns are the parts of the name and every counter that occurs (RFC 4180).
-[[nodiscard]] std::string to_csv(const std::vector<Json>& rows);
-void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
-
-/// The length of "<near>[+<modes>]": how many terms its sum has. Nothing for `full`, whose length the name does not
-/// tell, and for what is no length.
-[[nodiscard]] std::optional<double> taps_number(const std::string& taps);
 
 /// Modelled cycles per sample, with the band over the rule sets that fit silicon equally.
 struct ModelCycles {

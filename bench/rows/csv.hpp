@@ -1,0 +1,19 @@
+// Rows as CSV (RFC 4180).
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "bench/rows/row.hpp"
+
+namespace bench {
+
+/// A text as one field of a line: in quotes where it holds a comma, a quote or a line's end.
+[[nodiscard]] std::string csv_field(const std::string& text);
+
+/// One line a row; the columns are the parts of the name and every counter that occurs.
+[[nodiscard]] std::string to_csv(const std::vector<Json>& rows);
+void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
+
+}  // namespace bench

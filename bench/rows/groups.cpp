@@ -1,0 +1,135 @@
+#include "bench/rows/groups.hpp"
+
+#include <algorithm>
+#include <unordered_map>
+
+#include "bench/rows/key.hpp"
+#include "glsum/catalogue.hpp"
+
+namespace bench {
+namespace {
+
+void keep_larger(std::optional<double>& kept, std::optional<double> value) {
+    kept = !kept || (value && *value > *kept) ? value : kept;
+}
+
+// The rows of one length by kernel: one a repetition.
+using Repetitions = std::map<std::string, std::vector<const Json*>>;
+
+// Of the repetitions that count; empty without any.
+std::optional<double> median(const std::vector<const Json*>& repetitions, Counter counter) {
+    std::vector<double> values;
+    for (const Json* row : repetitions) {
+        if (const auto value = value_of(*row, counter); value && !is_wrong(*row)) {
+            values.push_back(*value);
+        }
+    }
+    if (values.empty()) {
+        return std::nullopt;
+    }
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+}
+
+void add_row(Entry& entry, const RowKey& key, const Json& row) {
+    if (is_wrong(row)) {
+        entry.fault = key.aspect + ": " + row.value("error_message", "wrong");
+        return;
+    }
+    if (key.is_accuracy()) {
+        keep_larger(entry.error_max, value_of(row, Counter::error_max));
+        keep_larger(entry.rounding_error_max, value_of(row, Counter::rounding_error_max));
+        keep_larger(entry.truncation_error_max, value_of(row, Counter::truncation_error_max));
+        keep_larger(entry.effective_taps, value_of(row, Counter::effective_taps));
+    } else if (key.is_target()) {
+        entry.target_instructions = value_of(row, Counter::instructions_per_sample);
+        entry.target_worst = value_of(row, Counter::worst_instructions);
+        if (const auto cycles = value_of(row, Counter::model_cycles_per_sample)) {
+            entry.model_cycles[key.core()] = {*cycles, value_of(row, Counter::model_cycles_low),
+                                              value_of(row, Counter::model_cycles_high)};
+        }
+        const glsum::CatalogueEntry* facts = glsum::find_kernel(entry.kernel);
+        entry.software_double = facts != nullptr && facts->in_double;
+    }
+    const auto state = value_of(row, Counter::state_bytes);
+    const auto coefficients = value_of(row, Counter::coefficient_bytes);
+    if (state && coefficients && (key.is_target() || !entry.target_instructions)) {
+        entry.bytes = *state + *coefficients;
+    }
+}
+
+// Modelled cycles where there are any, of the first core by name.
+std::optional<double> target_cost(const Entry& entry) {
+    return entry.model_cycles.empty() ? entry.target_instructions
+                                      : std::optional(entry.model_cycles.begin()->second.median);
+}
+
+// \param cost  of an entry, if it has one
+template <class CostOf>
+void mark_front(Group& group, CostOf cost, bool Entry::*front) {
+    constexpr double same_error = 1.01;
+    for (Entry& entry : group.entries) {
+        const auto rankable = [&](const Entry& e) { return e.fault.empty() && e.error_max && cost(e); };
+        entry.*front =
+            rankable(entry) && std::none_of(group.entries.begin(), group.entries.end(), [&](const Entry& other) {
+                return rankable(other) && *cost(other) < *cost(entry) &&
+                       *other.error_max <= *entry.error_max * same_error;
+            });
+    }
+}
+
+}  // namespace
+
+std::vector<Group> group(const std::vector<Json>& rows) {
+    std::vector<Group> groups;
+    std::unordered_map<std::string, std::size_t> group_at;  // by order and length
+    std::unordered_map<std::string, std::size_t> entry_at;  // by those and kernel
+    const auto group_of = [&](const RowKey& key) -> Group& {
+        const auto [found, is_new] = group_at.try_emplace(key.order + '/' + key.taps, groups.size());
+        if (is_new) {
+            groups.push_back({key.order, key.taps, {}});
+        }
+        return groups[found->second];
+    };
+    const auto entry_of = [&](Group& group, const std::string& kernel) -> Entry& {
+        const auto [found, is_new] =
+            entry_at.try_emplace(group.order + '/' + group.taps + '/' + kernel, group.entries.size());
+        if (is_new) {
+            group.entries.emplace_back().kernel = kernel;
+        }
+        return group.entries[found->second];
+    };
+    std::unordered_map<std::string, Repetitions> host;  // by length: one order serves all
+    for (const Json& row : rows) {
+        const auto key = parse_key(row.value("name", ""));
+        // The amplitude sweep is another question: tables and fronts are of full scale.
+        if (!key || !key->amplitude.empty() || row.value("run_type", "iteration") != "iteration") {
+            continue;
+        }
+        if (key->is_host()) {
+            host[key->taps][key->kernel].push_back(&row);
+            (void)group_of(*key);
+        } else {
+            add_row(entry_of(group_of(*key), key->kernel), *key, row);
+        }
+    }
+    RowKey host_key;
+    host_key.aspect = RowKey::host;
+    for (Group& group : groups) {
+        for (const auto& [kernel, repetitions] : host[group.taps]) {
+            Entry& entry = entry_of(group, kernel);
+            for (const Json* row : repetitions) {
+                add_row(entry, host_key, *row);
+            }
+            entry.host_ns = median(repetitions, Counter::real_time);
+            entry.host_cycles = median(repetitions, Counter::cycles_per_sample);
+        }
+        mark_front(
+            group, [](const Entry& entry) { return entry.host_ns; }, &Entry::host_front);
+        mark_front(group, target_cost, &Entry::target_front);
+    }
+    return groups;
+}
+
+}  // namespace bench
