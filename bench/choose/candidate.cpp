@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "bench/rows/front.hpp"
 #include "bench/sweep/designs.hpp"
 
 namespace choose {
@@ -12,8 +13,10 @@ bool fits(const Candidate& candidate, const Limits& limits) {
 }
 
 bool dominates(const Candidate& a, const Candidate& b) {
-    return a.error.error <= b.error.error && a.cost.value <= b.cost.value && a.cost.bytes <= b.cost.bytes &&
-           (a.error.error < b.error.error || a.cost.value < b.cost.value || a.cost.bytes < b.cost.bytes);
+    const auto point = [](const Candidate& one) {
+        return bench::Point{one.cost.value, one.error.error, one.cost.bytes};
+    };
+    return bench::dominates(point(a), point(b));
 }
 
 bool better(const Candidate& a, const Candidate& b) {

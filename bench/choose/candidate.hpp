@@ -28,7 +28,7 @@ struct Candidate {
 
 [[nodiscard]] inline bool within(const std::optional<double>& limit, double value) { return !limit || value <= *limit; }
 [[nodiscard]] bool fits(const Candidate& candidate, const Limits& limits);
-/// Whether `a` is at least as good in all three of error, cost and bytes, and better in one.
+/// Whether `a` makes `b` not worth its cost (bench/rows/front.hpp), bytes included.
 [[nodiscard]] bool dominates(const Candidate& a, const Candidate& b);
 /// Whether `a` is to be preferred: cheaper, then smaller, then more accurate.
 [[nodiscard]] bool better(const Candidate& a, const Candidate& b);

@@ -7,8 +7,8 @@
 #include <set>
 
 #include "base/files.hpp"
-#include "bench/report/front.hpp"
 #include "bench/rows/csv.hpp"
+#include "bench/rows/front.hpp"
 
 namespace bench::report {
 

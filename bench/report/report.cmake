@@ -16,7 +16,7 @@ glsum_unite(glsum_shown)
 target_precompile_headers(glsum_shown REUSE_FROM glsum_results)
 
 add_library(glsum_report STATIC report/best.cpp report/classic.cpp report/columns.cpp report/cost_plot.cpp
-    report/curves.cpp report/difference.cpp report/front.cpp report/gain_plot.cpp report/page.cpp report/report.cpp ${parts})
+    report/curves.cpp report/difference.cpp report/gain_plot.cpp report/page.cpp report/report.cpp ${parts})
 target_link_libraries(glsum_report PUBLIC glsum_shown PRIVATE fmt::fmt glsum_warnings)
 target_compile_options(glsum_report PRIVATE ${GLSUM_COLD})
 glsum_unite(glsum_report APART report/gain_plot.cpp)

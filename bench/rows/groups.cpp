@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <unordered_map>
 
+#include "bench/rows/front.hpp"
 #include "bench/rows/key.hpp"
 #include "glsum/catalogue.hpp"
 
@@ -68,14 +69,17 @@ std::optional<double> target_cost(const Entry& entry) {
 // \param cost  of an entry, if it has one
 template <class CostOf>
 void mark_front(Group& group, CostOf cost, bool Entry::*front) {
-    constexpr double same_error = 1.01;
+    std::vector<Entry*> ranked;
+    std::vector<Point> points;
     for (Entry& entry : group.entries) {
-        const auto rankable = [&](const Entry& e) { return e.fault.empty() && e.error_max && cost(e); };
-        entry.*front =
-            rankable(entry) && std::none_of(group.entries.begin(), group.entries.end(), [&](const Entry& other) {
-                return rankable(other) && *cost(other) < *cost(entry) &&
-                       *other.error_max <= *entry.error_max * same_error;
-            });
+        if (entry.fault.empty() && entry.error_max && cost(entry)) {
+            ranked.push_back(&entry);
+            points.push_back({*cost(entry), *entry.error_max});
+        }
+    }
+    const std::vector<bool> on = on_front(points);
+    for (std::size_t i = 0; i < ranked.size(); ++i) {
+        ranked[i]->*front = on[i];
     }
 }
 

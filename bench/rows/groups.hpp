@@ -45,8 +45,8 @@ struct Group {
 
 /// Groups by order and length, in the order of their appearance. Host timings, taken at one order, serve all;
 /// of repetitions the median counts.
-/// `host_front`, `target_front`: no other kernel of the group costs less (nanoseconds; instructions) at an error that
-/// is at most 1 % larger, which counts as the same.
+/// `host_front`, `target_front`: of the group nothing dominates it (front.hpp) by the host's time, or by the target's
+/// modelled cycles or else its instructions.
 [[nodiscard]] std::vector<Group> group(const std::vector<Json>& rows);
 
 }  // namespace bench

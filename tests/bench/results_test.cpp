@@ -346,6 +346,13 @@ TEST(Results, WithinOnePercentItIsTheSameError) {
         bench::group({accuracy("a", 1e-6), timing("a", "host", 5), accuracy("b", 1e-6), timing("b", "host", 5)});
     EXPECT_TRUE(entry(same, "a").host_front);
     EXPECT_TRUE(entry(same, "b").host_front);
+    // Of equal costs the more accurate one does, where that is more than one percent.
+    for (const auto& [factor, beaten] : {std::pair(1.009, false), std::pair(1.011, true)}) {
+        const auto groups = bench::group({accuracy("better", 1e-6), timing("better", "host", 5),
+                                          accuracy("worse", factor * 1e-6), timing("worse", "host", 5)});
+        EXPECT_EQ(entry(groups, "worse").host_front, !beaten) << factor;
+        EXPECT_TRUE(entry(groups, "better").host_front);
+    }
 }
 
 // A column for each field but the bookkeeping, in the order in which they are met; cells that a row lacks are empty.

@@ -366,6 +366,13 @@ TEST(Search, EachFateHasItsReason) {
                                                                           {"vague", {Fate::inaccurate, ""}}};
     EXPECT_EQ(fates, expected);
     EXPECT_EQ(few.choose({0.1, 201.0, 61.0}).chosen->kernel, "too large");  // exactly at the limits
+    // Errors within one percent are the same: who errs less by that is dominated by who costs less.
+    for (const auto& [factor, expected_fate] : {std::pair(1.009, Fate::dominated), std::pair(1.011, Fate::dearer)}) {
+        const Candidate cheap{"cheap", 1, {factor * 1e-3, "step", {}}, cost_of(100.0, 50.0)};
+        const Candidate dear{"dear", 1, {1e-3, "step", {}}, cost_of(120.0, 50.0)};
+        EXPECT_EQ(choose::dominates(cheap, dear), expected_fate == Fate::dominated);
+        EXPECT_FALSE(choose::dominates(dear, cheap));
+    }
     // As good in each and better in none does not dominate.
     few.ones["beaten"] = few.ones["as good"] = few.ones["a"];
     for (const choose::Fared& fared : few.choose({0.1, 200.0, 60.0}).kernels) {

@@ -18,14 +18,16 @@
 #include "bench/report/columns.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
-#include "bench/report/front.hpp"
 #include "bench/rows/csv.hpp"
+#include "bench/rows/front.hpp"
 #include "bench/rows/key.hpp"
 #include "tests/report/pretend_results.hpp"
 
 namespace {
 
 using namespace bench::report;
+using bench::on_front;
+using bench::Point;
 
 TEST(Front, KeepsWhatNothingBeats) {
     const std::vector<Point> points = {{10, 1.0}, {20, 0.5}, {20, 0.6}, {30, 0.5}, {5, 2.0}, {40, 0.1}};
@@ -40,6 +42,16 @@ TEST(Front, AnErrorOfOnePercentMoreIsTheSame) {
 
 TEST(Front, EqualPointsDoNotBeatEachOther) {
     EXPECT_EQ(on_front(std::vector<Point>{{10, 1.0}, {10, 1.0}, {10, 2.0}}), (std::vector<bool>{true, true, false}));
+}
+
+TEST(Front, WhereBytesCountTheyMustNotBeMoreEither) {
+    using bench::dominates;
+    EXPECT_TRUE(dominates({10, 1.0, 50}, {12, 1.0, 50}));
+    EXPECT_TRUE(dominates({10, 1.0, 49}, {10, 1.0, 50}));
+    EXPECT_TRUE(dominates({10, 1.005, 50}, {12, 1.0, 50}));
+    EXPECT_FALSE(dominates({10, 1.0, 51}, {12, 1.0, 50}));
+    EXPECT_FALSE(dominates({10, 1.0, 50}, {10, 1.005, 50}));
+    EXPECT_FALSE(dominates({10, 1.0, 50}, {10, 1.0, 50}));
 }
 
 TEST(Columns, TextsAreIndicesIntoTheirDistinctValues) {

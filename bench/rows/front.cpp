@@ -1,18 +1,18 @@
-#include "bench/report/front.hpp"
+#include "bench/rows/front.hpp"
 
 #include <algorithm>
 
-namespace bench::report {
+namespace bench {
 namespace {
 
 constexpr double same_error = 1.01;
 
-bool dominates(const Point& one, const Point& other) {
-    return one.cost <= other.cost && one.error <= other.error * same_error &&
-           (one.cost < other.cost || one.error * same_error < other.error);
-}
-
 }  // namespace
+
+bool dominates(const Point& one, const Point& other) {
+    return one.cost <= other.cost && one.bytes <= other.bytes && one.error <= other.error * same_error &&
+           (one.cost < other.cost || one.bytes < other.bytes || one.error * same_error < other.error);
+}
 
 std::vector<bool> on_front(std::span<const Point> points) {
     std::vector<bool> on;
@@ -23,4 +23,4 @@ std::vector<bool> on_front(std::span<const Point> points) {
     return on;
 }
 
-}  // namespace bench::report
+}  // namespace bench
