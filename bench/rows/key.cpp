@@ -43,6 +43,7 @@ struct Part {
     bool may_lack = false;
 };
 
+namespace part {
 constexpr Part model{&RowKey::model, "", is_word};
 constexpr Part kernel{&RowKey::kernel, "", is_word};
 constexpr Part order{&RowKey::order, "order:", is_number};
@@ -54,12 +55,14 @@ constexpr Part aspect{&RowKey::aspect, "", is_aspect};
 constexpr Part signal{&RowKey::signal, "signal:", is_word};
 constexpr Part signal_if_any{&RowKey::signal, "signal:", is_word, true};
 constexpr Part amplitude_if_any{&RowKey::amplitude, "amplitude:", is_number, true};
+}  // namespace part
 
-constexpr Part parts_of_sum[] = {kernel, order, taps, aspect, signal_if_any, amplitude_if_any};
-constexpr Part parts_of_model[] = {model, kernel, taps, aspect};
-constexpr Part parts_of_record[] = {kernel, order, samples, aspect};
-constexpr Part parts_of_horizon[] = {kernel, order, error, samples};
-constexpr Part parts_of_filter[] = {kernel, order, poles, aspect, signal};
+constexpr Part parts_of_sum[] = {part::kernel, part::order,         part::taps,
+                                 part::aspect, part::signal_if_any, part::amplitude_if_any};
+constexpr Part parts_of_model[] = {part::model, part::kernel, part::taps, part::aspect};
+constexpr Part parts_of_record[] = {part::kernel, part::order, part::samples, part::aspect};
+constexpr Part parts_of_horizon[] = {part::kernel, part::order, part::error, part::samples};
+constexpr Part parts_of_filter[] = {part::kernel, part::order, part::poles, part::aspect, part::signal};
 
 struct Form {
     RowKind kind;
