@@ -73,10 +73,11 @@ bool has_tail(const drive::Model& model) {
 }
 
 // Full memory of long records, by blocks.
-std::string time_long_records(const drive::Model& model, const std::string& name, std::vector<Json>& rows) {
+std::string time_long_records(const drive::Model& model, const std::string& name,
+                              const std::vector<std::size_t>& records, std::vector<Json>& rows) {
     std::string text = "\nFull memory on this machine, one merged table in double, by blocks\n";
     std::vector<double> seconds;
-    for (const std::size_t samples : {model_response_steps, std::size_t{100'000}, std::size_t{1'000'000}}) {
+    for (const std::size_t samples : records) {
         const std::vector<double> input(samples + 1, 1.0);
         drive::Scheme scheme{.step_s = model_step_s, .increments = true};
         seconds.push_back(
@@ -95,7 +96,8 @@ std::string time_long_records(const drive::Model& model, const std::string& name
         row.set(Counter::ns_per_sample, ns);
         rows.push_back(std::move(row).take());
     }
-    return text + fmt::format("  t(10^6)/t(10^5) = {:.1f}\n", seconds[2] / seconds[1]);
+    return text + fmt::format("  t({})/t({}) = {:.1f}\n", records.back(), records[records.size() - 2],
+                              seconds.back() / seconds[seconds.size() - 2]);
 }
 
 // Of those asked for, a kernel's own; the usual ones where none were.
@@ -259,7 +261,7 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
         study.text += deadline_table(cases);
     }
     if (wants("host") && !wanted.quick) {
-        study.text += time_long_records(models["niopdt"], "niopdt", study.rows);
+        study.text += time_long_records(models["niopdt"], "niopdt", wanted.long_records, study.rows);
     }
     Sweep sweep;
     sweep.targets = wanted.targets;

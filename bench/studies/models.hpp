@@ -22,7 +22,9 @@ struct Models {
     ModelLengths lengths;                   ///< empty: the usual ones
     std::vector<std::string> targets{"host", "m7"};
     std::vector<std::string> cores;  ///< of the timing model; the first is what the table shows
-    bool quick = false;              ///< fewer lengths, and no records of an hour
+    bool quick = false;              ///< fewer lengths, and no long records
+    std::vector<std::size_t> long_records{model_response_steps, 100'000,
+                                          1'000'000};  ///< samples, by blocks; two or more, rising
     unsigned jobs = 1;
     std::filesystem::path models;           ///< the folder of fopdt.json, sopdt.json and niopdt.json
     std::filesystem::path core_files;       ///< the folder of those

@@ -14,6 +14,7 @@ struct Records {
     std::vector<double> orders{0.5, -0.5};                       ///< in (-2, 2]
     std::vector<std::string> signals{"step", "sine5", "noise"};  ///< that errors are the worst of
     unsigned repetitions = 9;                                    ///< interleaved turns, whose median is taken
+    double planning_s = 5.0;                                     ///< each way, of the peer that plans by timing
 };
 
 /// Rows `record/<how>/order:<v>/samples:<N>/host`, with processor time, ratios to the peer and `error_max`, relative to

@@ -72,7 +72,7 @@ sub code_of {
     return $code;
 }
 
-my $no_numbers = qr{^(?:bench/run/pieces|bench/report/plot|bench/studies/equal_cost_plot|base/gnuplot|bench/report/gain_plot|bench/report/cost_plot|drive/pictures)\.cpp$};
+my $no_numbers = qr{^(?:bench/run/pieces|bench/report/plot|bench/studies/equal_cost_plot|bench/studies/horizon_plot|base/gnuplot|bench/report/gain_plot|bench/report/cost_plot|drive/pictures)\.cpp$};
 my %places_of;
 for my $one (@areas) {
     my @files = grep { !m{/(README|engines|peers|plugin|m7|progress\.)} } split /\n/,

@@ -72,6 +72,7 @@ tests_of() {
         bench/generate/*) echo choose_tests make_headers ;;
         bench/report/table.* | bench/report/plot.* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
         bench/report/*) echo bench_tests browser_tests ;;
+        bench/studies/horizon* | bench/studies/model* | bench/studies/record*) echo studies_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
         drive/*) echo drive_tests ;;
         gap/cycles/*) echo gap_cycles_tests ;;

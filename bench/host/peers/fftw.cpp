@@ -10,7 +10,6 @@ namespace bench {
 namespace {
 
 constexpr std::size_t longest = std::size_t{1} << 30;
-constexpr double longest_planning_s = 5.0;
 
 struct Release {
     void operator()(double* data) const { fftw_free(data); }
@@ -47,7 +46,7 @@ struct FftwConvolution::Parts {
     fftw_plan back = nullptr;
 };
 
-FftwConvolution::FftwConvolution(std::size_t samples, std::size_t length, Planning planning)
+FftwConvolution::FftwConvolution(std::size_t samples, std::size_t length, Planning planning, double longest_s)
     : samples_(samples), length_(length) {
     if (samples == 0 || length < samples || length > longest) {
         throw std::invalid_argument("expected a transform of at least as many as there are samples, at most 2^30");
@@ -55,7 +54,7 @@ FftwConvolution::FftwConvolution(std::size_t samples, std::size_t length, Planni
     parts_ = std::make_unique<Parts>(length);
     const unsigned flag = planning == Planning::measure ? FFTW_MEASURE : FFTW_ESTIMATE;
     const auto count = static_cast<int>(length);
-    fftw_set_timelimit(longest_planning_s);
+    fftw_set_timelimit(longest_s);
     parts_->forward = fftw_plan_dft_r2c_1d(count, parts_->one.get(), spectrum(parts_->one), flag);
     parts_->back = fftw_plan_dft_c2r_1d(count, spectrum(parts_->one), parts_->one.get(), flag);
     fftw_set_timelimit(FFTW_NO_TIMELIMIT);

@@ -13,13 +13,14 @@ class FftwConvolution {
 public:
     enum class Planning {
         estimate,  ///< by FFTW's rules of thumb, without timing
-        measure    ///< by timing, for 5 s at most each way
+        measure    ///< by timing
     };
 
     /// Plans. \param length  of the transforms; at least `samples`, and twice that less one for sums without what comes
     /// round from the end
+    /// \param longest_s  seconds that timing may take each way, above 0
     /// \throws std::invalid_argument where the length does not suffice, or is beyond 2^30
-    FftwConvolution(std::size_t samples, std::size_t length, Planning planning);
+    FftwConvolution(std::size_t samples, std::size_t length, Planning planning, double longest_s);
     FftwConvolution(const FftwConvolution&) = delete;
     FftwConvolution& operator=(const FftwConvolution&) = delete;
     ~FftwConvolution();

@@ -1,0 +1,48 @@
+// What an error over a horizon takes, by each way: its rows, tables and picture.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/gnuplot.hpp"
+#include "bench/rows/row.hpp"
+#include "modes/mode.hpp"
+
+namespace bench {
+
+/// Of the sum, for |x| <= 1, before h^-v.
+inline constexpr std::array horizon_errors = {1e-2, 1e-4, 1e-6};
+
+struct HorizonCase {
+    double order;
+    double error;
+    std::size_t samples;
+    std::optional<std::size_t> window;  ///< multiplications; nothing: as many as samples, but one
+    std::optional<std::size_t> blocks;  ///< multiplications; nothing: a window is as short
+    std::optional<glsum::modes::Approximation> modes;
+    double largest_error = 0.0;  ///< of the modes' kernel over the whole record, found
+    std::optional<double> cycles = {};
+
+    /// Multiplications of a window that keeps the error: all samples where no shorter one does.
+    [[nodiscard]] std::size_t window_macs() const { return window.value_or(samples - 1); }
+    /// The most that the modes may err: the design's certificate, and the rounding of both sides in double.
+    [[nodiscard]] double promised() const;
+};
+
+/// Multiplications, counted as the kernels do (a_0 = 1 needs none), of the fewest taps that leave less than the error
+/// of the weights up to the horizon; nothing where all are needed. \param weights  of all samples of the horizon
+[[nodiscard]] std::optional<std::size_t> window_for(const std::vector<double>& weights, double error);
+
+/// Those of a window, of blocks and of modes, where there is a design of each.
+[[nodiscard]] std::vector<Json> to_rows(const HorizonCase& one);
+
+/// Of one order.
+[[nodiscard]] std::string to_table(double order, const std::vector<HorizonCase>& cases);
+
+/// Multiplications over the horizon: a panel for each order and error. \param cases  by rising horizon
+[[nodiscard]] base::Picture picture_of(const std::vector<double>& orders, const std::vector<HorizonCase>& cases);
+
+}  // namespace bench

@@ -1,0 +1,484 @@
+// Models stepped in real time: rows and tables by hand; errors against closed forms and each case stepped by itself.
+#include "bench/studies/models.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/failure.hpp"
+#include "bench/studies/model_case.hpp"
+#include "bench/target/target_rows.hpp"
+#include "drive/response.hpp"
+#include "qemu/emulate/model_run.hpp"
+#include "tests/drive/plants.hpp"
+
+namespace {
+
+using bench::Json;
+using bench::ModelCase;
+using drive::Memory;
+using drive::Writing;
+
+ModelCase made(const Memory& memory, const std::string& kernel = "ring_plain_f32", Writing writing = Writing::delta) {
+    ModelCase one{"niopdt", drive::realtime_name(kernel, writing),
+                  kernel,   writing,
+                  false,    drive::RealtimeModel(plants::niopdt(), writing, memory, 0.001),
+                  2000,     nullptr};
+    one.error_max = 0.25;
+    one.error_rms = 0.125;
+    one.final_output = 0.75;
+    one.host_ns = 50.5;
+    one.macs = 102;
+    return one;
+}
+
+qemu::MeasuredRow counted(std::uint64_t worst, std::size_t state_bytes, std::size_t coefficient_bytes) {
+    qemu::MeasuredRow row{};
+    row.status = glsum::Status::ok;
+    row.instructions = 600.5;
+    row.loads = 200.25;
+    row.stores = 10.5;
+    row.branches = 7.5;
+    row.first = {700, 1, 2, 3};
+    row.worst_instructions = worst;
+    row.code_bytes = 1000;
+    row.stack_bytes = 64;
+    row.state_bytes = state_bytes;
+    row.coefficient_bytes = coefficient_bytes;
+    return row;
+}
+
+qemu::ModelledCall modelled(double cycles, double low, double high, double worst) {
+    qemu::ModelledCall call{};
+    call.cycles = cycles;
+    call.low = low;
+    call.high = high;
+    call.first_cycles = 900.0;
+    call.worst_cycles = worst;
+    call.latency_cycles = cycles;
+    return call;
+}
+
+TEST(ModelCase, OnTheHostARowHasErrorsAndTime) {
+    ModelCase one = made({100});
+    const Json row = bench::to_row(one, "host");
+    EXPECT_EQ(row.at("name"), "drive/niopdt/ringdelta_plain_f32/taps:100/host");
+    EXPECT_EQ(row.at("iterations"), 2001);  // steps, and the first output
+    EXPECT_EQ(row.at("error_max"), 0.25);
+    EXPECT_EQ(row.at("error_rms"), 0.125);
+    EXPECT_EQ(row.at("final_output"), 0.75);
+    EXPECT_EQ(row.at("macs_per_sample"), 102);
+    EXPECT_EQ(row.at("effective_taps"), 100);
+    EXPECT_EQ(row.at("horizon_samples"), 100);
+    EXPECT_EQ(row.at("real_time"), 50.5);
+    EXPECT_EQ(row.at("cpu_time"), 50.5);
+    EXPECT_EQ(row.at("ns_per_sample"), 50.5);
+    for (const char* not_here : {"saturations", "instructions_per_sample", "error_message"}) {
+        EXPECT_FALSE(row.contains(not_here)) << not_here;
+    }
+    one.full = true;
+    EXPECT_EQ(bench::to_row(one, "host").at("name"), "drive/niopdt/ringdelta_plain_f32/taps:full/host");
+    one.fault = "the coefficients do not fit the format";
+    EXPECT_EQ(bench::to_row(one, "host").at("error_message"), "the coefficients do not fit the format");
+    EXPECT_FALSE(bench::to_row(one, "host").contains("ns_per_sample"));
+}
+
+TEST(ModelCase, ModesHaveNoWindowAndFixedPointSaturates) {
+    const ModelCase modes = made({16, 7}, "modes_plain_f32");
+    const Json row = bench::to_row(modes, "host");
+    EXPECT_EQ(row.at("name"), "drive/niopdt/modesdelta_plain_f32/taps:2+7/host");
+    EXPECT_FALSE(row.contains("effective_taps"));
+    EXPECT_EQ(row.at("horizon_samples"), 2000);  // all that was stepped
+    ModelCase fixed = made({100}, "ring_plain_q31");
+    fixed.saturations = 3;
+    EXPECT_EQ(bench::to_row(fixed, "host").at("saturations"), 3);
+}
+
+TEST(ModelCase, OnTheTargetARowHasItsCounts) {
+    ModelCase one = made({100});
+    one.counted = counted(21600, 800, 400);
+    const Json row = bench::to_row(one, "m7:count");
+    EXPECT_EQ(row.at("name"), "drive/niopdt/ringdelta_plain_f32/taps:100/m7:count");
+    EXPECT_EQ(row.at("label"), "instructions only");
+    EXPECT_EQ(row.at("instructions_per_sample"), 600.5);
+    EXPECT_EQ(row.at("loads_per_sample"), 200.25);
+    EXPECT_EQ(row.at("stores_per_sample"), 10.5);
+    EXPECT_EQ(row.at("branches_per_sample"), 7.5);
+    EXPECT_EQ(row.at("first_instructions"), 700);
+    EXPECT_EQ(row.at("worst_instructions"), 21600);
+    EXPECT_DOUBLE_EQ(row.at("instructions_share_of_period").get<double>(), 0.1);  // of 216 000
+    EXPECT_EQ(row.at("code_bytes"), 1000);
+    EXPECT_EQ(row.at("stack_bytes"), 64);
+    EXPECT_EQ(row.at("state_bytes"), 800);
+    EXPECT_EQ(row.at("coefficient_bytes"), 400);
+    for (const char* not_here : {"ns_per_sample", "model_cycles_per_sample", "share_of_period", "error_message"}) {
+        EXPECT_FALSE(row.contains(not_here)) << not_here;
+    }
+    one.kernel = "ring_oldest_f64";
+    EXPECT_EQ(bench::to_row(one, "m7:count").at("label"),
+              "instructions only; double precision in software, where the count depends on the data");
+    one.same_bits = false;
+    EXPECT_EQ(bench::to_row(one, "m7:count").at("error_message"), "the target's outputs differ from the host's");
+}
+
+TEST(ModelCase, OfAModelledCoreItHasTheCyclesToo) {
+    ModelCase one = made({100});
+    one.counted = counted(21600, 800, 400);
+    one.counted->cores = {modelled(1.0, 1.0, 1.0, 1.0), modelled(500.0, 450.0, 550.0, 40000.0)};
+    Json row = bench::to_row(one, "m7:other", 1, 400e6);
+    EXPECT_EQ(row.at("label"), "modelled cycles");
+    EXPECT_EQ(row.at("instructions_per_sample"), 600.5);
+    EXPECT_EQ(row.at("model_cycles_per_sample"), 500.0);
+    EXPECT_EQ(row.at("model_cycles_low"), 450.0);
+    EXPECT_EQ(row.at("model_cycles_high"), 550.0);
+    EXPECT_EQ(row.at("worst_model_cycles"), 40000.0);
+    EXPECT_DOUBLE_EQ(row.at("real_time").get<double>(), 1250.0);     // ns at 400 MHz
+    EXPECT_DOUBLE_EQ(row.at("share_of_period").get<double>(), 0.1);  // of 400 000 cycles in 1 ms
+    one.counted->unknown_encodings = {0x08001234, 0x08004321};
+    row = bench::to_row(one, "m7:other", 1, 400e6);
+    EXPECT_EQ(row.at("error_message"), "the timing model does not know 2 encodings, the first at 0x08001234");
+    EXPECT_FALSE(bench::to_row(one, "m7:count").contains("error_message"));  // counts need no model
+}
+
+TEST(ModelCase, SoftwareDoubleRunsOnTheTargetUpToSixHundredTaps) {
+    EXPECT_FALSE(made({601}).in_double());
+    EXPECT_TRUE(made({601}).runs_on_target());
+    EXPECT_TRUE(made({600}, "ring_oldest_f64").in_double());
+    EXPECT_TRUE(made({600}, "ring_oldest_f64").runs_on_target());
+    EXPECT_FALSE(made({601}, "ring_oldest_f64").runs_on_target());
+}
+
+TEST(ModelCase, TheTableIsOfItsModel) {
+    std::vector<ModelCase> cases;
+    cases.push_back(made({100}));
+    cases.push_back(made({100}));
+    cases[1].counted = counted(21600, 800, 400);
+    cases[1].saturations = 5;
+    cases.push_back(made({100}));
+    cases[2].counted = counted(21600, 800, 400);
+    cases[2].counted->cores = {modelled(500.0, 500.0, 500.0, 43200.0)};
+    cases[2].same_bits = false;
+    cases.push_back(made({100}));
+    cases[3].counted = counted(21600, 800, 400);
+    cases[3].counted->cores = {modelled(500.0, 450.0, 550.0, 43200.0)};
+    cases.push_back(made({100}));
+    cases[4].fault = "no taps";
+    cases.push_back(made({100}));
+    cases[5].model = "other";
+    EXPECT_EQ(
+        bench::to_table(cases, "niopdt"),
+        "\nniopdt\n"
+        "  kernel                         taps  MACs for s  error max at the end  M7 instr.      model cycles   "
+        "period    bytes  host ns\n"
+        "  ringdelta_plain_f32             100   102     2   2.50e-01    0.75000          -                 -     "
+        "   -        -  50.5\n"
+        "  ringdelta_plain_f32             100   102     2   2.50e-01    0.75000      600.5                 -   "
+        "10.00%     1200  50.5  5 saturations\n"
+        "  ringdelta_plain_f32             100   102     2   2.50e-01    0.75000      600.5               500   "
+        "20.00%     1200  50.5  NOT THE HOST'S BITS\n"
+        "  ringdelta_plain_f32             100   102     2   2.50e-01    0.75000      600.5     500 (450-550)   "
+        "20.00%     1200  50.5\n"
+        "  ringdelta_plain_f32             100 no taps\n");
+}
+
+// Straight lines: 6 instructions and 12 bytes a tap.
+TEST(ModelCase, TheLongestMemoryIsByTheLineThroughTheShortestAndTheLongest) {
+    std::vector<ModelCase> cases;
+    const auto add = [&](const Memory& memory, std::uint64_t worst, std::size_t state, std::size_t coefficients,
+                         const std::string& kernel = "ring_plain_f32") {
+        cases.push_back(made(memory, kernel));
+        cases.back().counted = counted(worst, state, coefficients);
+    };
+    add({200}, 5000, 5000, 5000);  // between them: of no weight
+    add({600}, 3700, 4800, 2400);
+    add({100}, 700, 800, 400);
+    add({50}, 1, 1, 1);
+    cases.back().fault = "of no weight either";
+    cases.push_back(made({40}));  // not counted
+    add({100}, 700, 800, 400, "mirror_multi_f32");
+    add({131}, 900, 900, 900, "mirror_multi_f32");  // too close to tell
+    add({100}, 700, 800, 400, "ring_oldest_f32");
+    add({132}, 764, 832, 400, "ring_oldest_f32");
+    add({16, 7}, 1, 1, 1, "modes_plain_f32");
+    add({20, 9}, 2, 2, 2, "modes_plain_f32");
+    const std::string table = bench::deadline_table(cases);
+    // 100 + (216000 - 700)/6, and 100 + (320 * 1024 - 1200)/12.
+    EXPECT_NE(table.find("  niopdt     ringdelta_plain_f32                      6.00           12.0            35983   "
+                         "         27306\n"),
+              std::string::npos)
+        << table;
+    // 100 + 215300/2, and 100 + 326480/1.
+    EXPECT_NE(table.find("  niopdt     ringdelta_oldest_f32                     2.00            1.0           107750   "
+                         "        326580\n"),
+              std::string::npos)
+        << table;
+    EXPECT_EQ(table.find("mirror"), std::string::npos) << table;
+    EXPECT_EQ(table.find("modes"), std::string::npos) << table;
+}
+
+// Of the project's three models, without a board.
+bench::Models host_only(std::vector<std::string> kernels) {
+    bench::Models wanted;
+    wanted.kernels = std::move(kernels);
+    wanted.targets = {"host"};
+    wanted.models = TEST_PROJECT "/drive/models";
+    wanted.core_files = TEST_CORES;
+    wanted.quick = true;
+    return wanted;
+}
+
+bench::Study measured(const bench::Models& wanted, std::vector<std::string>* said = nullptr) {
+    return bench::measure_models(wanted, [&](const std::string& what) {
+        if (said == nullptr) {
+            ADD_FAILURE() << what;
+        } else {
+            said->push_back(what);
+        }
+    });
+}
+
+std::vector<std::string> names_of(const bench::Study& study) {
+    std::vector<std::string> names;
+    for (const Json& row : study.rows) {
+        names.push_back(row.at("name"));
+    }
+    return names;
+}
+
+// T (y_k - y_(k-1))/h + y_k = 1 is y_k = 1 - (1 + h/T)^-(k-d); the exact answer is 1 - exp(-(t - 1.2279)/T).
+TEST(ModelsStudy, FirstOrderErrsAsEulersSchemeDoes) {
+    const bench::Study study = measured(host_only({"ring_oldest_f64"}));
+    EXPECT_EQ(study.wrong, 0U);
+    double largest = 0.0;
+    double square = 0.0;
+    double peak = 0.0;
+    double last = 0.0;
+    const int steps = 5000 + 1228;
+    for (int k = 0; k <= steps; ++k) {
+        const double exact = k * 1e-3 > 1.2279 ? 1.0 - std::exp(-(k * 1e-3 - 1.2279) / 0.4934) : 0.0;
+        last = k > 1228 ? 1.0 - std::pow(1.0 + 1e-3 / 0.4934, -(k - 1228)) : 0.0;
+        largest = std::max(largest, std::fabs(last - exact));
+        square += (last - exact) * (last - exact);
+        peak = std::max(peak, exact);
+    }
+    for (const char* writing : {"ringdelta", "ring", "ringapart"}) {
+        const std::string begin = std::string("drive/fopdt/") + writing + "_oldest_f64/";
+        const auto row = std::find_if(study.rows.begin(), study.rows.end(), [&](const Json& one) {
+            return one.at("name").get<std::string>().starts_with(begin);
+        });
+        ASSERT_NE(row, study.rows.end()) << begin;
+        EXPECT_EQ(row->at("iterations"), steps + 1);
+        EXPECT_NEAR(row->at("error_max").get<double>(), largest / peak, 2e-9) << begin;
+        EXPECT_NEAR(row->at("error_rms").get<double>(), std::sqrt(square / (steps + 1)) / peak, 2e-9) << begin;
+        EXPECT_NEAR(row->at("final_output").get<double>(), last, 1e-11) << begin;
+        EXPECT_GT(row->at("ns_per_sample").get<double>(), 0.5);
+        EXPECT_LT(row->at("ns_per_sample").get<double>(), 1e6);
+    }
+}
+
+TEST(ModelsStudy, MeasuresEachWritingAtItsUsualLengths) {
+    bench::Models wanted = host_only({"ring_oldest_f64", "modes*_plain_f32"});
+    wanted.quick = false;
+    wanted.long_records = {200, 400, 1600};
+    const bench::Study study = measured(wanted);
+    // Whole orders end their memory by themselves: of model (10) and (11) there is one length.
+    EXPECT_EQ(
+        names_of(study),
+        (std::vector<std::string>{
+            "drive/fopdt/ringdelta_oldest_f64/taps:1/host",     "drive/fopdt/ringbdf2_oldest_f64/taps:2/host",
+            "drive/fopdt/ring_oldest_f64/taps:2/host",          "drive/fopdt/ringapart_oldest_f64/taps:2/host",
+            "drive/sopdt/ringdelta_oldest_f64/taps:2/host",     "drive/sopdt/ringbdf2_oldest_f64/taps:4/host",
+            "drive/sopdt/ring_oldest_f64/taps:3/host",          "drive/sopdt/ringapart_oldest_f64/taps:3/host",
+            "drive/niopdt/ringdelta_oldest_f64/taps:50/host",   "drive/niopdt/ringdelta_oldest_f64/taps:100/host",
+            "drive/niopdt/ringdelta_oldest_f64/taps:200/host",  "drive/niopdt/ringdelta_oldest_f64/taps:600/host",
+            "drive/niopdt/ringdelta_oldest_f64/taps:full/host", "drive/niopdt/modesdelta_plain_f32/taps:2+5/host",
+            "drive/niopdt/modesdelta_plain_f32/taps:2+7/host",  "drive/niopdt/modesdelta_plain_f32/taps:2+9/host",
+            "drive/niopdt/ringbdf2_oldest_f64/taps:100/host",   "drive/niopdt/ringbdf2_oldest_f64/taps:600/host",
+            "drive/niopdt/modesbdf2_plain_f32/taps:5+9/host",   "drive/niopdt/modesbdf2_plain_f32/taps:5+11/host",
+            "drive/niopdt/ring_oldest_f64/taps:50/host",        "drive/niopdt/ring_oldest_f64/taps:100/host",
+            "drive/niopdt/ring_oldest_f64/taps:200/host",       "drive/niopdt/ring_oldest_f64/taps:600/host",
+            "drive/niopdt/ring_oldest_f64/taps:full/host",      "drive/niopdt/ringapart_oldest_f64/taps:50/host",
+            "drive/niopdt/ringapart_oldest_f64/taps:100/host",  "drive/niopdt/ringapart_oldest_f64/taps:200/host",
+            "drive/niopdt/ringapart_oldest_f64/taps:600/host",  "drive/niopdt/ringapart_oldest_f64/taps:full/host",
+            "drive/niopdt/blockdelta_fft_f64/taps:200/host",    "drive/niopdt/blockdelta_fft_f64/taps:400/host",
+            "drive/niopdt/blockdelta_fft_f64/taps:1600/host",
+        }));
+    // A window is stepped for 5 s behind the dead time, modes for a minute.
+    for (const Json& row : study.rows) {
+        const std::string name = row.at("name");
+        const std::size_t delay = name.find("fopdt") != std::string::npos   ? 1228
+                                  : name.find("sopdt") != std::string::npos ? 1064
+                                                                            : 1000;
+        if (name.find("block") == std::string::npos) {
+            EXPECT_EQ(row.at("iterations"), (name.find("modes") != std::string::npos ? 60'000 : 5'000) + delay + 1)
+                << name;
+        }
+        EXPECT_GT(row.at("ns_per_sample").get<double>(), 0.5) << name;
+        EXPECT_EQ(row.at("cpu_time"), row.at("ns_per_sample"));
+        EXPECT_EQ(row.at("real_time"), row.at("ns_per_sample"));
+    }
+    // Lines of the long records, one for each, and how the time grows from the last but one to the last.
+    const std::string lines = study.text.substr(study.text.find("\nFull memory on this machine"));
+    const auto ns = [&](std::size_t from_last) {
+        return study.rows[study.rows.size() - from_last].at("ns_per_sample").get<double>();
+    };
+    EXPECT_NE(
+        lines.find(fmt::format("\n       200 samples {:>10.4f} s {:>10.1f} ns a sample\n", ns(3) * 200e-9, ns(3))),
+        std::string::npos)
+        << lines;
+    EXPECT_TRUE(lines.ends_with(fmt::format("  t(1600)/t(400) = {:.1f}\n", 4.0 * ns(1) / ns(2)))) << lines << ns(1);
+    EXPECT_EQ(study.rows.back().at("iterations"), 1600);
+    EXPECT_EQ(study.context.at("n_samples"), 5000);
+    EXPECT_EQ(study.context.at("sweep").at("orders"), Json::array());
+    EXPECT_EQ(study.context.at("sweep").at("targets"), Json({"host"}));
+    EXPECT_EQ(study.context.at("sweep").at("kernels"), Json({"ring_oldest_f64", "modes*_plain_f32"}));
+    for (const char* of_sums : {"target_count_order", "weights", "first_weights"}) {
+        EXPECT_FALSE(study.context.contains(of_sums)) << of_sums;
+    }
+    EXPECT_NE(study.text.find("gives it on no core,"), std::string::npos);
+    EXPECT_NE(study.text.find("the worst step's instructions over"), std::string::npos);
+    EXPECT_EQ(study.text.find("The longest memory"), std::string::npos);  // nothing was counted
+    EXPECT_LT(study.text.find("\nfopdt\n"), study.text.find("\nsopdt\n"));
+    EXPECT_LT(study.text.find("\nsopdt\n"), study.text.find("\nniopdt\n"));
+}
+
+TEST(ModelsStudy, QuicklyItTakesTwoLengthsAndNoLongRecords) {
+    EXPECT_THAT(names_of(measured(host_only({"ringdelta_oldest_f64"}))),
+                testing::ElementsAre("drive/fopdt/ringdelta_oldest_f64/taps:1/host",
+                                     "drive/sopdt/ringdelta_oldest_f64/taps:2/host",
+                                     "drive/niopdt/ringdelta_oldest_f64/taps:100/host",
+                                     "drive/niopdt/ringdelta_oldest_f64/taps:600/host"));
+    const bench::Models defaults;
+    EXPECT_EQ(defaults.long_records, (std::vector<std::size_t>{5000, 100'000, 1'000'000}));
+    EXPECT_FALSE(defaults.quick);
+    EXPECT_EQ(defaults.jobs, 1U);
+    EXPECT_EQ(defaults.targets, (std::vector<std::string>{"host", "m7"}));
+}
+
+// Lengths with modes are of kernels with modes, the others of windows. What cannot be is said and left out.
+TEST(ModelsStudy, LengthsThatWereAskedForAreTheKernelsOwn) {
+    bench::Models wanted = host_only({"ringdelta_oldest_f64", "modesdelta_plain_f32"});
+    wanted.lengths = {Memory{80}, Memory{16, 7}, Memory{3, 1}, std::nullopt};
+    std::vector<std::string> said;
+    EXPECT_THAT(names_of(measured(wanted, &said)),
+                testing::ElementsAre("drive/fopdt/ringdelta_oldest_f64/taps:1/host",
+                                     "drive/sopdt/ringdelta_oldest_f64/taps:2/host",
+                                     "drive/niopdt/ringdelta_oldest_f64/taps:80/host",
+                                     "drive/niopdt/ringdelta_oldest_f64/taps:full/host",
+                                     "drive/niopdt/modesdelta_plain_f32/taps:2+7/host"));
+    ASSERT_EQ(said.size(), 1U);
+    EXPECT_TRUE(said[0].starts_with(
+        "left out: niopdt modesdelta_plain_f32: expected modes on increments and behind at least 2 taps, found 1+1"))
+        << said[0];
+}
+
+// Each case stepped by itself, against the exact response of its model.
+TEST(ModelsStudy, ErrorsAreThoseOfTheSteppedModel) {
+    bench::Models wanted = host_only({"ringdelta_plain_q31", "modesdelta_plain_f32"});
+    wanted.lengths = {Memory{80}, Memory{16, 7}};
+    const bench::Study study = measured(wanted);
+    const double delay_s = plants::niopdt().delay_s;
+    EXPECT_EQ(delay_s, 1.0);
+    for (const auto& [kernel, memory, steps] : {std::tuple("ring_plain_q31", Memory{80}, std::size_t{6000}),
+                                                std::tuple("modes_plain_f32", Memory{16, 7}, std::size_t{61'000})}) {
+        const drive::RealtimeModel design(plants::niopdt(), Writing::delta, memory, 1e-3, 60'000);
+        const std::vector<double> ones{1.0};
+        const qemu::SteppedModel stepped = qemu::step_model_here({kernel, &design.design(), ones, steps});
+        std::vector<double> times;
+        for (std::size_t k = 0; k <= steps; ++k) {
+            times.push_back(1e-3 * static_cast<double>(k));
+        }
+        const std::vector<double> exact =
+            drive::respond(plants::niopdt(), std::vector<drive::Change>{{0.0, 1.0}}, times);
+        double largest = 0.0;
+        double square = 0.0;
+        double peak = 0.0;
+        for (std::size_t k = 0; k <= steps; ++k) {
+            largest = std::max(largest, std::fabs(stepped.output[k] - exact[k]));
+            square += std::pow(stepped.output[k] - exact[k], 2.0);
+            peak = std::max(peak, std::fabs(exact[k]));
+        }
+        const std::string begin = "drive/niopdt/" + drive::realtime_name(kernel, Writing::delta);
+        const auto row = std::find_if(study.rows.begin(), study.rows.end(), [&](const Json& one) {
+            return one.at("name").get<std::string>().starts_with(begin);
+        });
+        ASSERT_NE(row, study.rows.end());
+        EXPECT_NEAR(row->at("error_max").get<double>(), largest / peak, 1e-12);
+        EXPECT_NEAR(row->at("error_rms").get<double>(), std::sqrt(square / static_cast<double>(steps + 1)) / peak,
+                    1e-12);
+        EXPECT_EQ(row->at("final_output"), stepped.output.back());
+        EXPECT_EQ(row->at("macs_per_sample"), stepped.multiplications);
+        EXPECT_EQ(row->contains("saturations"), std::string(kernel) == "ring_plain_q31");
+    }
+}
+
+TEST(ModelsStudy, RefusesKernelsThatStepNoModel) {
+    try {
+        (void)measured(host_only({"shift_plain_f32"}));
+        FAIL();
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        EXPECT_NE(std::string(failure.what()).find("models are stepped with ring_plain_f32"), std::string::npos);
+        EXPECT_NE(std::string(failure.what()).find("found shift_plain_f32"), std::string::npos);
+    }
+}
+
+// The same models, stepped on the board by themselves.
+TEST(ModelsStudy, OnTheBoardRowsAreTheBoardsCounts) {
+    bench::Models wanted = host_only({"ringdelta_plain_f32", "ringdelta_oldest_f64"});
+    try {
+        wanted.board = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
+        (void)qemu::model_elf(*wanted.board);
+        (void)qemu::emulator_version();
+    } catch (const glsum::Failure& failure) {
+        if (std::getenv("GLSUM_REQUIRE_FIRMWARE") != nullptr) {
+            FAIL() << failure.what();
+        }
+        GTEST_SKIP() << failure.what();
+    }
+    wanted.targets = {"m7"};
+    wanted.board->cores = TEST_CORES;
+    wanted.cores = {"stm32f746-itcm", "stm32h747-dtcm"};
+    wanted.lengths = {Memory{40}, Memory{100}, std::nullopt};
+    const bench::Study study = measured(wanted);
+    EXPECT_EQ(study.wrong, 0U);
+    std::set<std::string> names;
+    for (const std::string& name : names_of(study)) {
+        names.insert(name);
+        EXPECT_EQ(name.find("/host"), std::string::npos);                      // it was not asked for
+        EXPECT_TRUE(name.find("f64/taps:full") == std::string::npos) << name;  // minutes in software
+    }
+    const drive::RealtimeModel design(plants::niopdt(), Writing::delta, {40}, 1e-3);
+    const std::vector<double> ones{1.0};
+    const auto timing = bench::timing_request(TEST_CORES, wanted.cores);
+    const auto counted = qemu::step_models(
+        *wanted.board, std::vector<qemu::PlannedModel>{{"ring_plain_f32", &design.design(), ones, 6000}}, [] {},
+        timing);
+    const auto row = [&](const std::string& target) {
+        return *std::find_if(study.rows.begin(), study.rows.end(), [&](const Json& one) {
+            return one.at("name") == "drive/niopdt/ringdelta_plain_f32/taps:40/m7:" + target;
+        });
+    };
+    EXPECT_EQ(row("count").at("instructions_per_sample"), counted[0].instructions);
+    EXPECT_EQ(row("stm32f746-itcm").at("model_cycles_per_sample"), counted[0].cores[0].cycles);
+    EXPECT_EQ(row("stm32h747-dtcm").at("model_cycles_per_sample"), counted[0].cores[1].cycles);
+    const std::vector<double> clocks = bench::clocks_of(timing);
+    for (std::size_t c = 0; c < 2; ++c) {
+        EXPECT_DOUBLE_EQ(row(wanted.cores[c]).at("real_time").get<double>(),
+                         1e9 * counted[0].cores[c].cycles / clocks[c]);
+    }
+    EXPECT_NE(clocks[0], clocks[1]);
+    EXPECT_EQ(names.count("drive/niopdt/ringdelta_plain_f32/taps:full/m7:count"), 1U);
+    EXPECT_NE(study.text.find("The longest memory at 1 kHz"), std::string::npos);
+    EXPECT_NE(study.text.find("gives it on stm32f746-itcm,"), std::string::npos);
+    EXPECT_NE(study.text.find("the worst step's cycles over"), std::string::npos);
+}
+
+}  // namespace
