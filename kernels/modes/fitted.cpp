@@ -10,7 +10,7 @@
 namespace glsum::modes {
 namespace {
 
-// Indices from K to N, dense at first, then 60 a decade.
+// Indices from K to N: each up to 25, then 4 % apart.
 std::vector<std::size_t> log_spaced(std::size_t first, std::size_t last) {
     std::vector<std::size_t> indices;
     for (double at = static_cast<double>(first); at <= static_cast<double>(last); at = std::max(at + 1.0, at * 1.04)) {

@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
+#include <set>
 #include <vector>
 
 #include "modes/bdf.hpp"
@@ -67,6 +69,42 @@ TEST(FittedModes, OfFirstOrderCostNoMoreThanAFewMore) {
     EXPECT_FALSE(design_fitted(half, 0.5, 1e-15));
     EXPECT_TRUE(approximate_fitted(half, 0.5, 4, 0).modes.empty());
     EXPECT_EQ(approximate_fitted(half, 0.5, 4, 7).modes.size(), 7U);
+}
+
+// Of a ladder of near taps the cheapest, and of several the one of the fewest.
+TEST(FittedModes, AreTheCheapestOfTheirLadder) {
+    std::set<std::size_t> met;
+    for (const unsigned steps : {2U, 4U}) {
+        for (const double order : {0.1, 0.5, 0.9, 1.5, 1.9, -0.5}) {
+            const auto weights = bdf_weights(steps, order, 401);
+            for (const double wanted : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10}) {
+                std::optional<glsum::modes::Approximation> best;
+                for (const std::size_t near_taps : {4U, 6U, 8U, 12U, 16U, 24U, 32U}) {
+                    for (std::size_t modes = 1; modes <= glsum::modes::most_modes; ++modes) {
+                        if (best && near_taps + 2 * modes > best->length()) {
+                            break;
+                        }
+                        auto one = approximate_fitted(weights, order, near_taps, modes);
+                        if (one.modes.size() < modes) {
+                            break;  // the tail has no more in it
+                        }
+                        if (one.error <= wanted) {
+                            best = !best || one.length() < best->length() ? std::optional(std::move(one)) : best;
+                            break;
+                        }
+                    }
+                }
+                const auto found = design_fitted(weights, order, wanted);
+                ASSERT_EQ(found.has_value(), best.has_value()) << steps << ' ' << order << ' ' << wanted;
+                if (found) {
+                    EXPECT_EQ(found->near_taps, best->near_taps) << steps << ' ' << order << ' ' << wanted;
+                    EXPECT_EQ(found->modes.size(), best->modes.size()) << steps << ' ' << order << ' ' << wanted;
+                    met.insert(found->near_taps);
+                }
+            }
+        }
+    }
+    EXPECT_EQ(met.size(), 7U);  // no step of the ladder is for nothing
 }
 
 }  // namespace
