@@ -6,7 +6,8 @@
 #   --only GLOB  only those whose name matches one of the globs
 #   --check      plants none and builds nothing: says which cannot be planted in today's sources
 #   --alone      with --bugs, for a first look: what its tests miss of a file that is compiled alone is missed
-# The copy stays in build/planted; a second run starts faster.
+# The copy stays in build/planted; a second run starts faster. GLSUM_PLANT_LIMIT_S: seconds that a test program may take on
+# a busy machine, 240 otherwise.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -139,14 +140,14 @@ run_tests() {
             *) only_these='*' ;;
         esac
         status=0
-        limit=240
-        ! of_firmware "$file" || limit=900
-        [ "$test" != gap_tests ] || limit=900  # whole diagnoses
+        limit=${GLSUM_PLANT_LIMIT_S:-240}
+        ! of_firmware "$file" || limit=$((4 * limit))
+        [ "$test" != gap_tests ] || limit=$((4 * limit))  # whole diagnoses
         log=$source/build/planted/tests.log
         case $test in
             # Headers of every kernel, compiled and run here.
             make_headers)
-                timeout 240 env -u GLSUM_REQUIRE_FIRMWARE sh "$copy/tests/generate/compilers.sh" "${program:-$build/tests/make_headers}" "$copy" none >"$log" 2>&1 ||
+                timeout "$limit" env -u GLSUM_REQUIRE_FIRMWARE sh "$copy/tests/generate/compilers.sh" "${program:-$build/tests/make_headers}" "$copy" none >"$log" 2>&1 ||
                     { status=$?; echo '[  FAILED  ] generate.compilers' >>"$log"; }
                 ;;
             *)
