@@ -61,6 +61,13 @@ Widest talbot(const Model& model, double t_s) {
     return Widest(Real(sum * radius / nodes));
 }
 
+struct Contour {
+    unsigned nodes;
+    Widest (*run)(const Model& model, double t_s);
+};
+template <unsigned nodes>
+constexpr Contour with_nodes{nodes, &talbot<nodes>};
+
 int agreement(const Widest& a, const Widest& b) {
     if (a == b) {
         return 40;
@@ -86,12 +93,11 @@ ExactValue exact_step_response(const Model& model, double t_s, int wanted_digits
     const double needed_nodes =
         2.0 * t * fastest_left(swings_of(model.denominator), t, std::pow(10.0, -wanted_digits - 1));
     std::optional<Widest> before;
-    for (const auto& [nodes, run] : {std::pair(48, &talbot<48>), std::pair(96, &talbot<96>),
-                                     std::pair(192, &talbot<192>), std::pair(384, &talbot<384>)}) {
-        if (nodes < needed_nodes) {
+    for (const Contour& contour : {with_nodes<48>, with_nodes<96>, with_nodes<192>, with_nodes<384>}) {
+        if (contour.nodes < needed_nodes) {
             continue;
         }
-        const Widest now = run(model, t_s);
+        const Widest now = contour.run(model, t_s);
         if (const int digits = before ? agreement(*before, now) : 0; digits >= wanted_digits) {
             return {static_cast<double>(now), now.str(std::min(digits, 40)), digits};
         }

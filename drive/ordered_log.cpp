@@ -192,7 +192,7 @@ Resampled resample(Log log, double step_s, Hold hold) {
     result.stamps = order_stamps(log);
     const double from = log.time_s.front();
     const double span = log.time_s.back() - from;
-    if (!(step_s > 0.0 && std::isfinite(step_s)) || span / step_s + 1.0 > static_cast<double>(LogLimits::samples)) {
+    if (!(step_s > 0.0 && std::isfinite(step_s)) || span / step_s >= static_cast<double>(LogLimits::samples)) {
         refuse(fmt::format("{}: expected a step above 0 s that gives at most {} samples over {} s, found {}", log.name,
                            LogLimits::samples, span, step_s));
     }

@@ -12,14 +12,23 @@
 
 namespace bench {
 
-CycleCounter::CycleCounter() {
+namespace {
+
+int open_counter() {
     perf_event_attr attributes{};
     attributes.type = PERF_TYPE_HARDWARE;
     attributes.size = sizeof attributes;
     attributes.config = PERF_COUNT_HW_CPU_CYCLES;
     attributes.exclude_kernel = 1;
     attributes.exclude_hv = 1;
-    perf_ = static_cast<int>(syscall(SYS_perf_event_open, &attributes, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
+    return static_cast<int>(syscall(SYS_perf_event_open, &attributes, 0, -1, -1, PERF_FLAG_FD_CLOEXEC));
+}
+
+}  // namespace
+
+CycleCounter::CycleCounter() : CycleCounter(open_counter()) {}
+
+CycleCounter::CycleCounter(int counter) : perf_(counter) {
     std::uint64_t value = 0;
     if (perf_ >= 0 && (::read(perf_, &value, sizeof value) != sizeof value || value == 0)) {
         close(perf_);  // it opens but does not count: some virtual machines

@@ -12,6 +12,7 @@
 #include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/series.hpp"
 #include "drive/stand/blind/without_model.hpp"
+#include "drive/stand/chance.hpp"
 
 namespace {
 
@@ -177,6 +178,70 @@ TEST(OpenRecords, AreWhatTheReadmeSays) {
     EXPECT_GE(lifted, 3U);
     EXPECT_GE(in_motion, 3U);
     EXPECT_GE(own_clocks, 3U);
+}
+
+// The numbers of cases whose first share of a stream lies so. \param seed  of a set of cases
+std::vector<std::size_t> numbers_with(std::uint64_t seed, std::uint64_t stream, double from, double to,
+                                      std::size_t count) {
+    std::vector<std::size_t> numbers;
+    for (std::size_t number = 1; numbers.size() < count; ++number) {
+        const double share = stand::Chance(seed * 1000003U + number, stream).share();
+        if (from <= share && share < to) {
+            numbers.push_back(number);
+        }
+    }
+    return numbers;
+}
+
+// Three plants in ten are the stand itself, and of the linear ones half are of fractional order: those whose share, the
+// first of their plant's stream, is at most 0.3, and above 0.65.
+TEST(BlindRecords, ShareTheirPlants) {
+    const auto plant = [](std::size_t number) {
+        return blind::make_case({Class::none, {}, {}, false}, 47, number).truth.plant;
+    };
+    const std::uint64_t plants = 1;
+    for (const std::size_t number : numbers_with(47, plants, 0.297, 0.3, 2)) {
+        EXPECT_EQ(plant(number), "stand") << number;
+    }
+    for (const std::size_t number : numbers_with(47, plants, 0.3, 0.303, 2)) {
+        EXPECT_EQ(plant(number), "whole") << number;
+    }
+    for (const std::size_t number : numbers_with(47, plants, 0.6435, 0.65, 2)) {
+        EXPECT_EQ(plant(number), "whole") << number;
+    }
+    for (const std::size_t number : numbers_with(47, plants, 0.65, 0.6565, 2)) {
+        EXPECT_EQ(plant(number), "fractional") << number;
+    }
+}
+
+// Noise of 0.2 to 1 % of the deviation, evenly in its logarithm; half of it white, the rest with a memory. Without a
+// model 0.1 to 0.5 %.
+TEST(BlindRecords, DrawTheirNoiseEvenlyInItsLogarithm) {
+    std::set<bool> coloured;
+    for (std::size_t number = 1; number <= 4; ++number) {
+        const auto made = blind::make_case({Class::none, {}, {}, false}, 48, number);
+        stand::Chance effects(48U * 1000003U + number, 2);
+        const bool has_memory = effects.share() < 0.5;
+        EXPECT_EQ(made.truth.coloured, has_memory) << number;
+        coloured.insert(has_memory);
+        (void)(has_memory ? effects.share() : 0.0);  // how much of it
+        const double share = 0.002 * std::pow(5.0, effects.share());
+        const double deviation = blind::deviation_of(drive::parse_log(made.train, "t").output);
+        EXPECT_NEAR(made.truth.noise / deviation / share, 1.0, 2e-3) << number;
+
+        const blind::Family* family = blind::families()[number % 3];
+        const auto open = blind::make_open_case({family, {Class::none, {}, {}, false}}, 48, number);
+        stand::Chance faults(48U * 1000003U + number, 102);
+        const double open_share = 0.001 * std::pow(5.0, faults.share());
+        EXPECT_EQ(open.truth.coloured, faults.share() < 0.5) << number;
+        std::vector<double> readings;
+        for (std::size_t i = 0; i < open.truth.train.size(); ++i) {
+            const auto log = drive::parse_log(open.records[i].second, "t");
+            readings.insert(readings.end(), log.output.begin(), log.output.end());
+        }
+        EXPECT_NEAR(open.truth.noise / blind::deviation_of(readings) / open_share, 1.0, 6e-3) << number;
+    }
+    EXPECT_EQ(coloured.size(), 2U);
 }
 
 }  // namespace

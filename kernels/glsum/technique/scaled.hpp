@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 #include "glsum/history/window.hpp"
@@ -93,7 +94,7 @@ private:
     template <class Format, class Visit>
     static void for_each_octave(std::size_t past, const Design& design, const typename Format::Scale& scale,
                                 Visit visit) {
-        double largest[33] = {};  // from an octave on
+        double largest[octaves(std::numeric_limits<std::uint32_t>::max())] = {};  // from an octave on
         Weights weights(design);
         for (std::size_t octave = 0; octave < octaves(past); ++octave) {
             for (std::size_t j = weights.index() + 1; j < end_of(octave, past); ++j) {

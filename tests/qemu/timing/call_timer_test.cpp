@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "probe.hpp"
+#include "qemu/timing/band.hpp"
 #include "qemu/timing/timing_log.hpp"
 
 namespace {
@@ -103,6 +104,54 @@ TEST(CallTimer, DoublePrecisionInSoftwareIsToldApartAndCanBeTakenAway) {
     EXPECT_EQ(unpaid.double_in_software, 0);
     EXPECT_EQ(unpaid.losses, paid.losses);
     EXPECT_EQ(unpaid.half_cycles[0], paid.half_cycles[0] - paid.double_in_software);
+}
+
+// Where a branch pairs with its target, its set takes less of a routine that branches: each set as if it were alone.
+TEST(CallTimer, EachRuleSetIsTimedByItself) {
+    const auto call_of = [](const timing::CoreFile& core) {
+        Program p(core);
+        for (int calls = 0; calls < 9; ++calls) {
+            p.call(0x10);
+            p.add(0x100);
+            p.call(0x102);
+            for (std::uint32_t address = 0x200; address < 0x240; address += 8) {
+                p.add(address);
+                p.add(address + 2);
+                p.jump(address + 4);
+            }
+            p.give_back(0x240);
+            p.add(0x106);
+            p.give_back(0x108);
+            p.add(0x14);
+        }
+        p.finish();
+        return p.calls.at(8).cores.at(0);
+    };
+    timing::CoreFile core = timing::read_core(TEST_CORES, "stm32f746-itcm");
+    std::set<std::int64_t> in_double;
+    for (const bool off : {false, true}) {
+        if (off) {
+            ASSERT_TRUE(timing::switch_off(core, "double_precision_in_software"));
+        }
+        std::vector<std::int64_t> alone;
+        for (const auto& set : core.sets) {
+            timing::CoreFile one = core;
+            one.sets = {set};
+            const timing::CoreTime time = call_of(one);
+            alone.push_back(time.half_cycles[0]);
+            in_double.insert(time.double_in_software);
+        }
+        const timing::CoreTime all = call_of(core);
+        const timing::Band band = timing::band_of(core, alone);
+        EXPECT_EQ(all.half_cycles[0], alone[0]);
+        EXPECT_EQ(all.half_cycles[1], band.low);
+        EXPECT_EQ(all.half_cycles[2], band.high);
+        timing::CoreFile nominal = core;
+        nominal.sets.resize(1);
+        EXPECT_EQ(all.double_in_software, call_of(nominal).double_in_software);
+        EXPECT_EQ(all.losses, call_of(nominal).losses);
+    }
+    EXPECT_GT(in_double.size(), 2U);  // 0 where it is taken away, and else at least two
 }
 
 TEST(CallTimer, AFunctionThatIsEnteredByATailCallEndsInTheCallersCaller) {

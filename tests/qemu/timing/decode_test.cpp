@@ -507,6 +507,13 @@ TEST(Decode, ADoubleBeyondTheSixteenthIsUnknown) {
     EXPECT_EQ(timing::decode(0xEC90FA03U, 4).kind, Kind::unknown);
     EXPECT_EQ(timing::decode(0xEC410A3FU, 4).kind, Kind::unknown);  // vmov s31, s32, r0, r1
     EXPECT_NE(timing::decode(0xEC410A1FU, 4).kind, Kind::unknown);  // s30 and s31
+    EXPECT_NE(timing::decode(0xEC410B13U, 4).kind, Kind::unknown);  // vmov d3, r0, r1
+    EXPECT_EQ(timing::decode(0xEC410B13U | low, 4).kind, Kind::unknown);
+    EXPECT_NE(timing::decode(0xEC410A13U | low, 4).kind, Kind::unknown);  // of two singles
+    for (const std::uint32_t e : {0xEE010B10U /* vmov.32 d1[0], r0 */, 0xEE110B10U /* vmov.32 r0, d1[0] */}) {
+        EXPECT_NE(timing::decode(e, 4).kind, Kind::unknown);
+        EXPECT_EQ(timing::decode(e | middle, 4).kind, Kind::unknown) << std::hex << e;
+    }
 }
 
 TEST(Decode, WhatNoRowMatchesIsUnknown) {

@@ -146,6 +146,8 @@ constexpr Probe probes[] = {
     {"10.12", "vmul.f32 s0,s1,s2; vfma.f32 s0,s3,s4", 4},  // 3 to the accumulator; VMUL is not barred
     {"10.13", "vdiv.f32 s0,s1,s2", 16},
     {"10.14", "vdiv.f32 s0,s1,s2; add.w r0,r1,r2", 16},
+    // Every other division is the younger of its pair, and none goes with it.
+    {"10.14a", "vdiv.f32 s0,s1,s2; add.w r0,r1,r2; add.w r3,r4,r5", 16.5},
     {"10.15", "vsqrt.f32 s0,s1", 14},
     {"10.16", "vldr s0,[r0]; vldr s1,[r1,#4]", 1},
     {"10.17", "vldr s0,[r0]; vldr s1,[r1,#8]", 2},
