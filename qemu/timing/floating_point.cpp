@@ -114,31 +114,21 @@ void fixed_point(Decoded& d, uint32_t e) {
     reads(d, Role::operand, first_single(e, 12, 22, is_double(e)), is_double(e));
 }
 
-void one_core_register(Decoded& d, uint32_t e) {
+// Between a single and a core register: the rows are of those that write the single.
+void with_core_register(Decoded& d, uint32_t e, unsigned single) {
     d.is_fp = true;
-    const unsigned single = first_single(e, 16, 7, false);
     if (field(e, 20, 1) != 0) {
         d.kind = Kind::fp_to_core;
         d.write(field(e, 12, 4));
         d.read(Role::operand, single);
     } else {
-        d.kind = Kind::fp_from_core;
         d.write(single);
         d.read(Role::operand, field(e, 12, 4));
     }
 }
+void one_core_register(Decoded& d, uint32_t e) { with_core_register(d, e, first_single(e, 16, 7, false)); }
 void half_of_double(Decoded& d, uint32_t e) {
-    d.is_fp = true;
-    const unsigned single = first_single(e, 16, 7, true) + field(e, 21, 1);
-    if (field(e, 20, 1) != 0) {
-        d.kind = Kind::fp_to_core;
-        d.write(field(e, 12, 4));
-        d.read(Role::operand, single);
-    } else {
-        d.kind = Kind::fp_from_core;
-        d.write(single);
-        d.read(Role::operand, field(e, 12, 4));
-    }
+    with_core_register(d, e, first_single(e, 16, 7, true) + field(e, 21, 1));
     if (beyond(e, 7, true)) {
         d.kind = Kind::unknown;
     }
@@ -157,7 +147,6 @@ void two_core_registers(Decoded& d, uint32_t e) {
         d.write(field(e, 16, 4));
         reads(d, Role::operand, first, true);
     } else {
-        d.kind = Kind::fp_from_core;
         writes(d, first, true);
         d.read(Role::operand, field(e, 12, 4));
         d.read(Role::operand, field(e, 16, 4));
