@@ -15,6 +15,7 @@
 #include <memory>
 
 #include "base/failure.hpp"
+#include "base/nearest_name.hpp"
 
 namespace qemu {
 namespace {
@@ -85,24 +86,6 @@ std::string readable(const std::string& name) {
     const std::unique_ptr<char, void (*)(void*)> text(abi::__cxa_demangle(name.c_str(), nullptr, nullptr, &status),
                                                       std::free);
     return status == 0 && text ? text.get() : name;
-}
-
-// Single-letter changes from one word to the other.
-std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) {
-        row[j] = j;
-    }
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t corner = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t above = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, corner + (a[i - 1] == b[j - 1] ? 0 : 1)});
-            corner = above;
-        }
-    }
-    return row[b.size()];
 }
 
 }  // namespace
@@ -197,7 +180,7 @@ Function Elf::function(const std::string& name) const {
             function.name.starts_with(name + '.')) {
             found.push_back(function);
         }
-        close.emplace_back(distance(without_parameters, name), text);
+        close.emplace_back(base::letters_between(without_parameters, name), text);
     }
     if (found.size() == 1) {
         return found[0];

@@ -516,6 +516,21 @@ TEST(Decode, ADoubleBeyondTheSixteenthIsUnknown) {
     }
 }
 
+// Sixteen of the core, 32 singles, three that flags are: each has a number of its own below their count.
+TEST(Decode, RegistersHaveNumbersOfTheirOwn) {
+    namespace registers = timing::registers;
+    std::set<unsigned> all{registers::flags, registers::ge, registers::fp_flags};
+    for (unsigned i = 0; i < 16; ++i) {
+        all.insert(i);
+    }
+    for (unsigned i = 0; i < 32; ++i) {
+        all.insert(registers::s0 + i);
+    }
+    EXPECT_EQ(all.size(), 51U);
+    EXPECT_EQ(all.size(), registers::count);
+    EXPECT_EQ(*all.rbegin(), registers::count - 1U);
+}
+
 TEST(Decode, WhatNoRowMatchesIsUnknown) {
     for (const std::uint32_t e : {0xFFFFFFFFU, 0xEE000000U /* coprocessor 0 */, 0xEC000A00U, 0xFE800000U,
                                   0xEEB03B40U | 0x20U /* vmov d3, d16 */, 0xFBF00000U}) {

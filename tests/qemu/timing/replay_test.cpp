@@ -116,6 +116,18 @@ TEST(PackedEvent, TellsEventsApart) {
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[8] = 9; }))) << "beyond the eighth";
 }
 
+// From the first state, at the first site, with nothing to be said of it: no step is known for it.
+TEST(Replay, ComputesTheFirstStepOfAll) {
+    const listing::Line line = listing::assemble("nop.w\n").front();
+    const timing::Prepared nop(timing::decode(line.encoding, line.bytes));
+    timing::Replay replay(timing::read_core(TEST_CORES, "m7-ideal"));
+    for (int k = 0; k < 100; ++k) {
+        replay.execute(0, nop, {});
+        EXPECT_EQ(replay.positions()[0], k);  // half a cycle each
+    }
+    EXPECT_LT(replay.computed(), 50U);  // it comes back to states that it knows
+}
+
 TEST(Replay, EqualsTheComputationStepByStep) {
     std::string text;
     for (const char* word : words) {

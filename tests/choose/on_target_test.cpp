@@ -1,0 +1,72 @@
+// Costs on the emulated board: the board's own counts, each case counted once.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <optional>
+#include <vector>
+
+#include "base/failure.hpp"
+#include "bench/choose/costs.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/signals.hpp"
+#include "bench/target/target_rows.hpp"
+
+namespace {
+
+std::optional<qemu::Board> board_here() {
+    try {
+        qemu::Board board = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
+        (void)qemu::emulator_version();
+        board.cores = TEST_CORES;
+        return board;
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(std::getenv("GLSUM_REQUIRE_FIRMWARE"), nullptr) << failure.what();
+        return std::nullopt;
+    }
+}
+
+TEST(OnTarget, CountsEachCaseOnce) {
+    const auto board = board_here();
+    if (!board) {
+        GTEST_SKIP() << "no board is here";
+    }
+    const std::vector<choose::Case> cases = {
+        {"ring_plain_f32", 20}, {"modes_plain_f32", 16}, {"ring_plain_f32", 20}, {"nested_plain_f32", 24}};
+    const qemu::Signals signals = {bench::make_signal("noise", 300, 7)};
+    std::vector<qemu::PlannedRow> plan;
+    for (const auto& [kernel, taps] : cases) {
+        const auto design = bench::design_of(kernel, 0.5, bench::length_of(kernel, 0.5, taps, 300), 300);
+        plan.push_back({kernel,
+                        0.5,
+                        taps,
+                        0,
+                        qemu::calls_to_measure(kernel, taps),
+                        {design.modes.begin(), design.modes.end()},
+                        design.blocks});
+    }
+    for (const char* core : {"", "stm32f746-flash"}) {
+        const bool modelled = core[0] != '\0';
+        const auto timing =
+            bench::timing_request(TEST_CORES, modelled ? std::vector<std::string>{core} : std::vector<std::string>{});
+        const auto rows = qemu::measure(
+            *board, plan, signals, [] {}, qemu::Counting::blocks, timing);
+        choose::OnTarget costs(*board, 0.5, 300, 7, 1, core);
+        const std::vector<choose::Cost> found = costs.costs(cases);
+        ASSERT_EQ(found.size(), 4U);
+        EXPECT_EQ(costs.measured(), 3U);
+        for (std::size_t i = 0; i < cases.size(); ++i) {
+            EXPECT_EQ(found[i].fault, "");
+            EXPECT_EQ(found[i].value, modelled ? rows[i].cores[0].cycles : rows[i].instructions) << i;
+            EXPECT_EQ(found[i].limited, modelled ? rows[i].cores[0].high : rows[i].instructions) << i;
+            EXPECT_EQ(found[i].bytes, static_cast<double>(rows[i].state_bytes + rows[i].coefficient_bytes)) << i;
+            EXPECT_EQ(found[i].noise, 0.0);
+        }
+        (void)costs.costs({cases[1]});  // known
+        EXPECT_EQ(costs.measured(), 3U);
+        (void)costs.costs({cases[1], {"ring_plain_f32", 21}});
+        EXPECT_EQ(costs.measured(), 4U);
+        EXPECT_EQ(costs.remembered(), 0U);
+    }
+}
+
+}  // namespace
