@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
 
 #include "base/failure.hpp"
@@ -159,13 +160,12 @@ InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
             }
             for (std::size_t f = 0; f < count_; ++f) {
                 std::array<double, nodes>& c = octave.coefficients[p * count_ + f];
-                for (std::size_t k = 0; k < nodes; ++k) {
-                    double sum = 0.0;
-                    for (std::size_t i = 0; i < nodes; ++i) {
-                        sum += values[f][i] * chebyshev_at_nodes()[k][i];
-                    }
-                    c[k] = sum * (k == 0 ? 1.0 : 2.0) / nodes;
-                }
+                std::transform(
+                    chebyshev_at_nodes().begin(), chebyshev_at_nodes().end(), c.begin(), [&](const auto& polynomial) {
+                        return std::inner_product(values[f].begin(), values[f].end(), polynomial.begin(), 0.0) * 2.0 /
+                               nodes;
+                    });
+                c[0] /= 2.0;
                 // The last coefficients bound what the polynomial leaves out.
                 good = good && std::max(std::fabs(c[nodes - 1]), std::fabs(c[nodes - 2])) <= accepted * size[f];
             }

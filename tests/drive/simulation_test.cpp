@@ -10,6 +10,8 @@
 #include "base/failure.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/response.hpp"
+#include "modes/design.hpp"
+#include "modes/merged.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {
@@ -159,6 +161,39 @@ TEST(Simulate, ModesStandForFullMemory) {
     EXPECT_GT(off({.taps = 30, .increments = true, .kernel = "ring_oldest_f64"}), 1e-2);
     EXPECT_THROW((void)stepped(undelayed(), {.increments = true, .kernel = "modes_plain_f64"}), glsum::Failure);
     EXPECT_THROW((void)stepped(undelayed(), {.taps = 16, .merged = true, .kernel = "modes_plain_f64"}), glsum::Failure);
+}
+
+// Of 16 coefficients those that modes leave are near taps, one more than increments of one order need: the recursion
+// written out.
+TEST(Simulate, OneTableWithModesIsItsRecursion) {
+    const Model model = undelayed();
+    const double h = 0.001;
+    const auto found =
+        stepped(model, {.taps = 17, .increments = true, .merged = true, .kernel = "modes_plain_f64"}, 2.0);
+    const std::size_t count = found.size();
+    const std::size_t wanted = glsum::modes::modes_within(0.5, 16);
+    const std::size_t near_taps = 17 - 2 * wanted;
+    const std::vector<glsum::modes::Term> terms = {{0.18234, 1.9909}, {0.65536, 0.98319}};
+    const auto gl = glsum::modes::Discretisation::grunwald_letnikov;
+    const std::vector<double> weights = glsum::modes::merged_weights(terms, h, gl, near_taps);
+    const auto table = glsum::modes::approximate_merged(terms, h, gl, count, near_taps, wanted);
+    ASSERT_GT(table.modes.size(), 4U);
+    std::vector<double> memories(table.modes.size(), 0.0);
+    std::vector<double> moved(count, 0.0);
+    double y = 0.0;
+    for (std::size_t k = 1; k < count; ++k) {
+        double rest = 1.0 - 0.9992 * y;
+        for (std::size_t j = 1; j < near_taps && j <= k; ++j) {
+            rest -= weights[j] * moved[k - j];
+        }
+        for (std::size_t m = 0; m < memories.size(); ++m) {
+            memories[m] = (1.0 - table.modes[m].decay) * memories[m] + (k >= near_taps ? moved[k - near_taps] : 0.0);
+            rest -= table.modes[m].weight * memories[m];
+        }
+        moved[k] = rest / (weights[0] + 0.9992);
+        y += moved[k];
+        ASSERT_NEAR(found[k], y, 1e-9) << k;
+    }
 }
 
 TEST(Simulate, FixedPointInIncrementsSeesItsScale) {
