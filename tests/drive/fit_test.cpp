@@ -420,6 +420,34 @@ TEST(Form, GivesTermsTheirOrderAsFarAsBoundsAllow) {
     EXPECT_EQ(form.in_order(swapped), swapped);
 }
 
+// Terms that came to stand the other way round are told in their order, with the deviations that are theirs.
+TEST(Fit, DeviationsGoWithTheTermsThatAreGivenTheirOrder) {
+    Acquisition noisy = clean;
+    noisy.noise = 0.005;
+    const Record record = record_of(plants::niopdt(), noisy, 5);
+    Form straight(Kind::niopdt, plants::niopdt());
+    Form other(Kind::niopdt, plants::niopdt());
+    std::swap(other.parameter("a1").value, other.parameter("a2").value);
+    std::swap(other.parameter("alpha1").value, other.parameter("alpha2").value);
+    for (Form* form : {&straight, &other}) {
+        for (const char* order : {"alpha1", "alpha2"}) {
+            form->parameter(order).lower = 0.5;
+            form->parameter(order).upper = 2.5;
+        }
+    }
+    const Fit one = drive::fit(straight, {record}, {});
+    const Fit same = drive::fit(other, {record}, {});
+    ASSERT_EQ(one.parameters.size(), same.parameters.size());
+    for (std::size_t p = 0; p < one.parameters.size(); ++p) {
+        const drive::Estimate& a = one.parameters[p];
+        const drive::Estimate& b = same.parameters[p];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_NEAR(b.value, a.value, 0.05 * a.deviation) << a.name;
+        EXPECT_NEAR(b.deviation, a.deviation, 0.05 * a.deviation) << a.name;
+    }
+    EXPECT_GT(value_of(same, "alpha2"), value_of(same, "alpha1"));
+}
+
 // Of 40 logs, as many intervals hold the truth as 95 % of them: 33 to 40 with probability 0.998 for one parameter.
 TEST(Fit, IntervalsHoldTheTruth) {
     const auto found = drive::measure_coverage(plants::sopdt(), Kind::sopdt, {}, 40, 1, 1);
