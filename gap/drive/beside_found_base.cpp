@@ -77,6 +77,7 @@ void ask_jointly(Answer& answer, const Question& question) {
         return;
     }
     answer.decision.outcome = Outcome::no_gap;
+    answer.decision.chosen = static_cast<std::size_t>(&answer.none() - answer.ranking.data());
     answer.decision.effects.clear();
     answer.decision.suspect.reset();
     answer.decision.confidence = std::min(answer.decision.confidence, 0.9);

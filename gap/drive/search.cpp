@@ -76,6 +76,11 @@ public:
                 take(again(2));
                 renew_whitener();
             }
+            // Fits of many numbers end at different places: a single that began elsewhere may go as far as its pair.
+            if (of_.ground.study.base.refit && has_sized(2)) {
+                take(narrowed(2));
+                renew_whitener();
+            }
             if (worth_more(found_.ranking.front()) && has_sized(2)) {
                 take(exchanged());
                 renew_whitener();
