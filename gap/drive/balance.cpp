@@ -34,8 +34,9 @@ Balance::Balance(const Scenario& scenario, double mass, double constant, double 
 }
 
 double Balance::increment(double forcing, double known, double y) const {
-    const double net = forcing - known - resisting(y, 0.0, 0.0).value;
-    return forces_.friction_of_speed ? against_speed(net, y) : against_motion(forcing, net, y);
+    const Force at_rest = linear_ ? Force{constant_ * y, mass_ + constant_} : resisting(y, 0.0, 0.0);
+    const double net = forcing - known - at_rest.value;
+    return forces_.friction_of_speed ? against_speed(net, y, at_rest) : against_motion(forcing, net, y, at_rest);
 }
 
 double Balance::unbalanced(double forcing, double derivatives, double y, double e) const {
@@ -52,25 +53,26 @@ double Balance::unbalanced(double forcing, double derivatives, double y, double 
 
 void Balance::advance(double y, double e) { travelled_ += step_s_ * (y + operating_ + 0.5 * e); }
 
-double Balance::against_motion(double forcing, double net, double y) const {
+double Balance::against_motion(double forcing, double net, double y, const Force& at_rest) const {
     const double of_load = friction_of_load(forcing, y);
     if (net > forces_.friction_up + of_load) {
-        return solve(net - forces_.friction_up - of_load, y, forces_.friction_share);
+        return solve(net - forces_.friction_up - of_load, y, at_rest, forces_.friction_share);
     }
     if (net < -forces_.friction_down - of_load) {
-        return solve(net + forces_.friction_down + of_load, y, -forces_.friction_share);
+        return solve(net + forces_.friction_down + of_load, y, at_rest, -forces_.friction_share);
     }
-    return forces_.friction_up == 0.0 && forces_.friction_down == 0.0 && of_load == 0.0 ? solve(net, y, 0.0) : 0.0;
+    const bool slides = forces_.friction_up == 0.0 && forces_.friction_down == 0.0 && of_load == 0.0;
+    return slides ? solve(net, y, at_rest, 0.0) : 0.0;
 }
 
 // Friction in one direction if that is where the step ends, in the other one likewise; between both it stands.
-double Balance::against_speed(double net, double y) const {
+double Balance::against_speed(double net, double y, const Force& at_rest) const {
     const double speed = y + operating_;
-    const double up = solve(net - forces_.friction_up, y, 0.0);
+    const double up = solve(net - forces_.friction_up, y, at_rest, 0.0);
     if (speed + up > 0.0) {
         return up;
     }
-    const double down = solve(net + forces_.friction_down, y, 0.0);
+    const double down = solve(net + forces_.friction_down, y, at_rest, 0.0);
     return speed + down < 0.0 ? down : -speed;
 }
 
@@ -81,27 +83,27 @@ double Balance::friction_of_load(double forcing, double y) const {
     return forces_.friction_share * (std::fabs(forcing) + std::fabs(constant_ * restoring(y).value));
 }
 
-double Balance::solve(double left, double y, double share) const {
+double Balance::solve(double left, double y, const Force& unloaded, double share) const {
     if (linear_) {
         return left / (mass_ + constant_);
     }
     if (left == 0.0) {
         return 0.0;
     }
-    const double at_rest = resisting(y, 0.0, share).value;
-    const double stiffness =
-        mass_ + constant_ * restoring(y).slope + 2.0 * forces_.drag_of_speed * std::fabs(y + operating_);
+    const Force at_rest = share == 0.0 ? unloaded : resisting(y, 0.0, share);
     // Newton's steps, as long as these stay within what is known of the balance: beyond `near`, and, once it was
     // passed, before `far`. A force that gives way, as a sine does behind its top, has it farther off than its slope
     // says.
     double near = 0.0;
     double far = 0.0;
     bool passed = false;
-    double e = left / (stiffness > 0.0 ? stiffness : mass_);
+    double e = left / (at_rest.slope > 0.5 * mass_ ? at_rest.slope : mass_);
+    double e_before = 0.0;
+    double slope_before = at_rest.slope;
     constexpr int most_steps = 140;
     for (int i = 0; i < most_steps; ++i) {
         const Force now = resisting(y, e, share);
-        const double miss = now.value - at_rest - left;
+        const double miss = now.value - at_rest.value - left;
         if (!std::isfinite(miss)) {
             return std::numeric_limits<double>::quiet_NaN();
         }
@@ -115,11 +117,17 @@ double Balance::solve(double left, double y, double share) const {
             next = miss == 0.0 ? e : passed ? 0.5 * (near + far) : 2.0 * e;
         }
         const double by = next - e;
+        const double missed = std::fabs(miss / left);
+        // What Newton's step leaves: half of how the slope changes times its square.
+        const double bend = std::fabs((now.slope - slope_before) / (e - e_before));
+        const bool leaves_nothing = sensible && (passed || missed <= 1e-3) && std::fabs(by) <= 1e-4 * std::fabs(e) &&
+                                    bend * by * by <= 1e-12 * std::fabs(now.slope * e);
+        e_before = e;
+        slope_before = now.slope;
         e = next;
-        // Newton's steps square what is left: after one of so much of e the next is rounding.
         const double last = sensible ? 1e-7 : 1e-12;
-        const bool near_it = passed || std::fabs(miss) <= 1e-6 * std::fabs(left);
-        if (near_it && std::fabs(by) <= last * std::fabs(e) + 1e-15 * std::fabs(y)) {
+        if (leaves_nothing ||
+            ((passed || missed <= 1e-6) && std::fabs(by) <= last * std::fabs(e) + 1e-15 * std::fabs(y))) {
             return e;
         }
     }
@@ -142,8 +150,11 @@ Balance::Force Balance::resisting(double y, double e, double share) const {
         const double at = cogging.of_speed ? travelled_ + step_s_ * (y + operating_ + 0.5 * e) : speed;
         const double rate = 2.0 * std::numbers::pi * cogging.per_unit;
         const double phase = rate * at + cogging.phase_rad;
-        force.value -= cogging.size * std::sin(phase);
-        force.slope -= cogging.size * rate * (cogging.of_speed ? 0.5 * step_s_ : 1.0) * std::cos(phase);
+        double sine;
+        double cosine;
+        ::sincos(phase, &sine, &cosine);
+        force.value -= cogging.size * sine;
+        force.slope -= cogging.size * rate * (cogging.of_speed ? 0.5 * step_s_ : 1.0) * cosine;
     }
     return force;
 }

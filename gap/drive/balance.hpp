@@ -38,10 +38,11 @@ private:
     // \param power  of a level, in shares of the reference and beyond `at_zero`
     [[nodiscard]] double outflow_of(double power) const;
     [[nodiscard]] double friction_of_load(double forcing, double y) const;
-    [[nodiscard]] double against_motion(double forcing, double net, double y) const;
-    [[nodiscard]] double against_speed(double net, double y) const;
-    // e where resisting(y, e, share) - resisting(y, 0, share) = left.
-    [[nodiscard]] double solve(double left, double y, double share) const;
+    // \param at_rest  resisting(y, 0, 0)
+    [[nodiscard]] double against_motion(double forcing, double net, double y, const Force& at_rest) const;
+    [[nodiscard]] double against_speed(double net, double y, const Force& at_rest) const;
+    // e where resisting(y, e, share) - resisting(y, 0, share) = left. \param unloaded  resisting(y, 0, 0)
+    [[nodiscard]] double solve(double left, double y, const Force& unloaded, double share) const;
 
     const Forces& forces_;
     double operating_;
