@@ -1,12 +1,38 @@
-# `find_package(glsum)` for other projects: the library, its headers, target glsum::kernels.
+# What other projects use: headers, library and the ways to find them. One prefix holds the host's library and, for each floating-point
+# unit that a Cortex-M7 may have, the target's: a build installs the one that it is of.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
-install(TARGETS glsum_kernels EXPORT glsum_targets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+include(${CMAKE_CURRENT_SOURCE_DIR}/glsum-flavour.cmake)
+glsum_flavour(flavour)
+
+set(package ${CMAKE_INSTALL_DATADIR}/cmake/glsum)
+set(libraries ${CMAKE_INSTALL_LIBDIR})
+if(NOT flavour STREQUAL "host")
+    set(libraries lib/arm-none-eabi/${flavour})
+endif()
+install(TARGETS glsum_kernels EXPORT glsum_targets ARCHIVE DESTINATION ${libraries})
 install(DIRECTORY glsum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "*.h" PATTERN "simd_dot_arch.hpp" EXCLUDE)
-install(EXPORT glsum_targets NAMESPACE glsum:: FILE glsumConfig.cmake
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/glsum)
+
+install(EXPORT glsum_targets NAMESPACE glsum:: FILE glsum-${flavour}.cmake DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/glsumConfigVersion.cmake
-    COMPATIBILITY SameMinorVersion)
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glsumConfigVersion.cmake
-    DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/glsum)
+    COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
+install(FILES glsumConfig.cmake glsum-flavour.cmake ${CMAKE_CURRENT_BINARY_DIR}/glsumConfigVersion.cmake DESTINATION ${package})
+
+# pkg-config: the target's by PKG_CONFIG_LIBDIR=PREFIX/lib/arm-none-eabi/FLAVOUR/pkgconfig.
+file(RELATIVE_PATH up /prefix/${libraries}/pkgconfig /prefix)
+get_target_property(definitions glsum_kernels INTERFACE_COMPILE_DEFINITIONS)
+set(defines "")
+if(definitions)
+    list(TRANSFORM definitions PREPEND "-D" OUTPUT_VARIABLE defines)
+    list(JOIN defines " " defines)
+endif()
+file(CONFIGURE OUTPUT glsum.pc @ONLY CONTENT [=[
+prefix=${pcfiledir}/@up@
+Name: glsum
+Description: Kernels of the Grünwald-Letnikov sum, in C++20 (@flavour@)
+Version: @PROJECT_VERSION@
+Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@ @defines@
+Libs: -L${prefix}/@libraries@ -lglsum
+]=])
+install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glsum.pc DESTINATION ${libraries}/pkgconfig)

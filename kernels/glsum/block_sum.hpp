@@ -15,7 +15,7 @@
 namespace glsum {
 
 template <class Technique, class Format>
-struct Sum<Block, Technique, Format> {
+struct Sum<Block, Technique, Format> : SumOf<Block, Technique, Format> {
     static constexpr bool fused = std::is_same_v<Technique, OldestFma>;
     static_assert(fused || (std::is_same_v<Technique, Plain> && Format::fixed_point),
                   "what waits is oldest first; in fixed point no order shows");
@@ -24,9 +24,6 @@ struct Sum<Block, Technique, Format> {
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
     using Accumulator = typename Format::Accumulator;
-    using HistoryPart = Block;
-    using TechniquePart = Technique;
-    using FormatPart = Format;
     static constexpr std::size_t phases = Block::phases;
 
     struct State {
@@ -42,10 +39,6 @@ struct Sum<Block, Technique, Format> {
         typename Format::Scale scale;
     };
 
-    static constexpr bool host_only = false;
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
-
     /// Coefficients, and samples of the past, that a length of at most `taps` needs.
     static constexpr std::size_t table_count(std::size_t taps) {
         return taps == 1 ? 0 : phases * Block::groups(taps - 1) + phases - 1;
@@ -57,9 +50,6 @@ struct Sum<Block, Technique, Format> {
         return taps == 1 ? 0 : phases * Block::groups(taps - 1) + 2;
     }
 
-    /// The orders that `prepare` takes.
-    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
-
     /// Makes the table for the design and clears the past. On failure the state is as it was.
     static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
     /// Forgets the past and the count of saturations: x = 0 before the next sample.
@@ -70,9 +60,6 @@ struct Sum<Block, Technique, Format> {
     /// sums need. The first takes at most three products whatever the length.
     static Output answer(State& state, Sample newest);
     static void settle(State& state, Sample newest);
-
-    static Sample from_real(double real) { return Format::from_real(real); }
-    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
 
 private:
     template <std::size_t outputs, std::size_t groups, std::size_t kept>
@@ -87,8 +74,6 @@ private:
     static Accumulator sum_of_fused(const State& state, Sample newest);
     static void advance_fused(State& state, Sample newest);
     static Output step_fused(State& state, Sample newest);
-
-    static constexpr const auto& name_ = kernel_name<Block, Technique, Format>;
 };
 
 }  // namespace glsum

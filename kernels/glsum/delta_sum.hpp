@@ -13,23 +13,16 @@
 namespace glsum {
 
 template <class Kept, class Technique, class Format>
-struct Sum<Delta<Kept>, Technique, Format> {
+struct Sum<Delta<Kept>, Technique, Format> : SumOf<Delta<Kept>, Technique, Format> {
     /// The sum of order v - 1.
     using Inner = Sum<Kept, Technique, Format>;
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
-    using HistoryPart = Delta<Kept>;
-    using TechniquePart = Technique;
-    using FormatPart = Format;
 
     struct State : Inner::State {
         Sample before;  // x_(k-1)
     };
-
-    static constexpr bool host_only = Technique::host_only;
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
 
     static constexpr std::size_t table_count(std::size_t taps) { return Inner::table_count(taps); }
     static constexpr std::size_t past_count(std::size_t taps) { return Inner::past_count(taps); }
@@ -67,7 +60,6 @@ struct Sum<Delta<Kept>, Technique, Format> {
 
 private:
     static constexpr double scale_ = Format::fixed_point ? 2.0 : 1.0;
-    static constexpr const auto& name_ = kernel_name<Delta<Kept>, Technique, Format>;
 };
 
 }  // namespace glsum

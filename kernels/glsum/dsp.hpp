@@ -10,9 +10,13 @@
 #if defined(__ARM_ARCH_7EM__) && defined(__GNUC__) && !defined(__PIC__)
 /// Where there are loops in the order of a Cortex-M7's issue slots: the same sums, bit by bit.
 #define GLSUM_M7
-#include "glsum/m7/dot_floats.h"
 #include "glsum/m7/dot_words.h"
+#if defined(__ARM_FP) && (__ARM_FP & 4)
+/// And a unit for single precision, which some have not.
+#define GLSUM_M7_FLOATS
+#include "glsum/m7/dot_floats.h"
 #include "glsum/m7/nest_floats.h"
+#endif
 #endif
 
 namespace glsum::dsp {
@@ -20,6 +24,8 @@ namespace glsum::dsp {
 #if defined(GLSUM_M7)
 GLSUM_DOT_WORDS(dot_smlal, "smlal")
 GLSUM_DOT_WORDS(dot_smlald, "smlald")
+#endif
+#if defined(GLSUM_M7_FLOATS)
 GLSUM_DOT_FLOATS(dot_floats)
 GLSUM_NEST_FLOATS(nest_floats)
 #endif

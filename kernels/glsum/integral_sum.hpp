@@ -12,7 +12,7 @@
 namespace glsum {
 
 template <class Technique, class Format>
-struct Sum<Integral, Technique, Format> {
+struct Sum<Integral, Technique, Format> : SumOf<Integral, Technique, Format> {
     static_assert(!Format::fixed_point, "a running sum outgrows every scale");
 
     /// The near taps and the modes that decay.
@@ -20,19 +20,12 @@ struct Sum<Integral, Technique, Format> {
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
-    using HistoryPart = Integral;
-    using TechniquePart = Technique;
-    using FormatPart = Format;
 
     struct State : Inner::State {
         Coefficient weight;  // w_0; 0 without modes
         Sample total;        // r as far as one word holds it
         Sample lost;         // and the rest
     };
-
-    static constexpr bool host_only = false;
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
 
     static constexpr std::size_t table_count(std::size_t taps) { return Inner::table_count(taps); }
     static constexpr std::size_t past_count(std::size_t taps) { return Inner::past_count(taps); }
@@ -47,8 +40,6 @@ struct Sum<Integral, Technique, Format> {
     /// Multiplications for one output, with modes.
     static constexpr std::size_t multiplications(std::size_t taps) { return taps < 3 ? taps - 1 : taps - 2; }
 
-    /// The orders that `prepare` takes: a design with a running sum is one of an integral, but that is the design's.
-    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
     /// What the inner sum is prepared for.
     static constexpr Design inner_design(const Design& design) {
         return design.modes.empty()
@@ -63,12 +54,6 @@ struct Sum<Integral, Technique, Format> {
     static void reset(State& state);
     /// The sum S_k for the next sample x_k.
     static Output step(State& state, Sample newest);
-
-    static Sample from_real(double real) { return Format::from_real(real); }
-    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
-
-private:
-    static constexpr const auto& name_ = kernel_name<Integral, Technique, Format>;
 };
 
 }  // namespace glsum

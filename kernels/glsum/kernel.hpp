@@ -81,6 +81,11 @@ concept Kernel = requires(typename K::State& state, const typename K::State& pre
     { K::to_real(prepared, output) } -> std::same_as<double>;
 };
 
+/// Whether a kernel's body is in the library: not of a combination of words that registry.def has no line for. A kernel
+/// of somebody else's brings its own.
+template <class K>
+inline constexpr bool is_registered = true;
+
 /// A kernel in two halves: `answer(state, x_k)` gives S_k as soon as x_k is there, then `settle(state, x_k)` does what
 /// coming sums need; together, in this order, they are `step` to the last bit. Between sample and result lies only the
 /// first (`latency_model_cycles`).
@@ -126,7 +131,7 @@ struct KernelList {
 
 /// A State with buffers of its own, for at most `capacity` taps: the convenient way to use a kernel.
 ///
-///     glsum::Line<glsum::Sum<glsum::Ring, glsum::Plain, glsum::F32>, 600> line;
+///     glsum::Line<glsum::ring_plain_f32, 600> line;
 ///     line.prepare({.order = 0.5, .taps = 400});
 ///     float sum = line.step(x);
 ///
@@ -147,6 +152,7 @@ public:
 
 private:
     static_assert(capacity >= 1);
+    static_assert(is_registered<K>, "no such kernel: glsum/registry.def lists those that the library has");
     // One element more than needed: a capacity of 1 needs no past, and an array may not be empty.
     alignas(64) typename K::Coefficient table_[K::table_count(capacity) + 1] = {};
     alignas(64) typename K::Sample past_[K::past_count(capacity) + 1] = {};

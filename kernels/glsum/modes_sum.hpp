@@ -15,7 +15,7 @@
 namespace glsum {
 
 template <class Technique, class Format>
-struct Sum<Modes, Technique, Format> {
+struct Sum<Modes, Technique, Format> : SumOf<Modes, Technique, Format> {
     static_assert(std::is_same_v<Technique, Plain> || std::is_same_v<Technique, Compensated>);
     static constexpr bool compensated = std::is_same_v<Technique, Compensated>;
     static_assert(!(compensated && Format::fixed_point),
@@ -24,9 +24,6 @@ struct Sum<Modes, Technique, Format> {
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
-    using HistoryPart = Modes;
-    using TechniquePart = Technique;
-    using FormatPart = Format;
 
     struct State {
         const Coefficient* table;  // a_1 ... a_(K-1), then of each mode, the fastest first: d, g; q31: d, its shift, g
@@ -36,11 +33,8 @@ struct Sum<Modes, Technique, Format> {
         typename Format::Scale scale;
     };
 
-    static constexpr bool host_only = false;
     static constexpr std::size_t coefficients_of_mode = Format::fixed_point ? 3 : 2;
     static constexpr std::size_t words_of_mode = compensated ? 2 : 1;
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
 
     /// Coefficients, and samples of the past, that taps of which so many are modes need; and at most, whatever their
     /// number is.
@@ -56,18 +50,12 @@ struct Sum<Modes, Technique, Format> {
     /// Multiplications for one output.
     static constexpr std::size_t multiplications(std::size_t taps) { return taps - 1; }
 
-    /// The orders that `prepare` takes.
-    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
-
     /// Makes the table for the design and clears the past. On failure the state is as it was.
     static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
     /// Forgets the past and the count of saturations: x = 0 before the next sample.
     static void reset(State& state);
     /// The sum S_k for the next sample x_k.
     static Output step(State& state, Sample newest);
-
-    static Sample from_real(double real) { return Format::from_real(real); }
-    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
 
 private:
     struct Averaged {
@@ -77,8 +65,6 @@ private:
     [[gnu::always_inline]] static inline Averaged move(const Coefficient* of_mode, const Sample* average,
                                                        Sample leaving);
     [[gnu::always_inline]] static inline void keep(Sample* average, const Averaged& moved);
-
-    static constexpr const auto& name_ = kernel_name<Modes, Technique, Format>;
 };
 
 }  // namespace glsum

@@ -14,15 +14,12 @@
 namespace glsum {
 
 template <class Technique, class Format>
-struct Sum<Nested, Technique, Format> {
+struct Sum<Nested, Technique, Format> : SumOf<Nested, Technique, Format> {
     static_assert(std::is_same_v<Technique, Plain>, "a few dozen terms: their order makes no difference that shows");
 
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
-    using HistoryPart = Nested;
-    using TechniquePart = Technique;
-    using FormatPart = Format;
 
     struct State {
         const Coefficient* table;    // a_1 ... a_(K-1), then each block's mean of a_j, newest first; q31: its sum
@@ -34,10 +31,6 @@ struct Sum<Nested, Technique, Format> {
         std::uint32_t per_level;     // B
         typename Format::Scale scale;
     };
-
-    static constexpr bool host_only = false;
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
 
     /// Coefficients, and samples of the past, that a design needs.
     static constexpr std::size_t table_count(const Design& design) { return design.taps - 1; }
@@ -52,21 +45,12 @@ struct Sum<Nested, Technique, Format> {
     /// Multiplications for one output; an addition a level besides.
     static constexpr std::size_t multiplications(std::size_t taps) { return taps - 1; }
 
-    /// The orders that `prepare` takes.
-    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
-
     /// Makes the table for the design and clears the past. On failure the state is as it was.
     static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
     /// Forgets the past and the count of saturations: x = 0 before the next sample.
     static void reset(State& state);
     /// The sum S_k for the next sample x_k.
     static Output step(State& state, Sample newest);
-
-    static Sample from_real(double real) { return Format::from_real(real); }
-    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
-
-private:
-    static constexpr const auto& name_ = kernel_name<Nested, Technique, Format>;
 };
 
 }  // namespace glsum

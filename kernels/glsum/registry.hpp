@@ -29,13 +29,29 @@
 
 namespace glsum {
 
+// Each kernel by its published name: `glsum::Line<glsum::ring_plain_f32, 600>`.
+using null = Null;
+#define GLSUM_KERNEL(published, history, technique, format)                                                \
+    using published = Sum<history, technique, format>;                                                     \
+    static_assert(published::name() == #published, "registry.def: a kernel's name is what its words say"); \
+    template <>                                                                                            \
+    inline constexpr bool is_registered<published> = true;
+#if defined(GLSUM_SIMD)
+#define GLSUM_HOST_KERNEL GLSUM_KERNEL
+#else
+#define GLSUM_HOST_KERNEL(published, history, technique, format)
+#endif
+#include "glsum/registry.def"
+#undef GLSUM_KERNEL
+#undef GLSUM_HOST_KERNEL
+
 /// Every kernel of this build: `null` first. Bare metal and GLSUM_SIMD=OFF leave out the host's own.
 using Registry = KernelList<Null
-#define GLSUM_KERNEL(history, technique, format) , Sum<history, technique, format>
+#define GLSUM_KERNEL(published, history, technique, format) , published
 #if defined(GLSUM_SIMD)
-#define GLSUM_HOST_KERNEL(history, technique, format) , Sum<history, technique, format>
+#define GLSUM_HOST_KERNEL GLSUM_KERNEL
 #else
-#define GLSUM_HOST_KERNEL(history, technique, format)
+#define GLSUM_HOST_KERNEL(published, history, technique, format)
 #endif
 #include "glsum/registry.def"
 #undef GLSUM_KERNEL

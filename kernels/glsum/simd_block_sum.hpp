@@ -18,23 +18,17 @@
 namespace glsum {
 
 template <class Technique, class Format>
-struct Sum<HostBlock, Technique, Format> {
+struct Sum<HostBlock, Technique, Format> : SumOf<HostBlock, Technique, Format> {
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
-    using HistoryPart = HostBlock;
-    using TechniquePart = Technique;
-    using FormatPart = Format;
     static_assert(std::is_same_v<Sample, Coefficient>);
 
     struct State : SimdBlock<Sample> {
         [[no_unique_address]] typename Format::Scale scale;
     };
 
-    static constexpr bool host_only = true;
     static constexpr bool fused = std::is_same_v<Technique, SimdFma>;
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
 
     static constexpr std::size_t table_count(std::size_t taps) {
         return entering_count +
@@ -56,8 +50,6 @@ struct Sum<HostBlock, Technique, Format> {
         return j == 0 ? 1 : 1 + padded(taps) / lanes + tree + simd_block_samples - 1 + 1;
     }
 
-    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
-
     /// Makes the tables for the design and clears the past. On failure the state is as it was.
     static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
     /// Forgets the past: x = 0 before the next sample.
@@ -65,11 +57,7 @@ struct Sum<HostBlock, Technique, Format> {
     /// The sum S_k for the next sample x_k.
     static Output step(State& state, Sample newest);
 
-    static Sample from_real(double real) { return Format::from_real(real); }
-    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
-
 private:
-    static constexpr const auto& name_ = kernel_name<HostBlock, Technique, Format>;
     static constexpr std::size_t lanes = 64 / sizeof(Sample);
     /// Up to whole vectors, so that the tables behind begin with one.
     static constexpr std::size_t entering_count = (simd_block_samples - 1 + lanes + lanes - 1) / lanes * lanes;

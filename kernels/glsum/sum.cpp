@@ -644,7 +644,7 @@ namespace {
 // All loads before the first product. On a Cortex-M7 a fused product holds off the loads behind it for three cycles:
 // once a turn, not once a load.
 [[gnu::always_inline]] inline void load_all(float (&c)[11], float (&x)[8], float (&s)[4]) {
-#if defined(GLSUM_M7)
+#if defined(GLSUM_M7_FLOATS)
     __asm__ volatile(""
                      : "+t"(c[0]), "+t"(c[1]), "+t"(c[2]), "+t"(c[3]), "+t"(c[4]), "+t"(c[5]), "+t"(c[6]), "+t"(c[7]),
                        "+t"(c[8]), "+t"(c[9]), "+t"(c[10]));
@@ -879,11 +879,11 @@ auto Sum<Block, Technique, Format>::step(State& state, Sample newest) -> Output 
     }
 }
 
-#define GLSUM_KERNEL(history, technique, format) template struct Sum<history, technique, format>;
+#define GLSUM_KERNEL(published, history, technique, format) template struct Sum<history, technique, format>;
 #if defined(GLSUM_SIMD)
-#define GLSUM_HOST_KERNEL(history, technique, format) template struct Sum<history, technique, format>;
+#define GLSUM_HOST_KERNEL GLSUM_KERNEL
 #else
-#define GLSUM_HOST_KERNEL(history, technique, format)
+#define GLSUM_HOST_KERNEL(published, history, technique, format)
 #endif
 #include "glsum/registry.def"
 

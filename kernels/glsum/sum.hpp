@@ -29,14 +29,37 @@ inline constexpr auto kernel_name = [] {
     return joined;
 }();
 
+/// What every Sum has alike: its words, its numbers, its name, and how reals become samples.
 template <class History, class Technique, class Format>
-struct Sum {
+struct SumOf {
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
     using HistoryPart = History;
     using TechniquePart = Technique;
     using FormatPart = Format;
+
+    static constexpr bool host_only = Technique::host_only;
+
+    static constexpr std::string_view name() {
+        return {kernel_name<History, Technique, Format>.data(), kernel_name<History, Technique, Format>.size()};
+    }
+
+    /// The orders that `prepare` takes.
+    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
+
+    static Sample from_real(double real) { return Format::from_real(real); }
+    template <class State>
+    static double to_real(const State& state, Output output) {
+        return Format::to_real(output, state.scale);
+    }
+};
+
+template <class History, class Technique, class Format>
+struct Sum : SumOf<History, Technique, Format> {
+    using Sample = typename Format::Sample;
+    using Coefficient = typename Format::Coefficient;
+    using Output = typename Format::Output;
 
     struct State {
         const Coefficient* table;
@@ -45,10 +68,6 @@ struct Sum {
         std::uint32_t head;          // where the newest past sample lies
         typename Format::Scale scale;
     };
-
-    static constexpr bool host_only = Technique::host_only;
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
 
     /// Coefficients, and samples of the past, that a length of at most `taps` needs.
     static constexpr std::size_t table_count(std::size_t taps) {
@@ -61,9 +80,6 @@ struct Sum {
     /// Multiplications for one output.
     static constexpr std::size_t multiplications(std::size_t taps) { return taps - 1; }
 
-    /// The orders that `prepare` takes.
-    static constexpr bool order_in_range(double order) { return glsum::order_in_range(order); }
-
     /// Makes the table for the design and clears the past. On failure the state is as it was.
     static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
     /// Forgets the past and the count of saturations: x = 0 before the next sample.
@@ -71,12 +87,12 @@ struct Sum {
     /// The sum S_k for the next sample x_k.
     static Output step(State& state, Sample newest);
 
-    static Sample from_real(double real) { return Format::from_real(real); }
-    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
-
 private:
     static_assert(History::contiguous || !Technique::contiguous_only, "this technique needs one contiguous piece");
-    static constexpr const auto& name_ = kernel_name<History, Technique, Format>;
 };
+
+/// registry.hpp says which are.
+template <class History, class Technique, class Format>
+inline constexpr bool is_registered<Sum<History, Technique, Format>> = false;
 
 }  // namespace glsum

@@ -14,15 +14,12 @@
 namespace glsum {
 
 template <bool to_first, class Technique, class Format>
-struct Sum<Guess<to_first>, Technique, Format> {
+struct Sum<Guess<to_first>, Technique, Format> : SumOf<Guess<to_first>, Technique, Format> {
     /// The window alone.
     using Inner = Sum<Mirror, Technique, Format>;
     using Sample = typename Format::Sample;
     using Coefficient = typename Format::Coefficient;
     using Output = typename Format::Output;
-    using HistoryPart = Guess<to_first>;
-    using TechniquePart = Technique;
-    using FormatPart = Format;
     static_assert(std::is_floating_point_v<Coefficient> && std::is_same_v<typename Format::Accumulator, Coefficient>,
                   "the recurrences are in the format's own precision");
 
@@ -41,10 +38,7 @@ struct Sum<Guess<to_first>, Technique, Format> {
         [[no_unique_address]] std::conditional_t<to_first, Line, NoLine> line;
     };
 
-    static constexpr bool host_only = Technique::host_only;
     static constexpr std::uint32_t last_count = std::numeric_limits<std::uint32_t>::max();
-
-    static constexpr std::string_view name() { return {name_.data(), name_.size()}; }
 
     static constexpr std::size_t table_count(std::size_t taps) { return Inner::table_count(taps); }
     static constexpr std::size_t past_count(std::size_t taps) { return Inner::past_count(taps); }
@@ -52,20 +46,12 @@ struct Sum<Guess<to_first>, Technique, Format> {
     /// Multiplications for one output, those of the recurrence among them; a division (two with a line) besides.
     static constexpr std::size_t multiplications(std::size_t taps) { return taps + (to_first ? 2 : 1); }
 
-    static constexpr bool order_in_range(double order) { return Inner::order_in_range(order); }
-
     /// Makes the table for the design and clears the past. On failure the state is as it was.
     static Status prepare(State& state, const Design& design, std::span<Coefficient> table, std::span<Sample> past);
     /// Forgets the past: x = 0 before the next sample, with which the record begins.
     static void reset(State& state);
     /// The sum S_k for the next sample x_k.
     static Output step(State& state, Sample newest);
-
-    static Sample from_real(double real) { return Format::from_real(real); }
-    static double to_real(const State& state, Output output) { return Format::to_real(output, state.scale); }
-
-private:
-    static constexpr const auto& name_ = kernel_name<Guess<to_first>, Technique, Format>;
 };
 
 }  // namespace glsum

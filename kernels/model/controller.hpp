@@ -32,6 +32,7 @@ struct ControllerDesign {
 
 template <class K>
 class Controller {
+    static_assert(is_registered<K>, "no such kernel: glsum/registry.def lists those that the library has");
     static_assert(!K::FormatPart::fixed_point, "u has no scale of its own");
 
 public:

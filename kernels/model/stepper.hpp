@@ -56,6 +56,7 @@ inline constexpr std::size_t most_tables = 4;
 
 template <class K>
 class Stepper {
+    static_assert(is_registered<K>, "no such kernel: glsum/registry.def lists those that the library has");
     using Format = typename K::FormatPart;
     static constexpr bool fixed = Format::fixed_point;
 

@@ -71,7 +71,7 @@ protected:
         auto t1 = rest > 1 ? Format::start(samples[i + 1], scale) : Format::zero();
         auto t2 = rest > 2 ? Format::start(samples[i + 2], scale) : Format::zero();
         auto t3 = Format::zero();
-#if defined(GLSUM_M7)
+#if defined(GLSUM_M7_FLOATS)
         if constexpr (std::is_same_v<typename Format::Accumulator, float> && !fused) {
             constexpr std::size_t least = 64;  // to enter and leave the other loop takes 50 cycles
             if (past >= least) {

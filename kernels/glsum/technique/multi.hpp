@@ -39,17 +39,18 @@ protected:
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
         using Sample = typename Format::Sample;
-#if defined(GLSUM_M7)
-        constexpr bool floats = std::is_same_v<typename Format::Accumulator, float> && !fused;
-        constexpr bool words = Format::fixed_point && sizeof(Sample) == 4 && sizeof(typename Format::Coefficient) == 4;
-        if constexpr (floats) {
+#if defined(GLSUM_M7_FLOATS)
+        if constexpr (std::is_same_v<typename Format::Accumulator, float> && !fused) {
             float s[chains] = {};
             dsp::dot_floats(s, table, window.newer, window.newer_count);
             if (window.older_count != 0) {
                 dsp::dot_floats(s, table + window.newer_count, window.older, window.older_count);
             }
             return Format::start(newest, scale) + ((s[0] + s[1]) + (s[2] + s[3]));
-        } else if constexpr (words) {
+        }
+#endif
+#if defined(GLSUM_M7)
+        if constexpr (Format::fixed_point && sizeof(Sample) == 4 && sizeof(typename Format::Coefficient) == 4) {
             auto sum = dsp::dot_smlal_onto(Format::start(newest, scale), table, window.newer, window.newer_count);
             if (window.older_count != 0) {
                 sum = dsp::dot_smlal_onto(sum, table + window.newer_count, window.older, window.older_count);
