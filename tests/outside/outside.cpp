@@ -1,4 +1,5 @@
-// A stranger's program: the half derivative of a step in three kernels, told to the bit. Exit 0 where it is the closed form.
+// A stranger's program: the half derivative of a step in three kernels, told to the bit. Exit 0 where it is the closed
+// form.
 #include <bit>
 #include <cstdint>
 #include <glsum/registry.hpp>
