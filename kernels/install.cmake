@@ -12,7 +12,7 @@ if(NOT flavour STREQUAL "host")
 endif()
 install(TARGETS glsum_kernels EXPORT glsum_targets ARCHIVE DESTINATION ${libraries})
 install(DIRECTORY glsum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
-    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "*.h" PATTERN "simd_dot_arch.hpp" EXCLUDE)
+    FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "*.h" PATTERN "*_arch.hpp" EXCLUDE PATTERN "*_body.hpp" EXCLUDE)
 
 install(EXPORT glsum_targets NAMESPACE glsum:: FILE glsum-${flavour}.cmake DESTINATION ${package})
 write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/glsumConfigVersion.cmake

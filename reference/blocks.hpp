@@ -1,4 +1,4 @@
-// The oracle for kernels with blocks (kernels/glsum/history/nested.hpp): what their design stands for, in 50 digits.
+// The oracle for kernels with blocks (kernels/glsum/logmemory/nested.hpp): what their design stands for, in 50 digits.
 #pragma once
 
 #include <cstddef>

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "glsum/history/delta.hpp"
-#include "glsum/history/tail.hpp"
+#include "glsum/wrap/delta.hpp"
+#include "glsum/wrap/tail.hpp"
 #include "reference/modes.hpp"
 
 namespace reference {

@@ -70,7 +70,7 @@ std::string declared(const std::string& type, const char* name, std::size_t coun
 
 }  // namespace
 
-// kernels/glsum/history/block.hpp.
+// kernels/glsum/lookahead/block.hpp.
 TechniqueText block_text(bool fused, bool fixed) {
     std::string text =
         "    const size_t phase = S->phase;\n"

@@ -16,7 +16,7 @@
 #include "glsum/bound.hpp"
 #include "glsum/catalogue.hpp"
 #include "glsum/gain.hpp"
-#include "glsum/history/nested.hpp"
+#include "glsum/logmemory/nested.hpp"
 #include "glsum/weights.hpp"
 
 namespace generate {

@@ -66,7 +66,7 @@ HistoryText history_text(glsum::Modes) {
             .push = {}};
 }
 
-// kernels/glsum/history/block.hpp.
+// kernels/glsum/lookahead/block.hpp.
 HistoryText history_text(glsum::Block) {
     return {.summary = "in groups of four as they come; summed for the next four outputs at once",
             .fields =
@@ -83,7 +83,7 @@ HistoryText history_text(glsum::Block) {
             .push = {}};
 }
 
-// kernels/glsum/history/nested.hpp.
+// kernels/glsum/logmemory/nested.hpp.
 HistoryText history_text(glsum::Nested) {
     return {.summary = "the newest samples as they are, all older ones as sliding sums over blocks of 2, 4, 8, ...",
             .formula =
@@ -98,7 +98,7 @@ HistoryText history_text(glsum::Nested) {
             .push = replaced(next_head, "_PAST", "_SAMPLES") + "    S->head = head;\n    S->past[head] = newest;\n"};
 }
 
-// kernels/glsum/history/delta.hpp.
+// kernels/glsum/wrap/delta.hpp.
 HistoryText increments_text(const HistoryText& kept, bool fixed) {
     HistoryText text = kept;
     text.summary = "of increments d_k = x_k - x_(k-1): " + kept.summary;
@@ -122,7 +122,7 @@ HistoryText increments_text(const HistoryText& kept, bool fixed) {
     return text;
 }
 
-// kernels/glsum/history/integral.hpp.
+// kernels/glsum/exponentials/integral.hpp.
 HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples) {
     HistoryText text = modes;
     text.summary = "the newest samples as they are, all older ones as decaying averages and a running sum";
@@ -137,7 +137,7 @@ HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples)
     return text;
 }
 
-// kernels/glsum/history/tail.hpp.
+// kernels/glsum/wrap/tail.hpp.
 HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first) {
     HistoryText text = window;
     text.summary =

@@ -9,12 +9,12 @@
 #include <utility>
 #include <vector>
 
-#include "glsum/history/block.hpp"
-#include "glsum/history/mirror.hpp"
-#include "glsum/history/modes.hpp"
-#include "glsum/history/nested.hpp"
-#include "glsum/history/ring.hpp"
-#include "glsum/history/shift.hpp"
+#include "glsum/lookahead/block.hpp"
+#include "glsum/window/mirror.hpp"
+#include "glsum/exponentials/modes.hpp"
+#include "glsum/logmemory/nested.hpp"
+#include "glsum/window/ring.hpp"
+#include "glsum/window/shift.hpp"
 
 namespace generate {
 
@@ -51,7 +51,7 @@ struct TechniqueText {
     std::string m7 = {};       ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
 };
 
-/// A file of kernels/glsum/m7, which a header holds as it is but for its names.
+/// A file of kernels/glsum/window/m7, which a header holds as it is but for its names.
 struct M7Loop {
     std::string_view name;       ///< of the function behind @name@_
     std::string_view macro;      ///< that makes it

@@ -329,7 +329,7 @@ std::string floating_modes(std::size_t modes, bool compensated, bool in_software
 
 }  // namespace
 
-// kernels/glsum/history/modes.hpp.
+// kernels/glsum/exponentials/modes.hpp.
 TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed, bool in_software) {
     const char* const fixed_step =
         "            const int64_t step = (int64_t)mode[0] * leaving - (int64_t)mode[0] * before;\n"
@@ -371,7 +371,7 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
             .pushes = true};
 }
 
-// kernels/glsum/history/nested.hpp. In fixed point GCC 12 must not know that `past` lies behind other members: it would
+// kernels/glsum/logmemory/nested.hpp. In fixed point GCC 12 must not know that `past` lies behind other members: it would
 // add their size in every turn. In software double it must not know how many turns there are.
 TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed, bool in_software) {
     std::string text = "    @accumulator@ sum = @name@_start(newest);\n";

@@ -9,7 +9,7 @@
 #include <type_traits>
 
 #include "glsum/catalogue.hpp"
-#include "glsum/history/nested.hpp"
+#include "glsum/logmemory/nested.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 #include "modes/fitted.hpp"

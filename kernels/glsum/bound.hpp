@@ -6,13 +6,13 @@
 #include <limits>
 #include <type_traits>
 
-#include "glsum/delta_bound.hpp"
-#include "glsum/integral_bound.hpp"
+#include "glsum/exponentials/integral_bound.hpp"
+#include "glsum/exponentials/modes_bound.hpp"
 #include "glsum/kernel.hpp"
-#include "glsum/modes_bound.hpp"
-#include "glsum/nested_bound.hpp"
-#include "glsum/tail_bound.hpp"
+#include "glsum/logmemory/nested_bound.hpp"
 #include "glsum/weights.hpp"
+#include "glsum/wrap/delta_bound.hpp"
+#include "glsum/wrap/tail_bound.hpp"
 
 namespace glsum {
 
@@ -56,9 +56,9 @@ inline constexpr std::size_t longest_record = 1'000'000;
 /// input, |x| <= peak (in fixed point also peak < 1), so that the rounding of the input counts too.
 /// With modes or blocks the exact sum is that of the design's own taps and exponentials or blocks; of increments, and
 /// of a window with a guessed tail, it is the sum that their history states, with exact weights. Derivation:
-/// modes_bound.hpp, nested_bound.hpp, delta_bound.hpp, integral_bound.hpp, tail_bound.hpp, and the headers of the
-/// technique (floating point) and of format/fixed.hpp. Absolute, before h^-v. \param samples  of the record, for
-/// kernels whose weights are carried along it; others do not look at it
+/// exponentials/modes_bound.hpp, logmemory/nested_bound.hpp, wrap/delta_bound.hpp, exponentials/integral_bound.hpp,
+/// wrap/tail_bound.hpp, and the headers of the technique (floating point) and of format/fixed.hpp. Absolute, before
+/// h^-v. \param samples  of the record, for kernels whose weights are carried along it; others do not look at it
 template <class K>
 [[nodiscard]] double error_bound(const Design& design, const typename K::State& state, double peak,
                                  std::size_t samples = longest_record) {

@@ -19,7 +19,8 @@ struct Mode {
     double weight;  ///< w
 };
 
-/// Sums over blocks of samples that stand for far taps (history/nested.hpp): `per_level` blocks of 2, as many of 4, of
+/// Sums over blocks of samples that stand for far taps (logmemory/nested.hpp): `per_level` blocks of 2, as many of 4,
+/// of
 /// 8
 /// ..., `count` in all.
 struct Blocks {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glsum/history/nested.hpp"
+#include "glsum/logmemory/nested.hpp"
 #include "glsum/weights.hpp"
 
 namespace glsum::modes {

@@ -12,7 +12,7 @@
 #include "bench/sweep/signals.hpp"
 #include "bench/sweep/truncation_bound.hpp"
 #include "bench/target/target_plan.hpp"
-#include "glsum/history/nested.hpp"
+#include "glsum/logmemory/nested.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"
 

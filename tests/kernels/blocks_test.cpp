@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "glsum/history/nested.hpp"
+#include "glsum/logmemory/nested.hpp"
 #include "glsum/weights.hpp"
 #include "reference/modes.hpp"
 

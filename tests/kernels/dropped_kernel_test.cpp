@@ -207,7 +207,7 @@ template <class K>
 class GuessTest : public testing::Test {};
 TYPED_TEST_SUITE(GuessTest, GuessKernels, test::KernelNames);
 
-// The weights as history/tail.hpp states them, one rounding at a time.
+// The weights as wrap/tail.hpp states them, one rounding at a time.
 template <class Number>
 struct StatedWeights {
     struct Carried {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "glsum/history/nested.hpp"
+#include "glsum/logmemory/nested.hpp"
 #include "modes/bdf.hpp"
 #include "modes/blocks.hpp"
 #include "modes/design.hpp"

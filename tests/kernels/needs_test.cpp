@@ -9,11 +9,11 @@
 #include <string>
 
 #include "bench/sweep/host_line.hpp"
-#include "glsum/block_weights.hpp"
+#include "glsum/logmemory/block_weights.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/computes_in_double.hpp"
 #include "glsum/double_double.hpp"
-#include "glsum/dsp.hpp"
+#include "glsum/window/dsp.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/registry.hpp"
 #include "reference/real.hpp"

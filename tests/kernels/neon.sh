@@ -16,7 +16,7 @@ mkdir "$folder/include"
 ln -s "$2/xsimd" "$folder/include/xsimd"
 $compiler -static -std=c++20 -O2 -ffp-contract=off -DGLSUM_SIMD -DGLSUM_SIMD_ARCHITECTURE=xsimd::neon64 \
     -I"$source" -I"$source/kernels" -I"$folder/include" -o "$folder/neon" \
-    "$source/tests/kernels/neon.cpp" "$source/kernels/glsum/simd_dot.cpp" "$source/kernels/glsum/simd_dot_arch.cpp" \
-    "$source/kernels/glsum/simd_block.cpp" "$source/kernels/glsum/simd_block_arch.cpp" \
+    "$source/tests/kernels/neon.cpp" "$source/kernels/glsum/window/simd_dot.cpp" "$source/kernels/glsum/window/simd_dot_arch.cpp" \
+    "$source/kernels/glsum/lookahead/simd_block.cpp" "$source/kernels/glsum/lookahead/simd_block_arch.cpp" \
     "$source/kernels/glsum/sum.cpp" "$source/kernels/glsum/weights.cpp"
 "$emulator" "$folder/neon"

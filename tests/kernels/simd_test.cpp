@@ -7,9 +7,9 @@
 #include <random>
 #include <vector>
 
-#include "glsum/simd_architectures.hpp"
-#include "glsum/simd_block_arch.hpp"
-#include "glsum/simd_dot_arch.hpp"
+#include "glsum/window/simd_architectures.hpp"
+#include "glsum/lookahead/simd_block_arch.hpp"
+#include "glsum/window/simd_dot_arch.hpp"
 #include "tests/kernels/stated_simd_order.hpp"
 
 namespace {

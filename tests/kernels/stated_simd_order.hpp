@@ -1,4 +1,4 @@
-// The order of summation of the vector kernels as technique/simd.hpp states it, one number at a time.
+// The order of summation of the vector kernels as window/simd.hpp states it, one number at a time.
 #pragma once
 
 #include <cmath>

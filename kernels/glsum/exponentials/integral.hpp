@@ -1,0 +1,39 @@
+// modessum: near taps, decaying averages and one running sum that never decays, for integrals, -1 <= v < 0:
+//
+//   S_k = [modes: x_k + a_1 x_(k-1) + ... + g_1 s_1 + ... + g_(M-1) s_(M-1)] + w_0 r,     r = x_(k-K) + ... + x_0.
+//
+// The weights a_j of an integral fall as j^-(1+v), slower than their own sum converges: whatever decays forgets a level
+// in the end, and a controller that integrates with it is left with an offset. With the pole at 1 a level is added up
+// for ever, and the slowest of the modes is saved: K + 2M - 1 multiplications. At v = -1, where a_j = 1, one tap and
+// the running sum alone are exact. The design's first mode (the slowest) has a decay of 0 and is the running sum; the
+// others are as with `modes`. Without any modes it ends where a window of L taps does.
+//
+// No drift: r is kept in two words, a sum and what its additions lost [Neumaier1974], by the six operations of two_sum
+// and one more addition. Only what the loss itself loses stays behind, u^2 of the sum of all |r| of the record.
+// Range, floating point only: r grows without limit, up to the record's length times the peak, and no scale of a fixed
+// format holds what an integral comes to.
+// Error: glsum/exponentials/integral_bound.hpp, against the exact sum of the design's own taps, exponentials and
+// running sum.
+#pragma once
+
+#include <string_view>
+
+#include "glsum/wrap/delta.hpp"
+
+namespace glsum {
+
+struct Integral {
+    static constexpr std::string_view word = "modessum";
+    static constexpr bool contiguous = true;
+};
+
+template <>
+inline constexpr bool keeps_modes<Integral> = true;
+
+/// Whether the slowest mode of a history is a running sum.
+template <class History>
+inline constexpr bool keeps_running_sum = false;
+template <>
+inline constexpr bool keeps_running_sum<Integral> = true;
+
+}  // namespace glsum

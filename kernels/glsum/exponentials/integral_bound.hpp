@@ -1,0 +1,32 @@
+// What rounding costs a kernel with a running sum, with u the roundoff of its data, P the peak and N the samples of the
+// record: what it costs the inner sum, and of the term w_0 r, |r| <= N P:
+//   input   u, coefficient u, product u, the addition of the loss u, that to the inner sum u
+//   r       two_sum is exact, and the loss l <= N u N P loses u l at each addition: N u u N P N at most, relative to
+//           N P that is (N u)^2
+// The last addition rounds the inner sum, too: u of all its magnitudes.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "glsum/exponentials/integral_sum.hpp"
+#include "glsum/wrap/delta_bound.hpp"
+
+namespace glsum {
+
+/// `error_bound` (bound.hpp) of a kernel with a running sum. \param inner_bound  of the inner sum, by its design
+template <class K, class InnerBound>
+[[nodiscard]] double integral_error_bound(const Design& design, double peak, std::size_t samples,
+                                          const InnerBound& inner_bound) {
+    constexpr double u = K::FormatPart::data_roundoff;
+    const Design inner = K::inner_design(design);
+    const double weight = design.modes.empty() ? 0.0 : std::fabs(design.modes.front().weight);
+    const auto count = static_cast<double>(samples);
+    const double once = std::expm1(5.0 * std::log1p(u)) + (count * u) * (count * u);
+    constexpr double denormal = std::numeric_limits<typename K::Sample>::denorm_min();
+    return (1.0 + u) * inner_bound(inner) + u * peak * absolute_sum_with_modes(inner) +
+           weight * count * (peak * once + denormal);
+}
+
+}  // namespace glsum

@@ -1,0 +1,33 @@
+// modes: the newest K - 1 past samples as they are, and of all older ones M decaying averages. Behind the first K taps
+// the weights are a mixture of exponentials, and a few of them stand for it to any error and horizon (../../modes/
+// designs them on the host): full memory at K + 2M multiplications, whatever the length of the record.
+//
+//   S_k = x_k + a_1 x_(k-1) + ... + a_(K-1) x_(k-K+1) + g_0 s_0 + ... + g_(M-1) s_(M-1),     g_m = w_m / d_m,
+//   then, for the next sample,  s_m <- s_m + d_m (x_(k-K+1) - s_m).
+//
+// s_m is an average: it never leaves the range of the samples. d = 1 - r is stored: in r, single precision would lose a
+// slow mode (d = 1e-5 at v = -0.5 over 5000 samples) to rounding.
+//
+//   plain        newest first, one accumulator: the taps from the newest sample on, then the modes, the fastest (the
+//                design's last) first. A state stops changing where its step is below half a unit of its last place: at
+//                worst its error grows to the unit's half divided by d.
+//   compensated  the same sum, and each state carries what its last step lost into its next one, by the three
+//                operations of [Dekker1971]: no stopping, and an error of some units, whatever d. Floating point only.
+//
+// Range, floating point: as the format's. q31: |s_m| <= 1 as the samples; the scale follows from the sum of the
+// magnitudes of all a_j and g_m, as for a window. d is a mantissa of 30 bits and a shift, rounded to nearest; a step
+// d (x - s) is exact in 64 bits and rounded once, halves up: a state cannot pass the sample that it moves to.
+// Error: glsum/exponentials/modes_bound.hpp, against the exact sum of the design's own taps and modes; how far those
+// are from the weights of the order is the design's certificate.
+#pragma once
+
+#include <string_view>
+
+namespace glsum {
+
+struct Modes {
+    static constexpr std::string_view word = "modes";
+    static constexpr bool contiguous = true;
+};
+
+}  // namespace glsum

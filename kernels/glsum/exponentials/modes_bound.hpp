@@ -1,0 +1,81 @@
+// What rounding costs a kernel with modes, with u the roundoff of its data (2^-24 in f32) and P the peak of the input.
+//
+// An average s <- s + d (x - s) forgets: an error e made at each step adds up to e/d at most.
+//   d        |d' - d| <= u d moves the exponential's weights by 2u in all (their sum is 1, their derivative's 2/d)
+//   step     x - s and the product: 2u of d 2P at each step, 4u P in all
+//   state    plain: u P at each step, u P/d in all. compensated: nothing of first order: what the addition lost waits
+//            for the next step (rounding of that sum: 2u, of the loss itself: 4u, both of second order beyond), is
+//            missing in the difference (u) and in the output (u)
+//   q31      d to 2^-30 of itself; the step exact, and half a unit, 2^-32, for the state: 2^-32/d in all
+// A term of the sum then passes its coefficient, its product and the additions behind it, as with a window.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "glsum/exponentials/modes_sum.hpp"
+#include "glsum/weights.hpp"
+
+namespace glsum {
+
+/// Bound of |average - exact average of the design's exponential|, relative to the peak.
+template <class K>
+[[nodiscard]] double average_error(double decay, double peak) {
+    using Format = typename K::FormatPart;
+    if constexpr (Format::fixed_point) {
+        return 0x1p-29 + 0x1p-32 / decay / peak;
+    } else {
+        constexpr double u = Format::data_roundoff;
+        constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
+        const double once =
+            (K::compensated ? 14.0 * u + 4.0 * u * u / decay : 6.0 * u + u / decay) + denormal / decay / peak;
+        return once < 1.0 ? once / (1.0 - once) : std::numeric_limits<double>::infinity();  // |average| <= P (1 + it)
+    }
+}
+
+/// `error_bound` (bound.hpp) of a kernel with modes.
+template <class K>
+[[nodiscard]] double modes_error_bound(const Design& design, const typename K::State& state, double peak) {
+    using Format = typename K::FormatPart;
+    const std::size_t near_taps = design.taps - 2 * design.modes.size();
+    const std::size_t terms = near_taps + design.modes.size();  // of the sum, x_k included
+    Weights weights(design);
+    if constexpr (Format::fixed_point) {
+        const double coefficient = std::ldexp(1.0, state.scale.table_exponent - Format::coefficient_bits - 1);
+        double absolute = 1.0;
+        double averages = 0.0;
+        for (std::size_t j = 1; j < near_taps; ++j) {
+            weights.next();
+            absolute += std::fabs(weights.weight());
+        }
+        for (const Mode& mode : design.modes) {
+            const double gain = std::fabs(mode.weight / mode.decay);
+            absolute += gain;
+            averages += (gain + coefficient) * average_error<K>(mode.decay, peak);
+        }
+        return peak * (averages + static_cast<double>(terms - 1) * coefficient) +
+               std::ldexp(absolute, -Format::sample_bits - 1) + std::ldexp(1.0, state.scale.output_exponent - 32);
+    } else {
+        // Of term t, x_k being 0: input, its coefficient, product and the additions from its own on.
+        const auto growth = [&](std::size_t t, double average) {
+            const double data = t == 0 ? 1.0 : 2.0;
+            const auto sum = static_cast<double>(t == 0 ? terms - 1 : terms - t + 1);
+            return std::expm1(data * std::log1p(Format::data_roundoff) + sum * std::log1p(Format::sum_roundoff) +
+                              std::log1p(average));
+        };
+        double bound = growth(0, 0.0);
+        for (std::size_t j = 1; j < near_taps; ++j) {
+            weights.next();
+            bound += growth(j, 0.0) * std::fabs(weights.weight());
+        }
+        for (std::size_t m = 0; m < design.modes.size(); ++m) {
+            const Mode& mode = design.modes[m];  // the slowest is summed last
+            bound += growth(terms - 1 - m, average_error<K>(mode.decay, peak)) * std::fabs(mode.weight / mode.decay);
+        }
+        constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
+        return peak * bound + static_cast<double>(terms) * denormal;
+    }
+}
+
+}  // namespace glsum

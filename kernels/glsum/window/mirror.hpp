@@ -1,0 +1,35 @@
+// mirror: a ring kept twice, one copy behind the other, so that the whole past is contiguous wherever the head is.
+// Upkeep: two stores. One contiguous piece. Memory: 2 (taps - 1) samples.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "glsum/window/window.hpp"
+
+namespace glsum {
+
+struct Mirror {
+    static constexpr std::string_view word = "mirror";
+    static constexpr bool contiguous = true;
+
+    static constexpr std::size_t past_count(std::size_t past) { return 2 * past; }
+
+    template <class T>
+    static Window<T> window(const T* samples, std::size_t past, std::uint32_t head) {
+        return {samples + head, past, samples, 0, head};
+    }
+
+    template <class T>
+    static void push(T* samples, std::size_t past, std::uint32_t& head, T newest) {
+        if (past == 0) {
+            return;
+        }
+        head = next_head(head, past);
+        samples[head] = newest;
+        samples[head + past] = newest;
+    }
+};
+
+}  // namespace glsum

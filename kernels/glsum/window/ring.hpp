@@ -1,0 +1,34 @@
+// ring: samples stay where they are; the head moves down by one place a sample and wraps.
+// Upkeep: one store. Two contiguous pieces, so that no tap tests for the wrap. Memory: taps - 1 samples.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "glsum/window/window.hpp"
+
+namespace glsum {
+
+struct Ring {
+    static constexpr std::string_view word = "ring";
+    static constexpr bool contiguous = false;
+
+    static constexpr std::size_t past_count(std::size_t past) { return past; }
+
+    template <class T>
+    static Window<T> window(const T* samples, std::size_t past, std::uint32_t head) {
+        return {samples + head, past - head, samples, head, head};
+    }
+
+    template <class T>
+    static void push(T* samples, std::size_t past, std::uint32_t& head, T newest) {
+        if (past == 0) {
+            return;
+        }
+        head = next_head(head, past);
+        samples[head] = newest;
+    }
+};
+
+}  // namespace glsum

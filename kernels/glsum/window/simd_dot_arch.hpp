@@ -1,0 +1,12 @@
+// The vector loop behind `simd_dot`, once for each instruction set; simd_dot_arch.cpp is compiled for each of them.
+#pragma once
+
+#include "glsum/window/simd.hpp"
+#include "glsum/window/simd_architectures.hpp"
+
+namespace glsum {
+
+template <class T, bool fused, class Architecture>
+T simd_dot_on(const T* a, const T* x, std::size_t blocks);
+
+}  // namespace glsum

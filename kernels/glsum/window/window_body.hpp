@@ -1,0 +1,67 @@
+// The bodies of sums over a window. Included by sum.cpp alone.
+#pragma once
+
+#include <limits>
+
+#include "glsum/design_range.hpp"
+#include "glsum/window/window_sum.hpp"
+
+namespace glsum {
+
+template <class History, class Technique, class Format>
+Status Sum<History, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
+                                                std::span<Sample> past) {
+    if (!order_in_range(design.order)) {
+        return Status::order_out_of_range;
+    }
+    if (design.taps == 0) {
+        return Status::no_taps;
+    }
+    if (!weights_in_range<Technique, Format>(design, design.taps - 1)) {
+        return Status::weights_out_of_range;
+    }
+    if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design.taps)) {
+        return Status::table_too_small;
+    }
+    if (past.size() < past_count(design.taps)) {
+        return Status::past_too_small;
+    }
+    typename Format::Scale scale;
+    if (const Status status = Technique::template choose_scale<Format>(design, scale); status != Status::ok) {
+        return status;
+    }
+    const std::size_t past_samples = design.taps - 1;
+    Technique::template fill<Format>(table.data(), past_samples, design, scale);
+    state = {table.data(), past.data(), static_cast<std::uint32_t>(past_samples), 0, scale};
+    reset(state);
+    return Status::ok;
+}
+
+template <class History, class Technique, class Format>
+void Sum<History, Technique, Format>::reset(State& state) {
+    const std::size_t count = past_count(state.past_samples + std::size_t{1});
+    for (std::size_t i = 0; i < count; ++i) {
+        state.past[i] = 0;
+    }
+    state.head = 0;
+    if constexpr (Format::fixed_point) {
+        state.scale.saturations = 0;
+    }
+}
+
+template <class History, class Technique, class Format>
+auto Sum<History, Technique, Format>::step(State& state, Sample newest) -> Output {
+    if constexpr (requires { &Technique::template sum_and_push<Format>; }) {
+        static_assert(History::contiguous && History::word == "shift");
+        return Format::finish(
+            Technique::template sum_and_push<Format>(state.table, state.past, state.past_samples, newest, state.scale),
+            state.scale);
+    } else {
+        const auto window = History::template window<Sample>(state.past, state.past_samples, state.head);
+        const auto sum = Technique::template sum<Format>(state.table, window, newest, state.scale);
+        History::template push<Sample>(state.past, state.past_samples, state.head, newest);
+        return Format::finish(sum, state.scale);
+    }
+}
+
+}  // namespace glsum

@@ -1,0 +1,46 @@
+// What rounding costs a kernel of increments: what it costs the inner sum, of order v - 1 over increments up to 2 P,
+// and what the increments themselves lose. With A = sum |b_j| of the inner sum's own weights, modes included:
+//   floating point   x_k and x_(k-1) rounded (u P each) and their difference (2 u P): 4 u P A, or denormals' halves
+//   fixed point      all at half scale: both samples rounded to half a unit of 2^-n, 2^-n A; the difference is exact.
+//                    The whole is doubled with the output
+//   order            v - 1 is exact for v >= 0.5; below, rounded to double, it moves b_j by 2^-53 (1 + ln L) of itself
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "glsum/weights.hpp"
+#include "glsum/wrap/delta_sum.hpp"
+
+namespace glsum {
+
+/// A: by it the sum can exceed the largest increment.
+[[nodiscard]] inline double absolute_sum_with_modes(const Design& design) {
+    double sum = absolute_sum(design, design.taps - 2 * design.modes.size());
+    for (const Mode& mode : design.modes) {
+        sum += std::fabs(mode.weight / mode.decay);
+    }
+    return sum;
+}
+
+/// `error_bound` (bound.hpp) of a kernel of increments. \param inner_bound  of the inner sum, by its design and peak
+template <class K, class InnerBound>
+[[nodiscard]] double delta_error_bound(const Design& design, double peak, const InnerBound& inner_bound) {
+    using Format = typename K::FormatPart;
+    const Design inner = K::inner_design(design);
+    const double absolute = absolute_sum_with_modes(inner);
+    const double of_order =
+        design.order < 0.5 ? 0x1p-53 * (1.0 + std::log(static_cast<double>(design.taps))) * absolute : 0.0;
+    if constexpr (Format::fixed_point) {
+        const double unit = std::ldexp(1.0, -Format::sample_bits);
+        return 2.0 * (inner_bound(inner, peak + unit) + unit * absolute + of_order * peak);
+    } else {
+        constexpr double u = Format::data_roundoff;
+        constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
+        const double increment = 2.0 * peak * (1.0 + 4.0 * u);
+        return inner_bound(inner, increment) + (2.0 * u * increment + denormal) * absolute + of_order * increment;
+    }
+}
+
+}  // namespace glsum
