@@ -3,6 +3,7 @@
 #include "qemu/timing/block_replay.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <random>
 
@@ -270,6 +271,39 @@ TEST(BlockReplay, EqualsTheComputationStepByStep) {
         counted.resize(half_cycles.size());
         EXPECT_EQ(counted, half_cycles) << name;
     }
+}
+
+// Past 2^16 steps all is forgotten and begun anew: a run of hours takes no more memory than one of minutes, and counts on.
+TEST(BlockReplay, RemembersNoMoreHoweverLongItRuns) {
+    const listing::Line line = listing::assemble("ldr.w r2,[r0]\n").front();
+    const timing::Prepared load(timing::decode(line.encoding, line.bytes));
+    timing::CodeBlock block;
+    block.lines.push_back({&load, 0, 0x100});
+    timing::BlockReplay replay(timing::read_core(TEST_CORES, "m7-ideal"));
+    timing::BlockEvents met;
+    met.events.resize(1);
+    std::uint64_t number = 0;
+    const auto in_use_after = [&](unsigned steps) {
+        for (; steps > 0; --steps, ++number) {
+            timing::Event& event = met.events[0];
+            event.accesses = 1;
+            event.access_bytes = 4;
+            event.load_delay = 1 + number % 1000;
+            event.fetch_delays[0] = static_cast<std::uint16_t>(1 + number / 1000);
+            event.words = 1;
+            met.make_key();
+            replay.execute(block, met, true);
+        }
+#ifdef __GLIBC__
+        return mallinfo2().uordblks + mallinfo2().hblkhd;
+#else
+        return std::size_t{0};
+#endif
+    };
+    constexpr unsigned most_steps = 1U << 16;
+    const std::size_t full = in_use_after(most_steps - 1);
+    EXPECT_LE(in_use_after(3 * most_steps), full + full / 10);
+    EXPECT_EQ(replay.half_cycles().at(0), replay.core().positions()[0]);
 }
 
 timing::CoreFile core_of_sets(std::initializer_list<bool> fits) {
