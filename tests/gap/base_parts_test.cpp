@@ -233,6 +233,101 @@ TEST(Starts, SayWhatIsQuick) {
     EXPECT_NEAR(starts.quick_s, 0.03 * 50.0, 1e-12);
 }
 
+// --- Forms that are asked for by name.
+
+// A record that one of the starts made is begun from just that: time constants of nine sizes from three tenths of the
+// record down, dead times of 0, 0.3, 1, 2 or 4 of them.
+TEST(NamedForms, BeginWhereTheRecordWasMade) {
+    const auto begun = [](const std::string& name, int size, double share) {
+        gap::Record record = record_of(240, levels);
+        const double longest_s = 0.3 * record.time_s.back();
+        const double lag_s = longest_s * std::pow(h / longest_s, size / 9.0);
+        const double delay_s = share * lag_s;
+        drive::Model made = name == "fopdt"   ? drive::make_fopdt(2.5, lag_s, delay_s)
+                            : name == "sopdt" ? drive::make_sopdt(2.5, lag_s, delay_s)
+                                              : of({{lag_s, 2.0}, {1.0, 1.0}});
+        made.gain = 2.5;
+        made.delay_s = delay_s;
+        record.output = response(record, made);
+        const drive::Model found = gap::model_of(gap::search_form(name, {record}));
+        const std::complex<double> s(0.3, 0.7);
+        const auto wanted = drive::evaluate_without_delay(made, s);
+        EXPECT_LT(std::abs(drive::evaluate_without_delay(found, s) - wanted), 1e-9 * std::abs(wanted)) << name << size;
+        EXPECT_NEAR(found.delay_s, delay_s, 1e-9) << name << size;
+    };
+    for (const char* name : {"fopdt", "sopdt", "integrator"}) {
+        begun(name, 0, 0.3);
+        begun(name, 2, 1.0);
+        begun(name, 4, 0.0);
+        begun(name, 5, 4.0);
+        begun(name, 8, 2.0);
+    }
+    // Of an integrator the gain stands in the coefficients.
+    gap::Record record = record_of(240, levels);
+    drive::Model made = of({{2.0, 2.0}, {1.0, 1.0}});
+    made.gain = 4.0;
+    record.output = response(record, made);
+    EXPECT_EQ(gap::model_of(gap::search_form("integrator", {record})).gain, 1.0);
+}
+
+// A structure is begun as where it is looked for; two orders of any size are begun from two whole ones.
+TEST(NamedForms, OfStructuresAreTheirStarts) {
+    gap::Record record = record_of(240, levels);
+    record.output = response(record, of({{1.2, 2.0}, {0.3, 1.0}, {1.0, 0.0}}));
+    const drive::Model second = gap::model_of(gap::search_form("second_order", {record}));
+    EXPECT_EQ(second, gap::model_of(gap::starts_of(*gap::structure_named("second_order"), {record}).whole));
+    drive::Form two = gap::search_form("niopdt", {record});
+    const double gain = drive::static_gain(second);
+    EXPECT_NEAR(two.parameter("a2").value, drive::leading_coefficient(second.denominator) / gain, 1e-9);
+    EXPECT_NEAR(two.parameter("alpha2").value, 2.0, 1e-12);
+}
+
+TEST(NamedForms, AreRefusedByName) {
+    const gap::Record record = record_of(240, levels);
+    const auto refusal = [&](const std::string& name) -> std::string {
+        try {
+            (void)gap::search_form(name, {record});
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+            return failure.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(refusal("fopd"), testing::AllOf(testing::HasSubstr("fit:fopd: expected one of fopdt, sopdt, niopdt"),
+                                                testing::HasSubstr("third_order_zero; the nearest is fopdt")));
+    gap::Record nothing = record;
+    nothing.output.assign(240, std::nan(""));
+    EXPECT_THROW((void)gap::search_form("sopdt", {nothing}), glsum::Failure);
+}
+
+// "fit" looks for a base, "fit:NAME" begins that one.
+TEST(NamedForms, AreTakenIntoAQuestion) {
+    gap::Record record = record_of(240, levels);
+    record.output = response(record, drive::make_fopdt(2.5, 2.0, 0.0));
+    gap::Question question{gap::form_to_find(), false, {record}, {}, {}, gap::Metric::simulation, {}, 1};
+    gap::take_base(question, "fit:fopdt");
+    EXPECT_TRUE(question.refit);
+    EXPECT_FALSE(question.find);
+    EXPECT_EQ(question.base_name, "fopdt");
+    EXPECT_EQ(gap::model_of(question.form), gap::model_of(gap::search_form("fopdt", {record})));
+    gap::Question open{gap::form_to_find(), false, {record}, {}, {}, gap::Metric::simulation, {}, 1};
+    gap::take_base(open, "fit");
+    EXPECT_TRUE(open.refit);
+    EXPECT_TRUE(open.find);
+    EXPECT_EQ(open.base_name, "");
+}
+
+// Whole orders of a given model stay; others are its numbers.
+TEST(NamedForms, OfAGivenModelKeepWholeOrders) {
+    drive::Model model = of({{0.5, 1.8}, {0.3, 1.0}, {1.0, 0.0}});
+    model.numerator = {{0.2, 0.5}, {1.0, 0.0}};
+    drive::Form form = gap::form_of(model);
+    EXPECT_FALSE(form.parameter("alpha2").fixed);
+    EXPECT_TRUE(form.parameter("alpha1").fixed);
+    EXPECT_FALSE(form.parameter("beta1").fixed);
+    EXPECT_FALSE(form.parameter("a1").fixed);
+}
+
 // --- Filtered equations.
 
 // y' = (3 u - y) / 2 from 1.5, read with an offset of 10; exact between samples. u is late by so many of them.
