@@ -41,9 +41,10 @@ std::vector<double> noise(std::size_t samples, std::uint64_t seed) {
     return x;
 }
 
+// a_1 upwards, each at its place; of a_0 nobody asks.
 std::vector<double> weights(double order, std::size_t count) {
     glsum::Weights walk(order);
-    std::vector<double> a(count, 1.0);
+    std::vector<double> a(count);
     for (std::size_t j = 1; j < count; ++j) {
         walk.next();
         a[j] = walk.weight();

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "gap/drive/fit.hpp"
 #include "gap/drive/jitter.hpp"
@@ -358,6 +359,7 @@ struct Shifted {
     Made made;
     gap::Candidate candidate;
     gap::Whitener whitener;
+    std::vector<double> left;
     Shifted(double half_width_s, double noise, double coloured)
         : made(lag(), {[] {
                    gap::Record record;
@@ -384,14 +386,15 @@ struct Shifted {
             const std::size_t to = std::min(simulated.size() - 1, i + 1);
             const double speed = (simulated[to] - simulated[from]) / (0.5 * static_cast<double>(to - from));
             shift = coloured * shift + (1.0 - coloured) * half_width_s * even(engine);
-            const double left = shift * speed + normal(engine);
-            made.records[0].output[i] = simulated[i] + left;
-            squares += left * left;
+            const double off = shift * speed + normal(engine);
+            made.records[0].output[i] = simulated[i] + off;
+            squares += off * off;
         }
         whitener.deviation = whitener.stationary_deviation = std::sqrt(squares / 800.0);
         candidate.effects = {&gap::effect_named("sampling_jitter")};
         candidate.own.resize(1);
         candidate.lasting = {gap::parameters_of(*candidate.effects[0], made.study.scales, 0)};
+        left = gap::residuals_of(made.study, candidate, 0);
         gap::fit_jitter(made.study, candidate, whitener);
     }
     [[nodiscard]] double width() const { return candidate.lasting[0][0].value; }
@@ -406,6 +409,81 @@ TEST(Jitter, IsFoundByTheSpreadOfReadings) {
     // Of 800 second moments of even shifts a width is known to some per cent.
     EXPECT_GT(jitters.candidate.lasting[0][0].deviation, 0.002);
     EXPECT_LT(jitters.candidate.lasting[0][0].deviation, 0.015);
+}
+
+// Of normal residuals that spread by both.
+double likelihood_of(const Shifted& of, double half_width_s, double noise_share) {
+    gap::Candidate candidate = of.candidate;
+    candidate.lasting[0][0].value = half_width_s;
+    candidate.lasting[0][1].value = noise_share;
+    const auto spread = gap::spread_of(of.made.study, candidate, 0, of.left, of.whitener);
+    const auto white = of.whitener.apply(of.left);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < white.size(); ++i) {
+        sum -= 0.5 * std::pow(white[i] / spread[i], 2) + std::log(spread[i]);
+    }
+    return sum;
+}
+
+// The most likely width, to a hundredth, with the deviation that its likelihood tells: fallen by 1.92 at 1.96 of them.
+TEST(Jitter, IsAsWideAsIsMostLikely) {
+    for (const double noise : {0.01, 0.05}) {
+        const Shifted jitters(0.2, noise, 0.0);
+        const double best = likelihood_of(jitters, jitters.width(), jitters.noise_share());
+        for (double factor = 0.5; factor < 2.0; factor *= 1.004) {
+            EXPECT_LT(likelihood_of(jitters, factor * jitters.width(), jitters.noise_share()), best + 0.02) << factor;
+        }
+        const auto falls = [&](double by) {
+            double factor = 1.0;
+            while (likelihood_of(jitters, factor * jitters.width(), jitters.noise_share()) > best - 1.92) {
+                factor *= by;
+            }
+            return factor;
+        };
+        const double expected = 0.5 * (falls(1.001) - falls(0.999)) * jitters.width() / 1.96;
+        EXPECT_NEAR(jitters.candidate.lasting[0][0].deviation, expected, 0.2 * expected) << noise;
+    }
+}
+
+// Four units of likelihood, or there is none.
+TEST(Jitter, IsNoneThatIsHardlyKnown) {
+    std::size_t found = 0;
+    std::size_t none = 0;
+    for (double half_width_s = 0.004; half_width_s < 0.02; half_width_s *= 1.04) {
+        const Shifted jitters(half_width_s, 0.02, 0.0);
+        double best = -1e9;
+        for (double width = 4e-3; width < 0.1; width *= 1.05) {
+            for (const double share : {0.5, 0.7, 0.85, 1.0}) {
+                best = std::max(best, likelihood_of(jitters, width, share));
+            }
+        }
+        const double gain = best - likelihood_of(jitters, 0.0, 1.0);
+        if (std::fabs(gain - 4.0) > 0.03) {
+            EXPECT_EQ(jitters.width() > 0.0, gain > 4.0) << half_width_s << " " << gain;
+            EXPECT_EQ(jitters.noise_share() < 1.0, gain > 4.0) << half_width_s << " " << gain;
+        }
+        (gain > 4.0 ? found : none) += 1;
+    }
+    EXPECT_GT(found, 5U);
+    EXPECT_GT(none, 5U);
+}
+
+// Beside it noise is one of eleven shares of the variance: the nearest to what there is.
+TEST(Jitter, LeavesNoiseOneOfElevenShares) {
+    const std::vector<double> shares{0.003, 0.01, 0.03, 0.06, 0.1, 0.2, 0.3, 0.5, 0.7, 0.85, 1.0};
+    std::set<double> seen;
+    for (double noise = 0.004; noise < 0.5; noise *= 1.15) {
+        const Shifted jitters(0.2, noise, 0.0);
+        seen.insert(jitters.noise_share());
+        EXPECT_TRUE(std::find(shares.begin(), shares.end(), jitters.noise_share()) != shares.end())
+            << noise << " " << jitters.noise_share();
+        if (jitters.width() > 0.0) {
+            const double share = noise * noise / (jitters.whitener.deviation * jitters.whitener.deviation);
+            EXPECT_LT(jitters.noise_share(), 2.0 * share) << noise;
+            EXPECT_GT(jitters.noise_share(), 0.5 * share) << noise;
+        }
+    }
+    EXPECT_EQ(seen, std::set<double>(shares.begin(), shares.end()));
 }
 
 TEST(Jitter, IsNoneOfEvenNoiseAndOfWhatIsColoured) {

@@ -86,18 +86,44 @@ TEST(GapContract, HasWordsAndListsWhereItSaysSo) {
     const gap::Written speed_share = mode.to_contract(mode, speed).back();
     EXPECT_EQ(speed_share.name, "speed_share");
     EXPECT_EQ(std::get<double>(speed_share.value), 0.2);
+    EXPECT_THAT(speed_share.intervals, ElementsAre(std::pair(0.1, 0.3)));
+    // Of the place its cosine, of the speed its sine: in between both.
+    std::vector<gap::Fitted> between = speed;
+    between[3] = {1.0 / 3.0, 1.0 / 3.0, 1.0 / 3.0};
+    const std::vector<gap::Written> parts = mode.to_contract(mode, between);
+    ASSERT_EQ(parts.size(), 4U);
+    EXPECT_EQ(parts[0].name, "hz");
+    EXPECT_EQ(std::get<double>(parts[0].value), 3.0);
+    EXPECT_THAT(parts[0].intervals, ElementsAre(std::pair(2.9, 3.1)));
+    EXPECT_EQ(std::get<double>(parts[1].value), 0.05);
+    EXPECT_THAT(parts[1].intervals, ElementsAre(std::pair(0.04, 0.06)));
+    EXPECT_EQ(parts[2].name, "share");
+    EXPECT_NEAR(std::get<double>(parts[2].value), 0.2 * std::sqrt(0.75), 1e-12);
+    EXPECT_NEAR(parts[2].intervals.at(0).first, 0.1 * std::sqrt(0.75), 1e-12);
+    EXPECT_NEAR(parts[2].intervals.at(0).second, 0.3 * std::sqrt(0.75), 1e-12);
+    EXPECT_NEAR(std::get<double>(parts[3].value), 0.1, 1e-12);
+    // The place alone has no other part, either way.
+    between[3] = {0.0, 0.0, 0.0};
+    EXPECT_EQ(mode.to_contract(mode, between).size(), 3U);
+    EXPECT_EQ(mode.from_contract(mode, {{"hz", 3.0}, {"damping", 0.05}, {"speed_share", 0.4}}),
+              (std::vector<double>{3.0, 0.05, 0.4, 1.0}));
+    EXPECT_EQ(mode.from_contract(mode, {{"hz", 3.0}, {"damping", 0.05}, {"share", 0.4}}),
+              (std::vector<double>{3.0, 0.05, 0.4, 0.0}));
     const std::vector<double> both =
         mode.from_contract(mode, {{"hz", 3.0}, {"damping", 0.05}, {"share", -0.3}, {"speed_share", 0.4}});
     EXPECT_NEAR(both[2], -0.5, 1e-12);
     EXPECT_NEAR(both[2] * std::cos(0.5 * 3.14159265358979 * both[3]), -0.3, 1e-12);
     EXPECT_NEAR(both[2] * std::sin(0.5 * 3.14159265358979 * both[3]), 0.4, 1e-12);
     const gap::Effect& missed = gap::effect_named("missed_counts");
-    const std::vector<gap::Fitted> jumps = {{2.0, 2.0, 2.0}, {0.5, 0.4, 0.6}, {0.0, 0.0, 0.0},
-                                            {0.0, 0.0, 0.0}, {7.0, 7.0, 7.0}, {-0.5, -0.7, -0.3}};
+    const std::vector<gap::Fitted> jumps = {{2.0, 1.9, 2.1}, {0.5, 0.4, 0.6}, {0.0, 0.0, 0.0},
+                                            {0.0, 0.0, 0.0}, {7.0, 6.9, 7.1}, {-0.5, -0.7, -0.3}};
     const std::vector<gap::Written> lists = missed.to_contract(missed, jumps);
     ASSERT_EQ(lists.size(), 2U);
     EXPECT_EQ(lists[0].name, "at_s");
     EXPECT_THAT(std::get<std::vector<double>>(lists[0].value), ElementsAre(2.0, 7.0));
+    EXPECT_THAT(lists[0].intervals, ElementsAre(std::pair(1.9, 2.1), std::pair(6.9, 7.1)));
+    EXPECT_EQ(lists[0].unit, "s");
+    EXPECT_EQ(lists[1].unit, "y");
     EXPECT_EQ(lists[1].name, "sizes");
     EXPECT_THAT(std::get<std::vector<double>>(lists[1].value), ElementsAre(0.5, -0.5));
     EXPECT_THAT(lists[1].intervals, ElementsAre(std::pair(0.4, 0.6), std::pair(-0.7, -0.3)));

@@ -118,6 +118,15 @@ TEST(EffectInputs, OfAConstantAreTheirClosedForms) {
     EXPECT_NEAR(held_after("supply_sag", {0.25, 0.1}, turned).back(), -sag.back(), 1e-12);
 }
 
+// A mean between its neighbours is a change within the interval: it starts on its way there and then.
+TEST(EffectInputs, OfALimitedRateGoOnFromWithinAnInterval) {
+    // 0.2 an interval; the level changes after seven tenths of the second one, and back of the fifth.
+    const Values exact = held_after("rate_limit", {0.2 / h}, {0.0, 0.3, 1.0, 1.0, 0.7, 0.0, 0.0});
+    expect_near(exact, {0.0, 0.3 * 0.03, 0.16, 0.36, 0.7 * (0.46 + 0.07) + 0.3 * (0.6 - 0.03), 0.44, 0.24});
+    // There within what is left of the interval: two thirds of it on the way.
+    expect_near(held_after("rate_limit", {0.2 / h}, {0.0, 0.012, 0.04, 0.04}), {0.0, 0.3 * 0.04 * 2.0 / 3.0, 0.04, 0.04});
+}
+
 TEST(EffectInputs, OfARampWithAVaryingDelayAreLateByIt) {
     gap::Scenario plant;
     plant.model.delay_s = 0.3;
@@ -191,6 +200,18 @@ TEST(EffectOutputs, LagsOfARampAreTheirClosedForms) {
     expect_near(read_after("direction_asymmetry", {0.0, 0.15}, ramp), ramp);
 }
 
+// The mean over a window of a reading that goes from node to node by straight lines, and rested before.
+TEST(EffectOutputs, AFilterIsTheMeanOverItsWindow) {
+    const Values y{1.0, 3.0, 2.0, 6.0};
+    // Half an interval: a quarter of each step is missing.
+    expect_near(read_after("logger_filter", {0.5 * h}, y), {1.0, 2.5, 2.25, 5.0});
+    // One and a half: the half before them, then trapezia.
+    expect_near(read_after("logger_filter", {1.5 * h}, y),
+                {1.0, (0.5 + 2.0) / 1.5, (1.25 + 2.5) / 1.5, (1.125 + 4.0) / 1.5});
+    // Longer than the record: what rested counts.
+    expect_near(read_after("logger_filter", {10.0 * h}, y), {1.0, 1.1, (8.0 + 4.5) / 10.0, (7.0 + 8.5) / 10.0});
+}
+
 TEST(EffectOutputs, AResonanceIsThatOfItsSecondOrderMode) {
     // Beside a plant of gain 2.5 (1/0.4) and a dead time of three nodes: share K (1 - the step response's decay).
     gap::Scenario plant;
@@ -235,6 +256,21 @@ TEST(EffectReadings, JumpAndStayAndAreRounded) {
     reading = {0.12, 0.26, 0.24, 0.46, -0.5};
     with("encoder_quantisation", {0.1}).logger.at(0)(reading, record);
     expect_near(reading, {0.1, 0.21, 0.29, 0.41, -0.55});
+}
+
+// What lies behind the readings is none of them.
+TEST(EffectReadings, AreAllThatIsChanged) {
+    gap::Record record;
+    record.time_s = {0.0, 0.1, 0.2, 0.3};
+    record.output = {0.1, 0.1, 0.1, 0.1};
+    for (const auto& [name, values] :
+         {std::pair<std::string, Values>("missed_counts", {0.05, 5.0, 0.0, 0.0, 0.0, 0.0}),
+          std::pair<std::string, Values>("encoder_quantisation", {0.5}),
+          std::pair<std::string, Values>("sensor_wrap", {1.0, 0.0})}) {
+        Values reading{7.13, 7.23, 7.33, 7.43};
+        with(name, values).logger.at(0)(std::span(reading).first(3), record);
+        EXPECT_EQ(reading[3], 7.43) << name;
+    }
 }
 
 TEST(EffectReadings, AreHeldWhereTheLogRepeatsItself) {

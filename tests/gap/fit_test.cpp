@@ -157,6 +157,26 @@ TEST(Fit, OfAFittedBaseIsNeverWorseThanWithoutTheEffect) {
     }
 }
 
+// Where nothing better is found, exactly that, with the effect's numbers at the values that are none.
+TEST(Fit, OfAFittedBaseMayLeaveANewEffectOut) {
+    const Made made(1, true);
+    const gap::Candidate none = gap::fit(made.study, {}, {}, nullptr);
+    const gap::Effect& gain = gap::effect_named("gain_error");
+    const gap::Effect& curve = gap::effect_named("output_curve");
+    const gap::Candidate found = gap::fit(made.study, {&gain, &curve}, none, nullptr, {0, 1, 0});
+    EXPECT_NEAR(found.cost, none.cost, 1e-12);
+    EXPECT_EQ(found.lasting[0][0].value, 1.0);
+    EXPECT_EQ(found.lasting[1][0].value, 0.0);
+    for (std::size_t i = 0; i < none.base.size(); ++i) {
+        EXPECT_EQ(found.base[i].value, none.base[i].value) << none.base[i].name;
+    }
+    // An effect that was known before stays as it was.
+    gap::Candidate known = gap::fit(made.study, {&curve}, none, nullptr, {0, 1, 0});
+    known.lasting[0][0].value = 0.05;
+    const gap::Candidate kept = gap::fit(made.study, {&curve, &gain}, known, nullptr, {0, 1, 0});
+    EXPECT_NE(kept.lasting[0][0].value, 0.0);
+}
+
 // A threshold between two levels of the input moves no reading: it is known as far as nothing becomes less likely, in
 // sixteenths of the way to its bounds.
 TEST(Intervals, OfWhatMovesNothingReachAsFarAsIsLikely) {

@@ -97,18 +97,19 @@ TEST(Likelihood, IsNoFinerThanTheQuantum) {
 // Between the steps' edges nothing is missed; beyond them as much as noise of the best size makes.
 TEST(Likelihood, OfSteppedReadingsIsTheMassBeyondTheStep) {
     Made made;
-    made.study.scales.quantum = 1.0;
+    constexpr double step = 2.0;
+    made.study.scales.quantum = step;
     gap::Ranked one = ranked(made, 0.0);
     one.candidate.effects = {&gap::effect_named("encoder_quantisation")};
     one.candidate.lasting = {{}};
     for (std::size_t i = 0; i < 50; ++i) {
-        one.residuals[0][i] = 0.5;
+        one.residuals[0][i] = 0.5 * step;
     }
     gap::judge(one, made.study, white());
     double best = -1e300;
     for (const double share : {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2.0, 4.0, 8.0}) {
-        const double within = std::log(std::max(0.5, 1.0 - 0.8 * share)) + 0.713;
-        const double beyond = std::log(std::max(1e-9, 0.5 * std::erfc(0.5 / (share * std::sqrt(2.0))))) + 0.713;
+        const double within = std::log(std::max(0.5, 1.0 - 0.8 * share) / step) + 0.713;
+        const double beyond = std::log(std::max(1e-9, 0.5 * std::erfc(0.5 / (share * std::sqrt(2.0)))) / step) + 0.713;
         best = std::max(best, 50.0 * within + 50.0 * beyond);
     }
     EXPECT_NEAR(one.log_likelihood, best, 1e-6);

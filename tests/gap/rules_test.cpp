@@ -266,6 +266,22 @@ TEST_F(Rules, WhatCanBeForeseenBehindThreeEffectsIsTooMuch) {
     EXPECT_EQ(outcome(two, 0.0201), Outcome::attributed);
 }
 
+// The surer, the more of what can be closed it is: from a half up to 0.95.
+TEST_F(Rules, WhatCanBeForeseenIsSureByItsShare) {
+    const std::size_t three = add({"quadratic_drag", "backlash", "supply_sag"}, 0.05, 100.0);
+    known_.remainders[three] = {0.75, true, {}};
+    // 0.75 of 0.0025, of 1 - 0.25 of 0.0025.
+    EXPECT_NEAR(after("what_can_be_foreseen", attributed(three)).confidence,
+                0.5 + 0.5 * 0.75 * 0.0025 / (1.0 - 0.25 * 0.0025), 1e-9);
+    known_.remainders[0] = {0.96, true, {}};
+    gap::Decision none;
+    none.base_gap = none.noise_floor = 1.0;
+    const gap::Decision all = after("what_can_be_foreseen", none);
+    EXPECT_EQ(all.outcome, Outcome::unknown);
+    EXPECT_EQ(all.confidence, 0.95);
+    EXPECT_NEAR(all.noise_floor, 0.2, 1e-12);
+}
+
 TEST_F(Rules, WhatCannotBePartedIsAnAlternative) {
     const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);
     const std::size_t friction = add({"coulomb_friction"}, 0.5, 44.03);

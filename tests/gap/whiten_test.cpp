@@ -100,6 +100,45 @@ TEST(Whitener, IsAtLeastAsWideAsTheQuantum) {
     EXPECT_GT(small.stationary_deviation, 1.5);
 }
 
+// Another coefficient is worth log n units of likelihood: of n samples with a correlation r it gains -n log(1 - r^2).
+TEST(Whitener, PaysForEachCoefficientByBic) {
+    // 100 samples: pairs of ones, `apart` from each other, and single ones, so far off that nothing else correlates.
+    const auto order = [](std::size_t pairs, std::size_t singles, std::size_t apart) {
+        Values values;
+        for (std::size_t i = 0; i < pairs; ++i) {
+            values.push_back(1.0);
+            values.resize(values.size() + apart - 1, 0.0);
+            values.push_back(1.0);
+            values.resize(values.size() + 2, 0.0);
+        }
+        for (std::size_t i = 0; i < singles; ++i) {
+            values.push_back(1.0);
+            values.resize(values.size() + 2, 0.0);
+        }
+        values.resize(100, 0.0);
+        return gap::fit_whitener({values}, 2, 1e-9).coefficients.size();
+    };
+    // r of 3/15 and 4/18: that of log 100 / 100 is 0.2120.
+    EXPECT_EQ(order(3, 9, 1), 0U);
+    EXPECT_EQ(order(4, 10, 1), 1U);
+    // Of two lags at once twice as much: 0.2966, between 5/17 and 4/13.
+    EXPECT_EQ(order(5, 7, 2), 0U);
+    EXPECT_EQ(order(4, 5, 2), 2U);
+}
+
+// What rounding and a quantum leave is added to the variance, so that what is foreseen wholly has a solution.
+TEST(Whitener, OfWhatIsForeseenWhollyHasASolution) {
+    Values powers{1.0};
+    for (int i = 0; i < 99; ++i) {
+        powers.push_back(0.5 * powers.back());
+    }
+    const double squares = 1.0 / (1.0 - 0.25);
+    const double expected = 0.5 * squares / (squares * (1.0 + 1e-9) + 100.0 * 1e-6 * 0.0025);
+    EXPECT_NEAR(gap::fit_whitener({powers}, 1, 0.05).coefficients.at(0), expected, 1e-10);
+    const double exact = 0.5 * squares / (squares * (1.0 + 1e-9) + 100.0 * 1e-6 * 1e-24);
+    EXPECT_NEAR(gap::fit_whitener({powers}, 1, 1e-12).coefficients.at(0), exact, 1e-13);
+}
+
 TEST(Whitener, SaysHowFarApartSamplesAreNew) {
     // 1, 1, 1, ...: 1 + 2 (7/8 + 6/8), as far as a quarter of the record.
     EXPECT_NEAR(gap::fit_whitener({Values(8, 1.0)}, 1, 1e-9).samples_apart, 1.0 + 2.0 * (7.0 + 6.0) / 8.0, 1e-12);
@@ -146,6 +185,50 @@ TEST(BootstrapSum, HasTheSpreadOfIndependentBlocks) {
     EXPECT_NEAR(blocks.high - blocks.low, 2.0 * 1.645 * 10.0 * std::sqrt(500.0), 110.0);
     const gap::Interval torn = gap::bootstrap_sum(tens, 1, 800);
     EXPECT_LT(torn.high - torn.low, 0.5 * (blocks.high - blocks.low));
+}
+
+// Of powers of ten each sum tells which were drawn, and how often.
+TEST(BootstrapSum, DrawsBlocksOfAQuarterOfTheValuesAtMost) {
+    const auto powers = [](std::size_t count) {
+        Values values{1.0};
+        while (values.size() < count) {
+            values.push_back(10.0 * values.back());
+        }
+        return values;
+    };
+    for (std::size_t draws = 2; draws < 12; ++draws) {
+        // Eight values in blocks of two, whatever is asked for: of each two that stand together.
+        for (const std::size_t asked : {std::size_t{2}, std::size_t{100}}) {
+            const gap::Interval pairs = gap::bootstrap_sum(powers(8), asked, draws);
+            EXPECT_EQ(std::fmod(pairs.low, 11.0), 0.0) << draws;
+            EXPECT_EQ(std::fmod(pairs.high, 11.0), 0.0) << draws;
+            EXPECT_EQ(std::fmod(pairs.high, 9.0), 8.0) << draws;  // eight of them
+        }
+        // Of eleven six blocks of two are twelve: taken for eleven.
+        const gap::Interval eleven = gap::bootstrap_sum(powers(11), 2, draws);
+        EXPECT_EQ(std::fmod(std::round(eleven.high * 12.0 / 11.0), 9.0), 12.0 - 9.0) << draws;
+        // Three values are too few for a quarter: one by one.
+        const gap::Interval three = gap::bootstrap_sum(powers(3), 100, draws);
+        EXPECT_EQ(std::fmod(three.high, 9.0), 3.0) << draws;
+        EXPECT_EQ(three.high, gap::bootstrap_sum(powers(3), 0, draws).high) << draws;
+        EXPECT_EQ(three.high, std::round(three.high)) << draws;
+    }
+    // The last value is drawn as often as the first.
+    EXPECT_GE(gap::bootstrap_sum(powers(11), 2, 19).high, 1e10);
+    EXPECT_EQ(gap::bootstrap_sum(powers(4), 1, 2000).high, gap::bootstrap_sum(powers(4), 100, 2000).high);
+}
+
+// A twentieth of the draws lies below the lower bound: none of nineteen, one of twenty.
+TEST(BootstrapSum, LeavesATwentiethOutAtEitherEnd) {
+    const Values values = noise(100, 10);
+    const gap::Interval nineteen = gap::bootstrap_sum(values, 5, 19);
+    const gap::Interval twenty = gap::bootstrap_sum(values, 5, 20);
+    EXPECT_GT(twenty.low, nineteen.low);
+    EXPECT_LT(twenty.high, nineteen.high);
+    const gap::Interval most = gap::bootstrap_sum(values, 5, 39);
+    EXPECT_LE(most.low, twenty.low);  // still one of them
+    EXPECT_GE(most.high, twenty.high);
+    EXPECT_GE(gap::bootstrap_sum(values, 5, 40).low, most.low);
 }
 
 // Of two draws the one is the lower bound and the other the upper.

@@ -3,6 +3,7 @@
 #include "qemu/timing/block_replay.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <random>
 
@@ -270,6 +271,43 @@ TEST(BlockReplay, EqualsTheComputationStepByStep) {
         counted.resize(half_cycles.size());
         EXPECT_EQ(counted, half_cycles) << name;
     }
+}
+
+// Past 2^16 steps all is forgotten and begun anew: a run of hours takes no more memory than one of minutes, and counts
+// on.
+TEST(BlockReplay, RemembersNoMoreHoweverLongItRuns) {
+    const listing::Line line = listing::assemble("ldr.w r2,[r0]\n").front();
+    const timing::Prepared load(timing::decode(line.encoding, line.bytes));
+    timing::CodeBlock block;
+    block.lines = {{&load, 0, 0x100}, {&load, 1, 0x104}};
+    timing::BlockReplay replay(timing::read_core(TEST_CORES, "stm32f746-itcm"));
+    const std::int64_t before = replay.core().positions()[0];
+    // Few events of each load, in more and more pairs.
+    timing::BlockEvents met;
+    met.events.resize(2);
+    std::uint32_t number = 0;
+    const auto in_use_after = [&](unsigned steps) {
+        for (; steps > 0; --steps, ++number) {
+            for (timing::Event& event : met.events) {
+                event.accesses = 1;
+                event.access_bytes = 4;
+            }
+            met.events[0].load_delay = static_cast<std::uint16_t>(1 + number % 512);
+            met.events[1].load_delay = static_cast<std::uint16_t>(1 + number / 512);
+            met.make_key();
+            replay.execute(block, met, true);
+        }
+#ifdef __GLIBC__
+        return mallinfo2().uordblks + mallinfo2().hblkhd;
+#else
+        return std::size_t{0};
+#endif
+    };
+    constexpr unsigned most_steps = 1U << 16;
+    const std::size_t full = in_use_after(most_steps + most_steps / 4);
+    EXPECT_LE(in_use_after(2 * most_steps), full + (std::size_t{1} << 18));
+    const std::vector<std::int64_t> half_cycles = replay.half_cycles();
+    EXPECT_EQ(half_cycles.at(0) + half_cycles.at(1), replay.core().positions()[0] - before);
 }
 
 timing::CoreFile core_of_sets(std::initializer_list<bool> fits) {

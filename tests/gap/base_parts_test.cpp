@@ -1,0 +1,512 @@
+// The parts of a base that is looked for, each where its answer is known: what linear least squares leave, starts on
+// records that one of them made, structures, signs.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+
+#include "base/failure.hpp"
+#include "gap/drive/base/filtered.hpp"
+#include "gap/drive/base/find.hpp"
+#include "gap/drive/base/leftover.hpp"
+#include "gap/drive/base/signs.hpp"
+#include "gap/drive/base/structure.hpp"
+#include "gap/drive/start.hpp"
+
+namespace {
+
+using testing::ElementsAre;
+using Values = std::vector<double>;
+
+constexpr double h = 0.25;
+
+gap::Record record_of(std::size_t count, const std::function<double(double)>& input) {
+    gap::Record record;
+    record.name = "made";
+    record.usual_interval_s = h;
+    for (std::size_t i = 0; i < count; ++i) {
+        record.time_s.push_back(h * static_cast<double>(i));
+        record.input.push_back(input(record.time_s.back()));
+        record.output.push_back(0.0);
+    }
+    return record;
+}
+
+double levels(double t) {
+    constexpr double held[] = {0.0, 1.0, 0.3, 0.8, -0.5, 0.6, -1.0, 0.2, 0.9, -0.3, 0.5, 0.0};
+    return held[static_cast<std::size_t>(t / 5.0) % 12];
+}
+
+// Simulated on the grid of the records' own stamps, as starts are compared.
+Values response(const gap::Record& record, const drive::Model& model, double initial_output = 0.0,
+                double initial_velocity = 0.0, double bias = 0.0) {
+    gap::Scenario scenario;
+    scenario.model = model;
+    scenario.initial_output = initial_output;
+    scenario.initial_velocity = initial_velocity;
+    scenario.forces.bias = bias;
+    return gap::simulate(scenario, gap::Course(record, 1));
+}
+
+drive::Model of(std::vector<drive::Term> denominator) {
+    drive::Model model;
+    model.denominator = std::move(denominator);
+    return model;
+}
+
+std::vector<gap::Course> courses_of(const std::vector<gap::Record>& records) {
+    std::vector<gap::Course> courses;
+    for (const gap::Record& record : records) {
+        courses.emplace_back(record, 1);
+    }
+    return courses;
+}
+
+// Each record has its own offset and initial state, or a force where it rests nowhere; the gain is of all.
+TEST(Leftover, IsNothingOfWhatIsLinear) {
+    const drive::Model lag = of({{2.0, 1.0}, {1.0, 0.0}});
+    const drive::Model swing = of({{1.5, 2.0}, {0.6, 1.0}, {1.0, 0.0}});
+    const drive::Model integrator = of({{0.8, 2.0}, {1.0, 1.0}});
+    for (const drive::Model& model : {lag, swing, integrator}) {
+        const bool rests = drive::constant_coefficient(model.denominator) != 0.0;
+        const bool moves = drive::highest_order(model.denominator) > 1.0;
+        std::vector<gap::Record> records{record_of(200, levels),
+                                         record_of(120, [](double t) { return levels(t + 12.0); })};
+        double own = 0.7;
+        for (gap::Record& record : records) {
+            drive::Model driven = model;
+            driven.gain = 3.0;
+            record.output = response(record, driven, own, moves ? 0.5 * own : 0.0, rests ? 0.0 : 0.1 * own);
+            for (double& z : record.output) {
+                z += rests ? 2.0 * own : 0.0;
+            }
+            own = -0.4;
+        }
+        const gap::Leftover left = gap::leftover_of(model, courses_of(records), true);
+        EXPECT_LT(left.squares, 1e-16) << drive::to_text(model);
+        EXPECT_NEAR(left.gain, 3.0, 1e-9) << drive::to_text(model);
+        // Beside a wave that nothing linear makes, as much as of it.
+        for (std::size_t i = 0; i < records[0].size(); ++i) {
+            records[0].output[i] += i % 2 == 0 ? 0.01 : -0.01;
+        }
+        EXPECT_NEAR(gap::leftover_of(model, courses_of(records), true).squares, 200.0 * 1e-4, 4e-4);
+        // Without a gain there is the whole of what the input made.
+        EXPECT_GT(gap::leftover_of(model, courses_of(records), false).squares, 1.0);
+        EXPECT_EQ(gap::leftover_of(model, courses_of(records), false).gain, 1.0);
+    }
+}
+
+TEST(Leftover, OfWhatRunsAwayIsInfinite) {
+    const gap::Record record = record_of(200, levels);
+    EXPECT_TRUE(std::isinf(gap::leftover_of(of({{-0.2, 1.0}, {1.0, 0.0}}), courses_of({record}), true).squares));
+    // Readings that never move are explained by no gain at all.
+    EXPECT_EQ(gap::leftover_of(of({{2.0, 1.0}, {1.0, 0.0}}), courses_of({record}), true).squares < 1e-20, false);
+}
+
+// The best offset and initial state of a free motion once what was lately is taken off all three, by hand.
+TEST(Leftover, OfWhatIsQuickIsLessWhatWasLately) {
+    gap::Record record = record_of(80, [](double) { return 0.0; });
+    for (std::size_t i = 0; i < 80; ++i) {
+        record.output[i] = std::sin(0.2 * static_cast<double>(i)) + (i > 40 ? 0.5 : 0.0);
+    }
+    const drive::Model lag = of({{2.0, 1.0}, {1.0, 0.0}});
+    constexpr double quick_s = 1.1;
+    const auto quick = [](const Values& values) {
+        Values left{0.0};
+        double lately = values[0];
+        for (std::size_t i = 1; i < values.size(); ++i) {
+            lately = std::exp(-h / quick_s) * lately + (1.0 - std::exp(-h / quick_s)) * values[i];
+            left.push_back(values[i] - lately);
+        }
+        return left;
+    };
+    const auto dot = [](const Values& a, const Values& b) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            sum += a[i] * b[i];
+        }
+        return sum;
+    };
+    drive::Model released = lag;
+    released.gain = 0.0;
+    const Values state = quick(response(record, released, 1.0));
+    const Values reading = quick(record.output);  // an offset is never quick
+    const double expected = dot(reading, reading) - dot(state, reading) * dot(state, reading) / dot(state, state);
+    const gap::Leftovers left = gap::leftovers_of(lag, courses_of({record}), false, quick_s);
+    EXPECT_NEAR(left.quick.squares, expected, 1e-9);
+    EXPECT_NEAR(left.whole.squares, gap::leftover_of(lag, courses_of({record}), false).squares, 1e-9);
+    // Of two records each begins anew.
+    const gap::Leftovers both = gap::leftovers_of(lag, courses_of({record, record}), false, quick_s);
+    EXPECT_NEAR(both.quick.squares, 2.0 * expected, 1e-9);
+}
+
+// A record that one of the even lags made is begun from just that: as many equal lags as the structure has, of nine
+// sizes from three tenths of the record down, with a dead time of 0, 0.3, 1, 2 or 4 of them.
+TEST(Starts, AreEvenLagsWhereOneMadeTheRecord) {
+    const auto begun = [](const char* structure, std::size_t count, int size, double share) {
+        const gap::Structure& of_it = *gap::structure_named(structure);
+        gap::Record record = record_of(count, levels);
+        const double longest_s = 0.3 * record.time_s.back();
+        const double lag_s = longest_s * std::pow(h / longest_s, size / 9.0);
+        const int lags = of_it.order - of_it.integrators;
+        gap::Coefficients made;
+        made.gain = 2.0;
+        made.delay_s = share * lag_s;
+        constexpr double binomials[4][4] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 2, 1, 0}, {1, 3, 3, 1}};
+        for (int i = 1; i <= lags; ++i) {
+            made.denominator.push_back(binomials[lags][i] * std::pow(lag_s, i));
+        }
+        made.numerator.assign(static_cast<std::size_t>(of_it.zeros), 0.5 * lag_s);
+        record.output = response(record, gap::model_of(gap::form_of(of_it, made, true)));
+        for (double& z : record.output) {
+            z += 0.5;
+        }
+        drive::Form found = gap::starts_of(of_it, {record}).whole;
+        EXPECT_NEAR(found.parameter("gain").value, 2.0, 1e-6) << structure << size << " " << share;
+        EXPECT_NEAR(found.parameter("delay_s").value, made.delay_s, 1e-9) << structure << size << " " << share;
+        for (int i = 1; i <= lags; ++i) {
+            const std::string name = "a" + std::to_string(i);
+            EXPECT_NEAR(found.parameter(name).value, made.denominator[static_cast<std::size_t>(i - 1)],
+                        1e-9 * made.denominator[static_cast<std::size_t>(i - 1)])
+                << structure << size << " " << share;
+        }
+        if (of_it.zeros > 0) {
+            EXPECT_NEAR(found.parameter("b1").value, 0.5 * lag_s, 1e-9) << structure << size << " " << share;
+        }
+    };
+    begun("third_order", 240, 2, 0.0);
+    begun("third_order", 240, 3, 0.3);
+    begun("second_order", 240, 4, 4.0);
+    begun("second_order", 240, 0, 1.0);
+    begun("second_order", 240, 8, 2.0);
+    begun("second_order_zero", 240, 3, 1.0);
+    begun("integrator_lag", 240, 3, 2.0);
+    begun("first_order", 240, 5, 4.0);
+}
+
+// Coefficients are times to the power of their order: of a half, three quarters and the whole of each.
+TEST(Starts, OfFractionalOrdersAreAsLong) {
+    const gap::Structure& structure = *gap::structure_named("fractional_second_order");
+    for (const double share : {0.5, 0.75, 1.0}) {
+        gap::Record record = record_of(240, levels);
+        const double longest_s = 0.3 * record.time_s.back();
+        const double lag_s = longest_s * std::pow(h / longest_s, 4.0 / 9.0);
+        const double first = std::max(share, 0.3);
+        const double second = std::max(2.0 * share, 1.3);
+        gap::Coefficients made;
+        made.orders = {first, second};
+        made.denominator = {std::pow(2.0 * lag_s, first), std::pow(lag_s * lag_s, second / 2.0)};
+        record.output = response(record, gap::model_of(gap::form_of(structure, made, true)));
+        drive::Form found = gap::starts_of(structure, {record}).whole;
+        EXPECT_NEAR(found.parameter("a1").value, made.denominator[0], 1e-9 * made.denominator[0]) << share;
+        EXPECT_NEAR(found.parameter("a2").value, made.denominator[1], 1e-9 * made.denominator[1]) << share;
+        EXPECT_NEAR(found.parameter("alpha1").value, first, 1e-12);
+        EXPECT_NEAR(found.parameter("alpha2").value, second, 1e-12);
+        EXPECT_FALSE(found.parameter("alpha1").fixed);
+        EXPECT_NEAR(found.parameter("alpha1").lower, 0.3, 1e-12);
+        EXPECT_NEAR(found.parameter("alpha1").upper, 1.2, 1e-12);
+        EXPECT_NEAR(found.parameter("alpha2").lower, 1.3, 1e-12);
+        EXPECT_NEAR(found.parameter("alpha2").upper, 2.2, 1e-12);
+    }
+}
+
+TEST(Starts, OfWhatNothingExplainsAreRefused) {
+    gap::Record record = record_of(240, levels);
+    record.output.assign(240, std::nan(""));
+    try {
+        (void)gap::starts_of(*gap::structure_named("second_order"), {record});
+        FAIL() << "expected a failure";
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        EXPECT_THAT(failure.what(), testing::HasSubstr("made: no second_order (two lags, or an oscillator) explains"));
+    }
+}
+
+// What is quick is what is younger than three hundredths of the longest record.
+TEST(Starts, SayWhatIsQuick) {
+    gap::Record record = record_of(201, levels);
+    record.output = response(record, of({{2.0, 1.0}, {1.0, 0.0}}));
+    const gap::Starts starts = gap::starts_of(*gap::structure_named("first_order"), {record, record_of(101, levels)});
+    EXPECT_NEAR(starts.quick_s, 0.03 * 50.0, 1e-12);
+}
+
+// --- Forms that are asked for by name.
+
+// A record that one of the starts made is begun from just that: time constants of nine sizes from three tenths of the
+// record down, dead times of 0, 0.3, 1, 2 or 4 of them.
+TEST(NamedForms, BeginWhereTheRecordWasMade) {
+    const auto begun = [](const std::string& name, int size, double share) {
+        gap::Record record = record_of(240, levels);
+        const double longest_s = 0.3 * record.time_s.back();
+        const double lag_s = longest_s * std::pow(h / longest_s, size / 9.0);
+        const double delay_s = share * lag_s;
+        drive::Model made = name == "fopdt"   ? drive::make_fopdt(2.5, lag_s, delay_s)
+                            : name == "sopdt" ? drive::make_sopdt(2.5, lag_s, delay_s)
+                                              : of({{lag_s, 2.0}, {1.0, 1.0}});
+        made.gain = 2.5;
+        made.delay_s = delay_s;
+        record.output = response(record, made);
+        const drive::Model found = gap::model_of(gap::search_form(name, {record}));
+        const std::complex<double> s(0.3, 0.7);
+        const auto wanted = drive::evaluate_without_delay(made, s);
+        EXPECT_LT(std::abs(drive::evaluate_without_delay(found, s) - wanted), 1e-9 * std::abs(wanted)) << name << size;
+        EXPECT_NEAR(found.delay_s, delay_s, 1e-9) << name << size;
+    };
+    for (const char* name : {"fopdt", "sopdt", "integrator"}) {
+        begun(name, 0, 0.3);
+        begun(name, 2, 1.0);
+        begun(name, 4, 0.0);
+        begun(name, 5, 4.0);
+        begun(name, 8, 2.0);
+    }
+    // Of an integrator the gain stands in the coefficients.
+    gap::Record record = record_of(240, levels);
+    drive::Model made = of({{2.0, 2.0}, {1.0, 1.0}});
+    made.gain = 4.0;
+    record.output = response(record, made);
+    EXPECT_EQ(gap::model_of(gap::search_form("integrator", {record})).gain, 1.0);
+}
+
+// A structure is begun as where it is looked for; two orders of any size are begun from two whole ones.
+TEST(NamedForms, OfStructuresAreTheirStarts) {
+    gap::Record record = record_of(240, levels);
+    record.output = response(record, of({{1.2, 2.0}, {0.3, 1.0}, {1.0, 0.0}}));
+    const drive::Model second = gap::model_of(gap::search_form("second_order", {record}));
+    EXPECT_EQ(second, gap::model_of(gap::starts_of(*gap::structure_named("second_order"), {record}).whole));
+    drive::Form two = gap::search_form("niopdt", {record});
+    const double gain = drive::static_gain(second);
+    EXPECT_NEAR(two.parameter("a2").value, drive::leading_coefficient(second.denominator) / gain, 1e-9);
+    EXPECT_NEAR(two.parameter("alpha2").value, 2.0, 1e-12);
+}
+
+TEST(NamedForms, AreRefusedByName) {
+    const gap::Record record = record_of(240, levels);
+    const auto refusal = [&](const std::string& name) -> std::string {
+        try {
+            (void)gap::search_form(name, {record});
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+            return failure.what();
+        }
+        return "";
+    };
+    EXPECT_THAT(refusal("fopd"), testing::AllOf(testing::HasSubstr("fit:fopd: expected one of fopdt, sopdt, niopdt"),
+                                                testing::HasSubstr("third_order_zero; the nearest is fopdt")));
+    gap::Record nothing = record;
+    nothing.output.assign(240, std::nan(""));
+    EXPECT_THROW((void)gap::search_form("sopdt", {nothing}), glsum::Failure);
+}
+
+// "fit" looks for a base, "fit:NAME" begins that one.
+TEST(NamedForms, AreTakenIntoAQuestion) {
+    gap::Record record = record_of(240, levels);
+    record.output = response(record, drive::make_fopdt(2.5, 2.0, 0.0));
+    gap::Question question{gap::form_to_find(), false, {record}, {}, {}, gap::Metric::simulation, {}, 1};
+    gap::take_base(question, "fit:fopdt");
+    EXPECT_TRUE(question.refit);
+    EXPECT_FALSE(question.find);
+    EXPECT_EQ(question.base_name, "fopdt");
+    EXPECT_EQ(gap::model_of(question.form), gap::model_of(gap::search_form("fopdt", {record})));
+    gap::Question open{gap::form_to_find(), false, {record}, {}, {}, gap::Metric::simulation, {}, 1};
+    gap::take_base(open, "fit");
+    EXPECT_TRUE(open.refit);
+    EXPECT_TRUE(open.find);
+    EXPECT_EQ(open.base_name, "");
+}
+
+// Whole orders of a given model stay; others are its numbers.
+TEST(NamedForms, OfAGivenModelKeepWholeOrders) {
+    drive::Model model = of({{0.5, 1.8}, {0.3, 1.0}, {1.0, 0.0}});
+    model.numerator = {{0.2, 0.5}, {1.0, 0.0}};
+    drive::Form form = gap::form_of(model);
+    EXPECT_FALSE(form.parameter("alpha2").fixed);
+    EXPECT_TRUE(form.parameter("alpha1").fixed);
+    EXPECT_FALSE(form.parameter("beta1").fixed);
+    EXPECT_FALSE(form.parameter("a1").fixed);
+}
+
+// --- Filtered equations.
+
+// y' = (3 u - y) / 2 from 1.5, read with an offset of 10; exact between samples. u is late by so many of them.
+gap::Record lagging(std::size_t late) {
+    gap::Record record = record_of(401, levels);
+    double y = 1.5;
+    const double left = std::exp(-h / 2.0);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        record.output[i] = 10.0 + y;
+        y = y * left + 3.0 * (i < late ? 0.0 : record.input[i - late]) * (1.0 - left);
+    }
+    return record;
+}
+
+// Of nine dead times, 0 and from a sample to a fifth of the record, under each of seven filters.
+TEST(FilteredEstimates, TryNineDeadTimesUnderSevenFilters) {
+    std::map<long, std::size_t> found;  // by nanoseconds: those that have a solution
+    for (const std::size_t late : {0U, 7U, 20U, 40U}) {
+        for (const gap::Coefficients& one :
+             gap::filtered_estimates(*gap::structure_named("first_order"), {lagging(late)}, true)) {
+            ASSERT_EQ(one.denominator.size(), 1U);
+            EXPECT_GT(one.denominator[0], 0.0);
+            found[std::lround(1e9 * one.delay_s)] += late == 7 ? 1U : 0U;
+        }
+    }
+    std::vector<long> wanted{0};
+    for (int d = 0; d < 8; ++d) {
+        wanted.push_back(std::lround(1e9 * h * std::pow(0.2 * 100.0 / h, d / 7.0)));
+    }
+    std::vector<long> delays;
+    for (const auto& [delay, times] : found) {
+        delays.push_back(delay);
+    }
+    EXPECT_EQ(delays, wanted);
+    EXPECT_EQ(found[0], 7U);
+    EXPECT_EQ(found[wanted[5]], 7U);
+    // Without an input there is no dead time, and the gain stays.
+    gap::Record free = record_of(401, [](double) { return 0.0; });
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        free.output[i] = 0.5 + 3.0 * std::exp(-free.time_s[i] / 4.0);
+    }
+    const auto starts = gap::filtered_estimates(*gap::structure_named("first_order"), {free}, false);
+    EXPECT_EQ(starts.size(), 7U);
+    for (const gap::Coefficients& one : starts) {
+        EXPECT_EQ(one.gain, 1.0);
+        EXPECT_EQ(one.delay_s, 0.0);
+        EXPECT_NEAR(one.denominator.at(0), 4.0, 0.02);
+    }
+}
+
+// Of a record without noise the equation holds under every filter, whatever was before the record.
+TEST(FilteredEstimates, AreTheCoefficientsOfTheEquation) {
+    std::size_t near = 0;
+    for (const gap::Coefficients& one :
+         gap::filtered_estimates(*gap::structure_named("first_order"), {lagging(7)}, true)) {
+        near += std::lround(one.delay_s / h) == 7 && std::fabs(one.gain - 3.0) < 0.001 &&
+                std::fabs(one.denominator[0] - 2.0) < 0.01;
+    }
+    EXPECT_EQ(near, 7U);
+    // A position: 1 / (s (1 + 2 s)), and a constant force.
+    gap::Record second = record_of(401, levels);
+    const double left = std::exp(-h / 2.0);
+    double speed = 0.0;
+    double place = 0.0;
+    for (std::size_t i = 0; i < second.size(); ++i) {
+        second.output[i] = place;
+        const double force = 3.0 * second.input[i] + 0.4;
+        place += force * h + (speed - force) * 2.0 * (1.0 - left);
+        speed = speed * left + force * (1.0 - left);
+    }
+    near = 0;
+    for (const gap::Coefficients& one :
+         gap::filtered_estimates(*gap::structure_named("integrator_lag"), {second}, true)) {
+        near += one.delay_s == 0.0 && std::fabs(one.gain - 3.0) < 0.005 && std::fabs(one.denominator[0] - 2.0) < 0.004;
+    }
+    EXPECT_EQ(near, 7U);
+    // A lead: (1 + 5 s) / (1 + 2 s)^2 is what both states of a chain make.
+    gap::Record third = record_of(401, levels);
+    double a = 0.0;
+    double b = 0.0;
+    for (std::size_t i = 0; i < third.size(); ++i) {
+        third.output[i] = b + 5.0 * (a - b) / 2.0;
+        const double u = third.input[i];
+        const double next = u + (b - u + (a - u) * h / 2.0) * left;
+        a = u + (a - u) * left;
+        b = next;
+    }
+    near = 0;
+    for (const gap::Coefficients& one :
+         gap::filtered_estimates(*gap::structure_named("second_order_zero"), {third}, true)) {
+        near += one.delay_s == 0.0 && std::fabs(one.gain - 1.0) < 0.003 && std::fabs(one.numerator[0] - 5.0) < 0.06 &&
+                std::fabs(one.denominator[0] - 4.0) < 0.03 && std::fabs(one.denominator[1] - 4.0) < 0.03;
+    }
+    EXPECT_EQ(near, 3U);  // under the slowest three; what a quick filter passes between samples is no straight line
+}
+
+// --- Structures.
+
+TEST(Structures, HaveTheirNumbers) {
+    const auto numbers = [](const char* name) { return gap::structure_named(name)->numbers(); };
+    EXPECT_EQ(numbers("first_order"), 2);
+    EXPECT_EQ(numbers("fractional_lag"), 3);
+    EXPECT_EQ(numbers("pure_integrator"), 1);
+    EXPECT_EQ(numbers("double_integrator"), 1);
+    EXPECT_EQ(numbers("second_order"), 3);
+    EXPECT_EQ(numbers("fractional_second_order"), 5);
+    EXPECT_EQ(numbers("integrator_lag"), 2);
+    EXPECT_EQ(numbers("second_order_zero"), 4);
+    EXPECT_EQ(numbers("third_order"), 4);
+    EXPECT_EQ(numbers("integrator_second_order"), 3);
+    EXPECT_EQ(numbers("third_order_zero"), 5);
+    EXPECT_EQ(gap::structures().size(), 11U);
+}
+
+// gain (1 + 5 s) / (s (1 + 2 s)): whole orders stay, and what stands before the lowest power.
+TEST(Structures, AreFormsWhoseFreeNumbersAreTheirs) {
+    const gap::Structure structure{"", 2, 1, 1, ""};
+    const auto free = [](const drive::Form& form) {
+        std::vector<std::string> names;
+        for (const drive::Parameter& parameter : form.parameters()) {
+            if (!parameter.fixed) {
+                names.push_back(parameter.name);
+            }
+        }
+        return names;
+    };
+    const gap::Coefficients at{3.0, {2.0}, {5.0}, 0.5};
+    drive::Form driven = gap::form_of(structure, at, true);
+    EXPECT_THAT(free(driven), testing::UnorderedElementsAre("gain", "b1", "a1", "delay_s"));
+    EXPECT_EQ(driven.parameter("a1").lower, 0.0);
+    EXPECT_LT(driven.parameter("b1").lower, 0.0);
+    const drive::Model model = gap::model_of(driven);
+    EXPECT_EQ(model.gain, 3.0);
+    EXPECT_EQ(model.delay_s, 0.5);
+    const std::complex<double> s(0.3, 0.7);
+    EXPECT_LT(std::abs(drive::evaluate_without_delay(model, s) - 3.0 * (1.0 + 5.0 * s) / (s * (1.0 + 2.0 * s))), 1e-12);
+    const drive::Form free_motion = gap::form_of({"", 2, 0, 0, ""}, {3.0, {2.0, 4.0}, {}, 0.5}, false);
+    EXPECT_THAT(free(free_motion), testing::UnorderedElementsAre("a1", "a2"));
+    EXPECT_EQ(gap::model_of(free_motion).gain, 1.0);
+    EXPECT_EQ(gap::model_of(free_motion).delay_s, 0.0);
+}
+
+// --- Signs.
+
+// Never below a twentieth of the span, of an input of two signs.
+TEST(LostSigns, MayBeWhereReadingsStayAbove) {
+    const auto may = [](double lowest, double low_input) {
+        gap::Record record = record_of(40, [=](double t) { return t < 4.0 ? 1.0 : low_input; });
+        record.output[3] = 1.0;
+        record.output[30] = lowest;
+        return gap::may_have_lost_signs({record});
+    };
+    EXPECT_TRUE(may(0.2, -1.0));
+    EXPECT_TRUE(may(-0.0520, -1.0));  // of a span of 1.052
+    EXPECT_FALSE(may(-0.0532, -1.0));
+    EXPECT_FALSE(may(0.2, 0.0));
+    gap::Record below = record_of(40, [](double t) { return t < 4.0 ? 0.0 : -1.0; });
+    below.output[3] = 1.0;
+    EXPECT_FALSE(gap::may_have_lost_signs({below}));
+}
+
+// After each change of the input's sign the readings have it from where they first turn; a rest has the last one's.
+TEST(LostSigns, BeginWhereReadingsTurn) {
+    gap::Record record;
+    record.input = {0, 1, 1, 1, 1, -1, -1, -1, -1, -1, 0, 0, 2, 2, 2};
+    record.output = {0, 2, 4, 4, 4, 3, 1, 0.1, 2, 4, 3, 2, 1, 0.15, 2};
+    record.time_s.assign(15, 0.0);
+    EXPECT_THAT(gap::with_signs({record})[0].output,
+                ElementsAre(0, 2, 4, 4, 4, 3, 1, -0.1, -2, -4, -3, -2, -1, 0.15, 2));
+    // Within a twentieth of the highest a rise is no turn: 0.2 here.
+    record.output = {0, 2, 4, 4, 4, 3, 1, 1.19, 0.5, 4, 3, 2, 1, 0.15, 2};
+    EXPECT_THAT(gap::with_signs({record})[0].output,
+                ElementsAre(0, 2, 4, 4, 4, 3, 1, 1.19, -0.5, -4, -3, -2, -1, 0.15, 2));
+    record.output[7] = 1.21;
+    EXPECT_THAT(gap::with_signs({record})[0].output,
+                ElementsAre(0, 2, 4, 4, 4, 3, -1, -1.21, -0.5, -4, -3, -2, -1, 0.15, 2));
+    // One that begins downwards was there before.
+    record.input.assign(15, -1.0);
+    EXPECT_EQ(gap::with_signs({record})[0].output[2], -4.0);
+}
+
+}  // namespace
