@@ -1,4 +1,4 @@
-// What the records of blind cases hold, as drive/stand/blind/README.md says: noise, levels, excitations, and what a
+// What the records of blind cases hold, as docs/blind-cases.md says: noise, levels, excitations, and what a
 // logger makes of them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

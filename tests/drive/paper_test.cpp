@@ -143,8 +143,8 @@ TEST(Paper, TheValueAfterFiveSecondsIsThePublishedOne) {
     EXPECT_EQ(drive::value_at_5_s(models.niopdt, 4).without_delay, "0.9977");
 }
 
-// drive/README.md's table.
-TEST(Paper, PrecisionsEndWhereTheReadmeSays) {
+// The table of docs/drive-models.md.
+TEST(Paper, PrecisionsEndWhereThePageSays) {
     const std::pair<const char*, double> expected[] = {{"single precision, merged table, newest first", 1.147},
                                                        {"single precision, a sum for each order, newest first", 1.292},
                                                        {"single precision, oldest first", 0.9975},

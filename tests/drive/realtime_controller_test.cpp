@@ -169,7 +169,7 @@ TEST(RealtimeController, HoldsALoopAroundThePlant) {
     };
     const RealtimeModel first(sooner, Writing::delta, {16, 7}, h);
     const RealtimeModel second(sooner, Writing::bdf2, {23, 9}, h);
-    EXPECT_LT(off(Plant<Modes>(first.design())), 6.55e-4);  // as drive/README.md has them
+    EXPECT_LT(off(Plant<Modes>(first.design())), 6.55e-4);  // as docs/drive-models.md has them
     EXPECT_LT(off(Plant<Modes>(second.design())), 4.35e-4);
     // What a window makes of it, in the same numbers.
     const RealtimeModel window(sooner, Writing::delta, {600}, h);

@@ -180,7 +180,7 @@ TEST(Realtime, ModesAreStableByTheSmallGainTheorem) {
         return drive::RealtimeModel(plants::niopdt(), writing, memory, h).loop_gain();
     };
     EXPECT_LT(gain(Writing::delta, {4, 1}), 0.9);
-    // As drive/README.md has them.
+    // As docs/drive-models.md has them.
     EXPECT_NEAR(gain(Writing::delta, {16, 7}), 0.030, 0.0005);
     EXPECT_NEAR(gain(Writing::bdf2, {23, 9}), 0.0051, 0.00005);
     EXPECT_NEAR(gain(Writing::bdf2, {27, 11}), 0.0013, 0.00005);
