@@ -132,4 +132,13 @@ void check_writable(const std::filesystem::path& path) {
     std::filesystem::remove(partial);
 }
 
+void check_new_or_empty(const std::filesystem::path& folder) {
+    std::error_code error;
+    if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
+        throw glsum::Failure(
+            glsum::Exit::bad_input,
+            fmt::format("{}: expected a folder that is new or empty, found files in it", folder.string()));
+    }
+}
+
 }  // namespace base

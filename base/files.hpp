@@ -24,4 +24,7 @@ void write_file(const std::filesystem::path& path, const std::string& content);
 /// Fails now rather than after a long run: whether a file can be written there.
 void check_writable(const std::filesystem::path& path);
 
+/// \throws glsum::Failure (bad input) naming the folder if there is anything in it.
+void check_new_or_empty(const std::filesystem::path& folder);
+
 }  // namespace base

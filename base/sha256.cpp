@@ -54,6 +54,15 @@ std::vector<std::pair<std::string, std::string>> parse_sha256_lines(const std::s
     return lines;
 }
 
+void check_sha256(const std::filesystem::path& file, const std::string& expected, const std::string& noted_in) {
+    const std::string found = sha256_of(file);
+    if (found != expected) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{}: expected the sha256 {} of {}, found {}: it was changed since",
+                                         file.string(), expected, noted_in, found));
+    }
+}
+
 std::string sha256_line(const std::string& hash, const std::string& file_name) {
     return fmt::format("{}  {}\n", hash, file_name);
 }

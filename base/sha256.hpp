@@ -16,7 +16,11 @@ namespace base {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> parse_sha256_lines(const std::string& text,
                                                                                   const std::string& name);
 
-/// Such a line.
+/// \param noted_in  the file that says so, for the message
+/// \throws glsum::Failure (bad input) naming the file where its hash is another.
+void check_sha256(const std::filesystem::path& file, const std::string& expected, const std::string& noted_in);
+
+/// A line of such a file.
 [[nodiscard]] std::string sha256_line(const std::string& hash, const std::string& file_name);
 
 }  // namespace base

@@ -1,33 +1,26 @@
 // glsum bench: accuracy of every kernel, its cost on the host and on the emulated Cortex-M7.
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
-#include "bench/host/peers/peer.hpp"
-#include "bench/report/table.hpp"
 #include "bench/run/run.hpp"
-#include "bench/sweep/signals.hpp"
+#include "bench/run/usual_sweep.hpp"
 #include "bench/target/target_rows.hpp"
 #include "cli/board.hpp"
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
 #include "cli/finish_run.hpp"
-#include "glsum/catalogue.hpp"
 
 namespace cli {
 namespace {
 
 using glsum::Exit;
 using glsum::Failure;
-
-constexpr std::size_t most_taps = 1'000'000;  // as bench::parse_length has it
 
 struct Options {
     bool quick = false;
@@ -43,32 +36,6 @@ struct Options {
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
     std::filesystem::path out;
 };
-
-bool matches_any(const std::vector<std::string>& globs, std::string_view name) {
-    return std::any_of(globs.begin(), globs.end(), [&](const std::string& glob) {
-        return fnmatch(glob.c_str(), std::string(name).c_str(), 0) == 0;
-    });
-}
-
-std::vector<bench::Length> to_lengths(const std::vector<std::string>& words, std::size_t samples) {
-    std::vector<bench::Length> lengths;
-    for (const std::string& word : words) {
-        const auto length = bench::parse_length(word, samples);
-        if (!length) {
-            throw Failure(Exit::bad_input,
-                          fmt::format("--taps: expected a number of at least 1 and at most {}, full, or near taps and "
-                                      "modes as 2+7, found {}",
-                                      most_taps, word));
-        }
-        if (std::none_of(lengths.begin(), lengths.end(),
-                         [&](const bench::Length& other) { return other.text() == length->text(); })) {
-            lengths.push_back(*length);
-        }
-    }
-    std::stable_sort(lengths.begin(), lengths.end(),
-                     [](const bench::Length& a, const bench::Length& b) { return a.taps < b.taps; });
-    return lengths;
-}
 
 std::vector<std::string> targets_of(const Options& options) {
     if (!options.targets.empty()) {
@@ -96,12 +63,7 @@ bench::Discretisation to_weights(const Options& options) {
 
 // Takes those off the sweep that cannot sum its weights, and says so.
 void leave_out(bench::Sweep& sweep) {
-    std::map<std::string, std::vector<std::string>> by_reason;
-    for (const std::string& kernel : sweep.kernels) {
-        if (const std::string reason = bench::why_not_served(kernel, sweep.weights); !reason.empty()) {
-            by_reason[reason].push_back(kernel);
-        }
-    }
+    const auto by_reason = bench::leave_out_unserved(sweep);
     if (by_reason.empty()) {
         return;
     }
@@ -110,8 +72,6 @@ void leave_out(bench::Sweep& sweep) {
         text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", fmt::join(kernels, ", "), reason);
     }
     fmt::print(stderr, "glsum bench: --weights {} leaves out {}\n", to_text(sweep.weights), text);
-    std::erase_if(sweep.kernels,
-                  [&](const std::string& kernel) { return !bench::why_not_served(kernel, sweep.weights).empty(); });
     if (sweep.kernels.empty() && sweep.peers.empty()) {
         throw Failure(Exit::bad_input,
                       fmt::format("--weights {}: none of the kernels can sum them", to_text(sweep.weights)));
@@ -119,30 +79,19 @@ void leave_out(bench::Sweep& sweep) {
 }
 
 bench::Sweep to_sweep(const Options& options) {
-    bench::Sweep sweep;
+    bench::Sweep sweep = bench::usual_sweep(options.quick);
     sweep.weights = to_weights(options);
     sweep.jobs = options.jobs;
     sweep.repetitions = options.repetitions.value_or(1);
-    sweep.samples = options.quick ? 1000 : 5000;
-    sweep.orders = options.orders;
-    if (sweep.orders.empty()) {
-        sweep.orders = options.quick ? std::vector{0.5, 0.98319, 1.9909, -0.5}
-                                     : std::vector{0.2, 0.3, 0.5, 0.7, 0.9, 0.98319, 1.5, 1.9909, -0.5};
+    if (!options.orders.empty()) {
+        sweep.orders = options.orders;
     }
     check_orders(sweep.orders);
-    std::vector<std::string> taps = options.taps;
-    if (taps.empty()) {
-        taps = options.quick ? std::vector<std::string>{"50", "100", "200", "600", "full"}
-                             : std::vector<std::string>{"50",  "75",  "100", "150", "200",  "300",
-                                                        "400", "500", "600", "800", "1000", "full"};
+    if (!options.taps.empty()) {
+        sweep.lengths = bench::lengths_of(options.taps, sweep.samples);
     }
-    sweep.lengths = to_lengths(taps, sweep.samples);
-    if (options.quick) {
-        sweep.design_errors = {1e-4};
-    }
-    sweep.signals = options.signals;
-    if (sweep.signals.empty()) {
-        sweep.signals.assign(std::begin(bench::signal_names), std::end(bench::signal_names));
+    if (!options.signals.empty()) {
+        sweep.signals = options.signals;
     }
     check_signals(sweep.signals);
     sweep.targets = targets_of(options);
@@ -154,22 +103,7 @@ bench::Sweep to_sweep(const Options& options) {
         }
     }
     (void)timing::cores_of(bench::timing_request(cores_folder(), sweep.modelled_cores()));
-    for (const glsum::CatalogueEntry& kernel : glsum::catalogue) {
-        if (matches_any(options.kernels, kernel.name)) {
-            sweep.kernels.emplace_back(kernel.name);
-        }
-    }
-    // Times to be judged are judged beside code that is not ours.
-    const std::vector<std::string> beside =
-        sweep.repetitions > 1 && sweep.wants("host") && !sweep.kernels.empty()
-            ? std::vector<std::string>{"peer_std_f32", "peer_eigen_f32", "peer_std_q31"}
-            : std::vector<std::string>{};
-    for (const bench::Peer& peer : bench::peers()) {
-        if (matches_any(options.kernels, peer.name) ||
-            std::find(beside.begin(), beside.end(), peer.name) != beside.end()) {
-            sweep.peers.emplace_back(peer.name);
-        }
-    }
+    bench::take_kernels(sweep, options.kernels);
     if (sweep.kernels.empty() && sweep.peers.empty()) {
         throw Failure(Exit::bad_input,
                       fmt::format("--kernels: no kernel is called {}", fmt::join(options.kernels, ", ")));

@@ -7,53 +7,19 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "base/sha256.hpp"
 #include "cli/drive_files.hpp"
-#include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/facts.hpp"
-#include "drive/stand/blind/without_model.hpp"
+#include "drive/stand/blind/set_folder.hpp"
+#include "gap/drive/diagnose.hpp"
 #include "gap/drive/start.hpp"
+#include "gap/drive/verdict.hpp"
 
 namespace cli {
 
 namespace {
-
-struct Folder {
-    std::vector<std::pair<std::string, std::string>> files;  // name, text
-};
-
-void check_new(const std::filesystem::path& folder) {
-    if (folder.empty()) {
-        throw glsum::Failure(glsum::Exit::bad_input, "stand --blind: expected --out FOLDER");
-    }
-    std::error_code error;
-    if (std::filesystem::exists(folder, error) && !std::filesystem::is_empty(folder, error)) {
-        throw glsum::Failure(
-            glsum::Exit::bad_input,
-            fmt::format("{}: expected a folder that is new or empty, found files in it", folder.string()));
-    }
-}
-
-// The truth, its hash, which is said, and only then the cases.
-void write_set(const std::string& sealed, const std::vector<Folder>& cases, std::uint64_t seed,
-               const std::filesystem::path& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    base::write_file(folder / "truth.sealed.json", sealed);
-    const std::string hash = base::sha256_of(folder / "truth.sealed.json");
-    base::write_file(folder / "truth.sha256", base::sha256_line(hash, "truth.sealed.json"));
-    fmt::print("sha256 of the sealed truth: {}\n", hash);
-    std::fflush(stdout);
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const auto place = folder / stand::blind::name_of_case(i + 1);
-        std::filesystem::create_directories(place, error);
-        for (const auto& [name, text] : cases[i].files) {
-            base::write_file(place / name, text);
-        }
-    }
-    fmt::print("{} cases, seed {}, in {}\n", cases.size(), seed, folder.string());
-}
 
 gap::Question question_of(drive::Form form, bool refit, std::vector<gap::Record> train,
                           std::vector<gap::Record> validate) {
@@ -73,41 +39,6 @@ gap::Question question_without_model(const stand::blind::Facts& facts, std::vect
 
 }  // namespace
 
-void write_blind_cases(std::size_t count, std::uint64_t seed, unsigned jobs, const std::filesystem::path& folder) {
-    check_new(folder);
-    std::vector<stand::blind::Truth> truths;
-    std::vector<Folder> folders;
-    {
-        base::Progress progress("blind cases", count);
-        for (auto& made : stand::blind::make_cases(count, seed, jobs, [&] { progress.advance(); })) {
-            truths.push_back(std::move(made.truth));
-            folders.push_back({{{"model.json", std::move(made.model)},
-                                {"train.csv", std::move(made.train)},
-                                {"validate.csv", std::move(made.validate)}}});
-        }
-    }
-    write_set(stand::blind::seal(seed, truths), folders, seed, folder);
-}
-
-void write_open_cases(std::size_t count, std::uint64_t seed, unsigned jobs, const std::filesystem::path& folder) {
-    check_new(folder);
-    std::vector<stand::blind::OpenTruth> truths;
-    std::vector<Folder> folders;
-    {
-        base::Progress progress("blind cases", count);
-        for (auto& made : stand::blind::make_open_cases(count, seed, jobs, [&] { progress.advance(); })) {
-            truths.push_back(std::move(made.truth));
-            Folder& own = folders.emplace_back(Folder{std::move(made.records)});
-            own.files.emplace_back("case.json", std::move(made.facts));
-        }
-    }
-    write_set(stand::blind::seal_open(seed, truths), folders, seed, folder);
-}
-
-bool is_blind_case(const std::filesystem::path& folder) {
-    return std::filesystem::exists(folder / "model.json") || std::filesystem::exists(folder / "case.json");
-}
-
 gap::Question blind_question(const std::filesystem::path& folder) {
     const auto logs = [&](const std::string& name) {
         std::vector<std::filesystem::path> found;
@@ -119,14 +50,65 @@ gap::Question blind_question(const std::filesystem::path& folder) {
         std::sort(found.begin(), found.end());
         return read_records(found, {});
     };
-    if (std::filesystem::exists(folder / "model.json")) {
-        return question_of(gap::form_of(read_model((folder / "model.json").string())), false, logs("train"),
+    if (std::filesystem::exists(folder / stand::blind::model_file)) {
+        return question_of(gap::form_of(read_model((folder / stand::blind::model_file).string())), false, logs("train"),
                            logs("validate"));
     }
     constexpr std::size_t most_bytes = 1U << 16U;
-    const auto told = folder / "case.json";
+    const auto told = folder / stand::blind::facts_file;
     const auto facts = stand::blind::parse_facts(base::read_file(told, most_bytes), told.string());
     return question_without_model(facts, logs("train"), logs("validate"));
+}
+
+void judge_blind_cases(const std::filesystem::path& set, unsigned jobs) {
+    std::vector<std::filesystem::path> cases;
+    std::error_code unreadable;
+    for (const auto& entry : std::filesystem::directory_iterator(set, unreadable)) {
+        if (stand::blind::is_case(entry.path())) {
+            cases.push_back(entry.path());
+        }
+    }
+    if (cases.empty()) {
+        throw glsum::Failure(
+            glsum::Exit::bad_input,
+            fmt::format(
+                "--batch {}: expected folders with model.json or case.json, train*.csv and validate*.csv, found none",
+                set.string()));
+    }
+    std::sort(cases.begin(), cases.end());
+    std::vector<std::string> verdicts(cases.size());
+    std::vector<std::string> failures(cases.size());
+    {
+        base::Progress progress("cases", cases.size());
+        base::parallel_for(cases.size(), jobs, [&](std::size_t i) {
+            try {
+                const gap::Answer answer = gap::diagnose(blind_question(cases[i]), [](const std::string&) {});
+                put(gap::to_json(answer), cases[i] / stand::blind::verdict_file);
+                verdicts[i] = gap::name_of(answer.decision.outcome);
+            } catch (const glsum::Failure& failure) {
+                failures[i] = failure.what();
+            }
+            progress.advance();
+        });
+    }
+    std::string hashes;
+    std::size_t failed = 0;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        const std::string name = cases[i].filename().string();
+        if (!failures[i].empty()) {
+            fmt::print(stderr, "glsum: {}: {}\n", name, failures[i]);
+            ++failed;
+            continue;
+        }
+        fmt::print("{}  {}\n", name, verdicts[i]);
+        hashes += base::sha256_line(base::sha256_of(cases[i] / stand::blind::verdict_file),
+                                    name + "/" + stand::blind::verdict_file);
+    }
+    put(hashes, set / stand::blind::verdict_hashes_file);
+    if (failed > 0) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{} of {} cases have no verdict", failed, cases.size()));
+    }
 }
 
 }  // namespace cli

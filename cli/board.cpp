@@ -8,14 +8,23 @@ namespace cli {
 
 std::filesystem::path cores_folder() { return std::filesystem::path(build_info::source_folder) / "qemu" / "cores"; }
 
+std::filesystem::path plugin() { return std::filesystem::path(build_info::build_folder) / "qemu" / "glsum_plugin.so"; }
+
+std::filesystem::path emulate_script() {
+    return std::filesystem::path(build_info::source_folder) / "targets" / build_info::emulated_board / "emulate";
+}
+
 qemu::Board built_board() {
-    const std::filesystem::path source = build_info::source_folder;
     const std::filesystem::path built = build_info::build_folder;
-    qemu::Board board = qemu::find_board(built.parent_path() / "mps2-an500", built / "qemu" / "glsum_plugin.so",
-                                         source / "targets" / "mps2-an500" / "emulate");
+    qemu::Board board = qemu::find_board(built.parent_path() / build_info::emulated_board, plugin(), emulate_script());
     board.cores = cores_folder();
     (void)qemu::emulator_version();
     return board;
+}
+
+qemu::SiliconProgram built_silicon() {
+    const qemu::Board board = built_board();
+    return {board.measure_elf.parent_path() / "silicon.elf", board.plugin, board.cores, board.emulator};
 }
 
 std::optional<qemu::Board> board_if_there() {

@@ -7,6 +7,7 @@
 
 #include "qemu/emulate/firmware.hpp"
 #include "qemu/emulate/measured_cycles.hpp"
+#include "qemu/emulate/silicon.hpp"
 
 namespace cli {
 
@@ -17,8 +18,15 @@ inline constexpr const char* default_core = "stm32f746-itcm";
 /// The project's core files.
 [[nodiscard]] std::filesystem::path cores_folder();
 
+/// What the emulator runs a program of anybody's with: the instrument, and the board's script.
+[[nodiscard]] std::filesystem::path plugin();
+[[nodiscard]] std::filesystem::path emulate_script();
+
 /// \throws glsum::Failure (missing) naming the file that is not there, or the emulator.
 [[nodiscard]] qemu::Board built_board();
+
+/// Its program `silicon`. \throws as `built_board`
+[[nodiscard]] qemu::SiliconProgram built_silicon();
 
 /// Nothing where it throws.
 [[nodiscard]] std::optional<qemu::Board> board_if_there();

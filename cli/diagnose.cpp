@@ -7,15 +7,13 @@
 #include <thread>
 
 #include "base/failure.hpp"
-#include "base/parallel.hpp"
-#include "base/progress.hpp"
-#include "base/sha256.hpp"
 #include "cli/blind.hpp"
 #include "cli/command.hpp"
 #include "cli/diagnose_cycles.hpp"
 #include "cli/drive_files.hpp"
 #include "cli/exam.hpp"
 #include "gap/drive/diagnose.hpp"
+#include "gap/drive/fair_records.hpp"
 #include "gap/drive/start.hpp"
 #include "gap/drive/verdict.hpp"
 
@@ -38,88 +36,6 @@ struct Options {
     std::filesystem::path improved;
     unsigned jobs = 1;
 };
-
-void refuse_training_as_validation(const gap::Question& question) {
-    for (const gap::Record& record : question.validate) {
-        for (const gap::Record& trained : question.train) {
-            if (record.input == trained.input && record.output == trained.output) {
-                throw glsum::Failure(
-                    glsum::Exit::bad_input,
-                    fmt::format("{}: expected a log that is not fitted, found the training log itself; "
-                                "without --validate, parts of each log are kept aside",
-                                record.name));
-            }
-        }
-    }
-}
-
-void check_split(const gap::Question& question) {
-    if (!question.split_s || !question.validate.empty()) {
-        return;
-    }
-    for (const gap::Record& record : question.train) {
-        const auto before =
-            std::count_if(record.time_s.begin(), record.time_s.end(), [&](double t) { return t < *question.split_s; });
-        if (before < 32 || static_cast<std::size_t>(before) + 32 > record.size()) {
-            throw glsum::Failure(
-                glsum::Exit::bad_input,
-                fmt::format("--split {}: expected 32 samples or more on both sides, found {} of {} before "
-                            "it in {}",
-                            *question.split_s, before, record.size(), record.name));
-        }
-    }
-}
-
-// Every case of a set is judged and hashed; one that cannot be read is said and left out, the others are kept.
-void run_batch(const std::filesystem::path& set, unsigned jobs) {
-    std::vector<std::filesystem::path> cases;
-    std::error_code unreadable;
-    for (const auto& entry : std::filesystem::directory_iterator(set, unreadable)) {
-        if (is_blind_case(entry.path())) {
-            cases.push_back(entry.path());
-        }
-    }
-    if (cases.empty()) {
-        throw glsum::Failure(
-            glsum::Exit::bad_input,
-            fmt::format(
-                "--batch {}: expected folders with model.json or case.json, train*.csv and validate*.csv, found none",
-                set.string()));
-    }
-    std::sort(cases.begin(), cases.end());
-    std::vector<std::string> verdicts(cases.size());
-    std::vector<std::string> failures(cases.size());
-    {
-        base::Progress progress("cases", cases.size());
-        base::parallel_for(cases.size(), jobs, [&](std::size_t i) {
-            try {
-                const gap::Answer answer = gap::diagnose(blind_question(cases[i]), [](const std::string&) {});
-                put(gap::to_json(answer), cases[i] / "verdict.json");
-                verdicts[i] = gap::name_of(answer.decision.outcome);
-            } catch (const glsum::Failure& failure) {
-                failures[i] = failure.what();
-            }
-            progress.advance();
-        });
-    }
-    std::string hashes;
-    std::size_t failed = 0;
-    for (std::size_t i = 0; i < cases.size(); ++i) {
-        const std::string name = cases[i].filename().string();
-        if (!failures[i].empty()) {
-            fmt::print(stderr, "glsum: {}: {}\n", name, failures[i]);
-            ++failed;
-            continue;
-        }
-        fmt::print("{}  {}\n", name, verdicts[i]);
-        hashes += base::sha256_line(base::sha256_of(cases[i] / "verdict.json"), name + "/verdict.json");
-    }
-    put(hashes, set / "verdicts.sha256");
-    if (failed > 0) {
-        throw glsum::Failure(glsum::Exit::bad_input,
-                             fmt::format("{} of {} cases have no verdict", failed, cases.size()));
-    }
-}
 
 void run(const Options& options) {
     std::vector<gap::Record> train = read_records(options.logs, options.columns);
@@ -146,8 +62,10 @@ void run(const Options& options) {
     }
     question.metric_free = options.metric.empty();
     question.horizon_s = options.horizon_s;
-    check_split(question);
-    refuse_training_as_validation(question);
+    if (question.split_s && question.validate.empty()) {
+        gap::check_split(fmt::format("--split {}", *question.split_s), *question.split_s, question.train);
+    }
+    gap::check_unseen(question.train, question.validate);
     const gap::Answer answer =
         gap::diagnose(question, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
     fmt::print("{}", gap::to_text(answer));
@@ -197,7 +115,7 @@ void add_options(Command& command, const Words&) {
         "          glsum diagnose --exam gap/exam/real.json --data logs --out build/exam");
     command.callback([&command, options, set, exam] {
         if (!set->empty()) {
-            run_batch(*set, options->jobs);
+            judge_blind_cases(*set, options->jobs);
         } else if (!exam->manifest.empty()) {
             run_exam(exam->manifest, exam->data, exam->out, options->jobs);
         } else if (!command.given_subcommand()) {

@@ -77,12 +77,8 @@ void run_exam(const path& manifest, const path& data, const path& out, unsigned 
     }
     const std::vector<exam::Asked> asked =
         exam::parse_manifest(base::read_file(manifest, exam::Limits::bytes), manifest.string());
+    base::check_new_or_empty(out);
     std::error_code error;
-    if (std::filesystem::exists(out, error) && !std::filesystem::is_empty(out, error)) {
-        throw glsum::Failure(
-            glsum::Exit::bad_input,
-            fmt::format("{}: expected a folder that is new or empty, found files in it", out.string()));
-    }
     for (const exam::Asked& question : asked) {
         std::filesystem::create_directories(out / question.name, error);
     }
@@ -125,12 +121,7 @@ void score_exam(const path& answers, const path& truth, const path& json) {
             throw glsum::Failure(glsum::Exit::bad_input, fmt::format("{}: expected NAME/{} or NAME/{}, found {}",
                                                                      noted.string(), verdict_file, refusal_file, file));
         }
-        const std::string found = base::sha256_of(answers / place);
-        if (found != hash) {
-            throw glsum::Failure(glsum::Exit::bad_input,
-                                 fmt::format("{}: expected the sha256 {} of {}, found {}: it was changed since",
-                                             (answers / place).string(), hash, noted.string(), found));
-        }
+        base::check_sha256(answers / place, hash, noted.string());
         if (!replies.emplace(place.begin()->string(), read_reply(answers / place)).second) {
             throw glsum::Failure(glsum::Exit::bad_input,
                                  fmt::format("{}: {} is answered twice", noted.string(), place.begin()->string()));

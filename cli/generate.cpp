@@ -1,6 +1,5 @@
 // glsum generate: a kernel, chosen within a budget or named, as one C99 header.
 #include <fmt/format.h>
-#include <fnmatch.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "base/glob.hpp"
 #include "bench/choose/report.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/generate/provenance.hpp"
@@ -40,7 +40,7 @@ struct Options {
 // that do not take the order are left out, and named.
 std::vector<std::string> named_kernels(const std::string& glob, double order) {
     std::vector<std::string> kernels = generate::generatable();
-    std::erase_if(kernels, [&](const std::string& kernel) { return fnmatch(glob.c_str(), kernel.c_str(), 0) != 0; });
+    std::erase_if(kernels, [&](const std::string& kernel) { return !base::matches(glob, kernel); });
     if (kernels.size() > 1) {
         std::erase_if(kernels, [&](const std::string& kernel) {
             const bool serves = bench::serves(kernel, order);

@@ -3,24 +3,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 
 #include "base/failure.hpp"
+#include "cli/name_value.hpp"
 
 namespace cli {
 
 std::vector<std::size_t> to_rising(const std::vector<std::string>& words, const Counted& counted) {
     std::vector<std::size_t> counts;
     for (const std::string& word : words) {
-        std::size_t count = 0;
-        const char* const end = word.data() + word.size();
-        const auto [behind, fault] = std::from_chars(word.data(), end, count);
-        if (fault != std::errc() || behind != end || count < counted.fewest || count > counted.most) {
+        const auto count = to_number<std::size_t>(word);
+        if (!count || *count < counted.fewest || *count > counted.most) {
             throw glsum::Failure(glsum::Exit::bad_input,
                                  fmt::format("{}: expected {} to {} {}, found {}", counted.option, counted.fewest,
                                              counted.most, counted.what, word));
         }
-        counts.push_back(count);
+        counts.push_back(*count);
     }
     std::sort(counts.begin(), counts.end());
     counts.erase(std::unique(counts.begin(), counts.end()), counts.end());

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -13,11 +12,11 @@
 #include "base/gnuplot.hpp"
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "base/sha256.hpp"
 #include "cli/blind.hpp"
 #include "cli/exam.hpp"
 #include "drive/stand/blind/judge.hpp"
 #include "drive/stand/blind/score.hpp"
+#include "drive/stand/blind/set_folder.hpp"
 #include "gap/drive/oracle.hpp"
 
 namespace cli {
@@ -26,8 +25,6 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 namespace blind = stand::blind;
-
-constexpr std::size_t most_bytes = 64u << 20;
 
 struct Options {
     std::filesystem::path folder;
@@ -41,57 +38,13 @@ struct Options {
     std::filesystem::path plot;
 };
 
-// The text of a file that has the hash which was written down for it.
-std::string read_hashed(const std::filesystem::path& path, const std::string& expected, const std::string& noted_in) {
-    const std::string found = base::sha256_of(path);
-    if (found != expected) {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected the sha256 {} of {}, found {}: it was changed since",
-                                                   path.string(), expected, noted_in, found));
+void check_truth_hash(const Options& options) {
+    const std::string noted = blind::noted_hash(options.folder);
+    if (!options.truth_hash.empty() && options.truth_hash != noted) {
+        throw Failure(Exit::bad_input,
+                      fmt::format("{}: expected {}, as --truth-sha256 says, found {}",
+                                  (options.folder / blind::truth_hash_file).string(), options.truth_hash, noted));
     }
-    return base::read_file(path, most_bytes);
-}
-
-std::vector<blind::SealedCase> open_truth(const Options& options) {
-    const auto noted = options.folder / "truth.sha256";
-    const auto lines = base::parse_sha256_lines(base::read_file(noted, most_bytes), noted.string());
-    if (lines.size() != 1 || lines[0].second != "truth.sealed.json") {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected one line, of truth.sealed.json, found {}",
-                                                   noted.string(), lines.size()));
-    }
-    if (!options.truth_hash.empty() && options.truth_hash != lines[0].first) {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected {}, as --truth-sha256 says, found {}", noted.string(),
-                                                   options.truth_hash, lines[0].first));
-    }
-    const auto path = options.folder / "truth.sealed.json";
-    return blind::parse_sealed(read_hashed(path, lines[0].first, noted.string()), path.string());
-}
-
-std::vector<blind::Answer> open_verdicts(const Options& options, const std::vector<blind::SealedCase>& truths) {
-    const auto noted = options.folder / "verdicts.sha256";
-    std::map<std::string, std::string> hashes;
-    for (const auto& [hash, file] : base::parse_sha256_lines(base::read_file(noted, most_bytes), noted.string())) {
-        if (!hashes.emplace(file, hash).second) {
-            throw Failure(Exit::bad_input, fmt::format("{}: {} is there twice", noted.string(), file));
-        }
-    }
-    std::vector<blind::Answer> answers;
-    for (const blind::SealedCase& truth : truths) {
-        const std::string file = truth.name + "/verdict.json";
-        const auto found = hashes.find(file);
-        if (found == hashes.end()) {
-            throw Failure(Exit::bad_input, fmt::format("{}: expected a line for {}, found none: diagnose --batch {} "
-                                                       "answers every case",
-                                                       noted.string(), file, options.folder.string()));
-        }
-        const auto path = options.folder / file;
-        answers.push_back(blind::parse_answer(read_hashed(path, found->second, noted.string()), path.string()));
-        hashes.erase(found);
-    }
-    if (!hashes.empty()) {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected cases of the sealed truth, found {}", noted.string(),
-                                                   hashes.begin()->first));
-    }
-    return answers;
 }
 
 // Of each case, what could have been known; of one that cannot be diagnosed at all, nothing, and it is said why.
@@ -116,23 +69,17 @@ std::vector<std::optional<gap::Foresight>> foresee_all(const Options& options,
     return all;
 }
 
-std::optional<blind::Oracle> oracle_of(const std::optional<gap::Foresight>& foresight) {
-    constexpr double identifiable = 10.0;
-    return foresight ? std::optional(
-                           blind::Oracle{foresight->lead >= identifiable, foresight->gap_base, foresight->gap_after})
-                     : std::nullopt;
+std::optional<blind::Oracle> oracle_of(const std::optional<gap::Foresight>& known) {
+    return known ? std::optional(
+                       blind::Oracle{known->lead >= blind::identifiable_lead, known->gap_base, known->gap_after})
+                 : std::nullopt;
 }
 
 std::vector<blind::Answer> answers_by(const std::vector<std::optional<gap::Foresight>>& all,
                                       std::string gap::Foresight::*criterion) {
     std::vector<blind::Answer> answers;
     for (const auto& foresight : all) {
-        const std::string name = foresight ? (*foresight).*criterion : "none";
-        blind::Answer& answer = answers.emplace_back();
-        answer.verdict = name == "none" ? "no_gap" : "attributed";
-        if (name != "none") {
-            answer.effects = answer.ranking = {name};
-        }
+        answers.push_back(blind::answer_naming(foresight ? (*foresight).*criterion : "none"));
     }
     return answers;
 }
@@ -192,8 +139,9 @@ void score_without_models(const Options& options, const std::vector<blind::Seale
 
 void run(const Options& options) {
     // The verdicts are fixed before the truth is opened: both by their hashes.
-    const std::vector<blind::SealedCase> truths = open_truth(options);
-    const std::vector<blind::Answer> answers = open_verdicts(options, truths);
+    check_truth_hash(options);
+    const std::vector<blind::SealedCase> truths = blind::open_truth(options.folder);
+    const std::vector<blind::Answer> answers = blind::open_verdicts(options.folder, truths);
     (truths.front().fitted_base ? score_without_models : score_with_models)(options, truths, answers);
 }
 

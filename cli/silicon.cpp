@@ -10,7 +10,6 @@
 #include "base/failure.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
-#include "qemu/emulate/firmware.hpp"
 #include "qemu/emulate/silicon.hpp"
 
 namespace cli {
@@ -54,10 +53,8 @@ void print_sets(const timing::CoreFile& core, const std::vector<qemu::MeasuredCy
 
 void run(const Options& options) {
     const std::vector<qemu::MeasuredCycles> rows = read_measured_cycles(options.file);
-    const qemu::Board board = built_board();
-    const qemu::SiliconProgram program{board.measure_elf.parent_path() / "silicon.elf", board.plugin, board.cores,
-                                       board.emulator};
-    const timing::CoreFile core = timing::read_core(board.cores, options.core);
+    const qemu::SiliconProgram program = built_silicon();
+    const timing::CoreFile core = timing::read_core(program.cores_folder, options.core);
     std::vector<qemu::CoreVariant> variants{{options.core, "", options.without}};
     for (const timing::RuleSet& set : core.sets) {
         variants.push_back({options.core, set.name, options.without});

@@ -1,21 +1,17 @@
 // glsum simulate: a model's response, exactly and as a microcontroller would step it.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "base/failure.hpp"
 #include "base/gnuplot.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
-#include "drive/exact_step_response.hpp"
+#include "cli/name_value.hpp"
 #include "drive/pictures.hpp"
-#include "drive/response.hpp"
-#include "drive/simulation.hpp"
+#include "drive/simulation_report.hpp"
 
 namespace cli {
 namespace {
@@ -42,41 +38,36 @@ struct Options {
 };
 
 std::optional<std::size_t> to_taps(const std::string& word) {
-    std::size_t taps = 0;
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), taps);
     if (word == "full") {
         return std::nullopt;
     }
-    if (error != std::errc{} || end != word.data() + word.size() || taps == 0) {
+    const auto taps = to_number<std::size_t>(word);
+    if (!taps || *taps == 0) {
         throw Failure(Exit::bad_input, fmt::format("--taps: expected a number of at least 1 or full, found {}", word));
     }
     return taps;
 }
 
+void draw(const Options& options, const drive::Model& model, const std::vector<drive::Curve>& curves) {
+    if (!options.plot.empty()) {
+        base::draw(drive::picture_of_curves(curves, drive::to_text(model), "output"), options.plot);
+    }
+}
+
 // The oracle's digits at given times.
 void print_exact_values(const drive::Model& model, const Options& options) {
-    nlohmann::ordered_json all = nlohmann::ordered_json::array();
-    std::string text;
+    std::vector<drive::ExactPoint> points;
     for (const double t : options.at_s) {
-        const drive::ExactValue value = drive::exact_step_response(model, t);
-        text += fmt::format("{} s  {}  ({} digits agree)\n", t, value.digits, value.agreed_digits);
-        all.push_back(
-            {{"time_s", t}, {"value", value.value}, {"digits", value.digits}, {"agreed_digits", value.agreed_digits}});
+        points.push_back({t, drive::exact_step_response(model, t)});
     }
-    put(options.json ? all.dump(2) + "\n" : text, options.out);
+    put(options.json ? drive::to_json(points) : drive::to_text(points), options.out);
 }
 
 drive::Log make_record(const Options& options, double step_s) {
     if (options.input == "step" || options.input == "pulse" || options.input == "staircase") {
         drive::Excitation excitation = options.excitation;
         excitation.name = options.input;
-        drive::Log record;
-        record.name = options.input;
-        record.input = drive::make_input(excitation, step_s, options.until_s);
-        for (std::size_t k = 0; k < record.input.size(); ++k) {
-            record.time_s.push_back(static_cast<double>(k) * step_s);
-        }
-        return record;
+        return drive::make_log(excitation, step_s, options.until_s);
     }
     if (!std::filesystem::exists(options.input)) {
         throw Failure(Exit::bad_input,
@@ -103,17 +94,14 @@ bool tell_of_effects(const drive::Model& model, drive::Log record, const Options
         return false;
     }
     record.output = improved.output;
-    fmt::print("{}\nwith {}, input {}: {} samples, at {:.6g} s the output is {:.10g}\n", drive::to_text(model),
-               fmt::join(improved.effects, ", "), options.input, record.output.size(), record.time_s.back(),
-               record.output.back());
+    drive::SimulationReport report;
+    report.method = fmt::format("with {}", fmt::join(improved.effects, ", "));
+    report.record = record;
+    fmt::print("{}", drive::to_text(report, model));
     if (!options.out.empty()) {
         put(drive::to_csv(record), options.out);
     }
-    if (!options.plot.empty()) {
-        base::draw(
-            drive::picture_of_curves({{"with effects", record.time_s, record.output}}, drive::to_text(model), "output"),
-            options.plot);
-    }
+    draw(options, model, {{"with effects", record.time_s, record.output}});
     return true;
 }
 
@@ -131,82 +119,24 @@ void run(Options options) {
     if (tell_of_effects(model, record, options)) {
         return;
     }
-    const std::string method =
-        options.exact
-            ? "exact, by numerical inverse Laplace"
-            : fmt::format("{}{}{}, {} taps, h = {} s", options.scheme.kernel.empty() ? "double" : options.scheme.kernel,
-                          options.scheme.increments ? ", increments" : "",
-                          options.scheme.merged || options.scheme.kernel.empty() ? ", one merged table" : "",
-                          options.taps, options.scheme.step_s);
-    drive::Simulated simulated;
-    std::vector<double> exact;
-    std::string why_not;
-    if (options.exact || !options.no_compare) {
-        try {
-            exact = drive::respond(model, drive::changes_of(record.time_s, record.input), record.time_s);
-        } catch (const Failure& failure) {
-            if (options.exact) {
-                throw;
-            }
-            why_not = failure.what();
-        }
-    }
-    if (options.exact) {
-        simulated.output = exact;
-    } else {
-        simulated = drive::simulate(model, options.scheme, record.input);
-    }
-    record.output = simulated.output;
+    const drive::SimulationReport report =
+        options.exact ? drive::simulate_exactly(model, std::move(record))
+                      : drive::simulate(model, options.scheme, std::move(record), !options.no_compare);
     if (!options.out.empty()) {
-        put(drive::to_csv(record), options.out);
+        put(drive::to_csv(report.record), options.out);
     }
-    double largest = 0.0;
-    double size = 0.0;
-    for (std::size_t k = 0; k < exact.size(); ++k) {
-        largest = std::max(largest, std::fabs(record.output[k] - exact[k]));
-        size = std::max(size, std::fabs(exact[k]));
-    }
-    const bool compared = !exact.empty() && !options.exact;
-    if (options.json) {
-        nlohmann::ordered_json json{{"model", options.model.string()},
-                                    {"method", method},
-                                    {"input", options.input},
-                                    {"samples", record.output.size()},
-                                    {"final_time_s", record.time_s.back()},
-                                    {"saturations", simulated.saturations}};
-        json["final_output"] = record.output.back();  // not a number becomes null: JSON has none
-        if (compared) {
-            json["exact_final_output"] = exact.back();
-            json["error_max"] = largest;
-        }
-        fmt::print("{}\n", json.dump(2));
-    } else {
-        fmt::print("{}\n{}, input {}: {} samples, at {:.6g} s the output is {:.10g}\n", drive::to_text(model), method,
-                   options.input, record.output.size(), record.time_s.back(), record.output.back());
-        if (compared) {
-            fmt::print("exact there: {:.10g}; largest error over the record {:.4g} ({:.3g} % of the largest output)\n",
-                       exact.back(), largest, size > 0.0 ? 100.0 * largest / size : 0.0);
-        }
-        if (!why_not.empty()) {
-            fmt::print("not compared with the exact response: {}\n", why_not);
-        }
-        if (simulated.full_scale > 0.0) {
-            fmt::print("full scale {}, {} saturations\n", simulated.full_scale, simulated.saturations);
-        }
-    }
+    fmt::print("{}", options.json ? drive::to_json(report, options.model.string()) : drive::to_text(report, model));
     if (!options.exact && !drive::delay_fits(model, options.scheme.step_s)) {
         fmt::print(stderr,
                    "glsum: warning: the dead time of {} s is no whole number of steps of {} s; rounded up to one\n",
                    model.delay_s, options.scheme.step_s);
     }
-    if (!options.plot.empty()) {
-        std::vector<drive::Curve> curves{{method, record.time_s, record.output}};
-        if (compared) {
-            curves.push_back({"exact", record.time_s, exact});
-        }
-        base::draw(drive::picture_of_curves(curves, drive::to_text(model), "output"), options.plot);
+    std::vector<drive::Curve> curves{{report.method, report.record.time_s, report.record.output}};
+    if (!report.exact.empty()) {
+        curves.push_back({"exact", report.record.time_s, report.exact});
     }
-    if (!std::isfinite(record.output.back())) {
+    draw(options, model, curves);
+    if (!std::isfinite(report.record.output.back())) {
         throw Failure(Exit::check_failed,
                       fmt::format("{}: the simulation left the range of its numbers", options.model.string()));
     }

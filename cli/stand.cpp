@@ -2,9 +2,7 @@
 #include "drive/stand/stand.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -12,10 +10,12 @@
 #include "base/failure.hpp"
 #include "base/files.hpp"
 #include "base/gnuplot.hpp"
-#include "cli/blind.hpp"
+#include "base/progress.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
+#include "cli/name_value.hpp"
 #include "drive/pictures.hpp"
+#include "drive/stand/blind/set_folder.hpp"
 #include "drive/stand/experiment.hpp"
 
 namespace cli {
@@ -42,15 +42,6 @@ struct Options {
     std::filesystem::path plot;
 };
 
-double to_number(const std::string& text, const std::string& word) {
-    double value = 0.0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || std::isnan(value)) {
-        throw Failure(Exit::bad_input, fmt::format("--set: expected NAME=NUMBER, found {}", word));
-    }
-    return value;
-}
-
 stand::Stand build_stand(const Options& options) {
     stand::Stand built;
     if (!options.stand.empty()) {
@@ -60,30 +51,42 @@ stand::Stand build_stand(const Options& options) {
         stand::remove_effect(built, effect);
     }
     if (options.ideal || !options.only.empty()) {
-        const auto all = stand::effects();
-        for (const std::string& kept : options.only) {
-            if (std::find(all.begin(), all.end(), kept) == all.end()) {
-                stand::remove_effect(built, kept);  // says which there are
-            }
-        }
-        for (const std::string& effect : all) {
-            if (std::find(options.only.begin(), options.only.end(), effect) == options.only.end()) {
-                stand::remove_effect(built, effect);
-            }
-        }
+        stand::keep_effects(built, options.only);
     }
     for (const std::string& word : options.set) {
-        const auto at = word.find('=');
-        stand::set_size(built, word.substr(0, at), to_number(at == std::string::npos ? "" : word.substr(at + 1), word));
+        const auto [name, value] = split_at_equals(word);
+        const auto number = to_number<double>(value);
+        if (!number || std::isnan(*number)) {
+            throw Failure(Exit::bad_input, fmt::format("--set: expected NAME=NUMBER, found {}", word));
+        }
+        stand::set_size(built, name, *number);
     }
     stand::check(built, options.stand.empty() ? "stand" : options.stand.string());
     return built;
 }
 
+// The hash of the truth is told before there is any case.
+void write_blind(const Options& options) {
+    if (options.out.empty()) {
+        throw Failure(Exit::bad_input, "stand --blind: expected --out FOLDER");
+    }
+    base::check_new_or_empty(options.out);
+    stand::blind::Set set;
+    {
+        base::Progress progress("blind cases", options.blind);
+        set = (options.no_model ? stand::blind::make_open_set : stand::blind::make_set)(
+            options.blind, options.seed, options.jobs, [&] { progress.advance(); });
+    }
+    stand::blind::write_set(set, options.out, [](const std::string& hash) {
+        fmt::print("sha256 of the sealed truth: {}\n", hash);
+        std::fflush(stdout);
+    });
+    fmt::print("{} cases, seed {}, in {}\n", set.cases.size(), options.seed, options.out.string());
+}
+
 void run(const Options& options) {
     if (options.blind > 0) {
-        (options.no_model ? write_open_cases : write_blind_cases)(options.blind, options.seed, options.jobs,
-                                                                  options.out);
+        write_blind(options);
         return;
     }
     if (options.no_model) {
@@ -116,16 +119,7 @@ void run(const Options& options) {
         const auto path = series ? options.out / fmt::format("series-{}.csv", i + 1) : options.out;
         put(stand::to_csv(records[i], options.truth), path);
         if (!path.empty()) {
-            std::size_t impacts = 0;
-            double highest = records[i].angle_rad.front();
-            for (const stand::Event& event : records[i].truth.events) {
-                impacts += event.kind == stand::EventKind::impact ? 1 : 0;
-            }
-            for (const double angle : records[i].angle_rad) {
-                highest = std::max(highest, angle);
-            }
-            fmt::print(stderr, "{}: {} samples, up to {:.4f} rad, {} impacts on a stop\n", path.string(),
-                       records[i].time_s.size(), highest, impacts);
+            fmt::print(stderr, "{}: {}\n", path.string(), stand::to_text(records[i]));
         }
         curves.push_back(
             {series ? fmt::format("series {}", i + 1) : "read", records[i].time_s, records[i].angle_rad, !series});

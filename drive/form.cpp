@@ -111,6 +111,14 @@ std::vector<double> Form::in_order(std::vector<double> values) const {
     return values;
 }
 
+std::vector<double> Form::values() const {
+    std::vector<double> values;
+    for (const Parameter& parameter : parameters_) {
+        values.push_back(parameter.value);
+    }
+    return values;
+}
+
 Model Form::to_model(const std::vector<double>& values) const {
     if (kind_ == Kind::fopdt || kind_ == Kind::sopdt) {
         Model model = kind_ == Kind::fopdt ? make_fopdt(values[0], values[1], values[2])

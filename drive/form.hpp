@@ -39,6 +39,8 @@ public:
     [[nodiscard]] std::vector<Parameter>& parameters() { return parameters_; }
     /// \throws glsum::Failure (bad input) naming those there are, if there is none of that name
     [[nodiscard]] Parameter& parameter(const std::string& name);
+    /// Of all parameters, in their order.
+    [[nodiscard]] std::vector<double> values() const;
     [[nodiscard]] Model to_model(const std::vector<double>& values) const;
     /// The same model with its terms in the order of their names, the highest order first, as far as terms whose order
     /// is free may change places within their bounds.

@@ -163,4 +163,13 @@ const char* name_of(Kind kind) {
     return "fotf";
 }
 
+Kind kind_named(const std::string& name) {
+    for (const Kind kind : {Kind::fopdt, Kind::sopdt, Kind::niopdt}) {
+        if (name == name_of(kind)) {
+            return kind;
+        }
+    }
+    return Kind::fotf;
+}
+
 }  // namespace drive

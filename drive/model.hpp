@@ -61,5 +61,7 @@ void check_model(const Model& model, const std::string& name);
 [[nodiscard]] std::string to_text(const Model& model);
 
 [[nodiscard]] const char* name_of(Kind kind);
+/// The kind of this name; `fotf` for any other.
+[[nodiscard]] Kind kind_named(const std::string& name);
 
 }  // namespace drive

@@ -79,10 +79,7 @@ Predictor::Predictor(const Form& form, const std::vector<Record>& records) : for
 }
 
 std::vector<double> Predictor::all_values(const double* free_values) const {
-    std::vector<double> values;
-    for (const Parameter& parameter : form_.parameters()) {
-        values.push_back(parameter.value);
-    }
+    std::vector<double> values = form_.values();
     for (std::size_t i = 0; i < free_.size(); ++i) {
         values[free_[i]] = free_values[i];
     }

@@ -106,15 +106,14 @@ struct SchemeKernel {
 template <class K>
 SchemeKernel scheme_kernel() {
     using History = typename K::HistoryPart;
-    return {K::name(),
-            std::is_same_v<typename K::Output, float>,
-            !std::is_floating_point_v<typename K::Sample>,
-            glsum::keeps_increments<History>,
-            glsum::keeps_modes<History>,
-            glsum::keeps_running_sum<History>,
-            [](const glsum::Design& design) -> std::unique_ptr<PastSum> {
-                return std::make_unique<KernelSum<K>>(design);
-            }};
+    return {
+        K::name(),
+        std::is_same_v<typename K::Output, float>,
+        !std::is_floating_point_v<typename K::Sample>,
+        glsum::keeps_increments<History>,
+        glsum::keeps_modes<History>,
+        glsum::keeps_running_sum<History>,
+        [](const glsum::Design& design) -> std::unique_ptr<PastSum> { return std::make_unique<KernelSum<K>>(design); }};
 }
 
 // One sum of the kernel for each order, or one for all; what surrounds them in `Real`.
@@ -142,13 +141,13 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
     const auto add_sum = [&](const glsum::Design& design, double factor) {
         sums.push_back(kernel.sum(design));
         if (const glsum::Status status = sums.back()->status(); status != glsum::Status::ok) {
-            refuse(fmt::format(
-                "{}: no sum of order {} over {} taps: {}", kernel.name, design.order, taps,
-                status == glsum::Status::order_out_of_range
-                    ? (kernel.keeps_increments ? "over increments kernels take orders in (-1, 2]"
-                                               : "kernels take orders in (-2, 2]")
-                : status == glsum::Status::weights_out_of_range ? "it cannot take the weights of a merged table"
-                                                                : "its coefficients do not fit the format"));
+            refuse(fmt::format("{}: no sum of order {} over {} taps: {}", kernel.name, design.order, taps,
+                               status == glsum::Status::order_out_of_range
+                                   ? (kernel.keeps_increments ? "over increments kernels take orders in (-1, 2]"
+                                                              : "kernels take orders in (-2, 2]")
+                               : status == glsum::Status::weights_out_of_range
+                                   ? "it cannot take the weights of a merged table"
+                                   : "its coefficients do not fit the format"));
         }
         factors.push_back(static_cast<Real>(factor));
     };
@@ -163,9 +162,8 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
         refuse(fmt::format("{}: expected increments and a kernel modes_..., which is the same sum", kernel.name));
     }
     if (with_modes && !scheme.taps) {
-        refuse(
-            fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few",
-                        kernel.name));
+        refuse(fmt::format("{}: expected a number of taps: with modes all of a record is remembered by a few",
+                           kernel.name));
     }
     const auto constant = static_cast<Real>(constant_coefficient(model.denominator));
     Real newest = 0;
@@ -177,9 +175,9 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
             const std::size_t wanted = glsum::modes::modes_within(0.5, taps - std::min<std::size_t>(taps, 1));
             near_taps = taps - 2 * wanted;
             if (!scheme.increments || near_taps < 2) {
-                refuse(fmt::format(
-                    "{}: expected increments and at least 2 taps: the modes of a merged table are theirs",
-                    kernel.name));
+                refuse(
+                    fmt::format("{}: expected increments and at least 2 taps: the modes of a merged table are theirs",
+                                kernel.name));
             }
             modes = glsum::modes::approximate_merged(derivatives_of(model.denominator), scheme.step_s,
                                                      glsum::modes::Discretisation::grunwald_letnikov,
@@ -320,6 +318,16 @@ std::vector<double> make_input(const Excitation& excitation, double step_s, doub
         return input;
     }
     refuse(fmt::format("expected the input step, pulse or staircase, found {}", excitation.name));
+}
+
+Log make_log(const Excitation& excitation, double step_s, double until_s) {
+    Log log;
+    log.name = excitation.name;
+    log.input = make_input(excitation, step_s, until_s);
+    for (std::size_t k = 0; k < log.input.size(); ++k) {
+        log.time_s.push_back(static_cast<double>(k) * step_s);
+    }
+    return log;
 }
 
 }  // namespace drive

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "drive/log.hpp"
 #include "drive/model.hpp"
 
 namespace drive {
@@ -68,5 +69,8 @@ struct Excitation {
 /// Samples at k step_s, k = 0 .. floor(until_s / step_s).
 /// \throws glsum::Failure (bad input): no such name, a record of less than two or more than 10^7 samples.
 [[nodiscard]] std::vector<double> make_input(const Excitation& excitation, double step_s, double until_s);
+
+/// The same as a log without an output, called as the input. \throws as `make_input`
+[[nodiscard]] Log make_log(const Excitation& excitation, double step_s, double until_s);
 
 }  // namespace drive

@@ -111,6 +111,20 @@ StaticCharacteristic static_characteristic(const Log& log, double shortest_s) {
     return found;
 }
 
+std::string to_text(const StaticCharacteristic& found) {
+    std::string text =
+        fmt::format("{:>10} {:>12} {:>12} {:>10} {:>10}\n", "input", "output", "deviation", "from s", "to s");
+    for (const Level& level : found.levels) {
+        text += fmt::format("{:>10.5g} {:>12.6g} {:>12.2g} {:>10.2f} {:>10.2f}  {}{}\n", level.input, level.output,
+                            level.deviation, level.from_s, level.to_s, level.rising ? "up" : "down",
+                            level.settled ? "" : fmt::format(", not settled: still moves by {:.2g}", level.drift));
+    }
+    return text +
+           fmt::format(
+               "straight line {:.6g} + {:.6g} input; the output bends away from it by up to {:.1f} % of its range\n",
+               found.intercept, found.slope, 100.0 * found.largest_bend);
+}
+
 std::string to_csv(const StaticCharacteristic& found) {
     std::string text = "input,output,deviation,from_s,to_s,settled,rising\n";
     for (const Level& level : found.levels) {

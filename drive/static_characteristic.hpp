@@ -33,6 +33,9 @@ struct StaticCharacteristic {
 /// \throws glsum::Failure (bad input) where no hold is long enough or none has settled, or there is no input
 [[nodiscard]] StaticCharacteristic static_characteristic(const Log& log, double shortest_s);
 
+/// For people: a line a level, and the straight line.
+[[nodiscard]] std::string to_text(const StaticCharacteristic& found);
+
 /// CSV: input, output, deviation, from_s, to_s, settled, rising.
 [[nodiscard]] std::string to_csv(const StaticCharacteristic& found);
 

@@ -131,7 +131,6 @@ void remember(const Earlier& earlier, const Question& question, OnTarget& costs)
     }
     const Counter counter = costs.modelled() ? Counter::model_cycles_per_sample : Counter::instructions_per_sample;
     const Counter limit = costs.modelled() ? Counter::model_cycles_high : counter;
-    const std::string here = fmt::format("counted at order {}", question.conditions.order);
     for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
         const auto value = value_of(row, counter);
         const auto limited = value_of(row, limit);
@@ -139,8 +138,7 @@ void remember(const Earlier& earlier, const Question& question, OnTarget& costs)
             return;
         }
         // In software double the data decides, and with it the order at which the count was taken.
-        const std::string label = row.value("label", "");
-        if (costs.dear(key.kernel) && label.find(here + ";") == std::string::npos) {
+        if (costs.dear(key.kernel) && value_of(row, Counter::counted_at_order) != question.conditions.order) {
             return;
         }
         Cost cost;

@@ -10,8 +10,8 @@
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
 #include "bench/sweep/signals.hpp"
+#include "bench/sweep/with_kernel.hpp"
 #include "glsum/bound.hpp"
-#include "glsum/registry.hpp"
 #include "modes/design.hpp"
 
 namespace choose {
@@ -44,21 +44,6 @@ Run run(const glsum::Design& design, const Record& record, double limit) {
         }
     }
     return {largest / record.peak, true, glsum::Status::ok};
-}
-
-// Calls `use.operator()<K>()` for the kernel of this name.
-template <class Use>
-void with_kernel(const std::string& name, const Use& use) {
-    bool found = false;
-    glsum::Registry::for_each([&]<class K>() {
-        if (K::name() == name) {
-            use.template operator()<K>();
-            found = true;
-        }
-    });
-    if (!found) {
-        throw std::out_of_range("no kernel " + name);
-    }
 }
 
 }  // namespace
@@ -112,7 +97,7 @@ double MeasuredErrors::rounding_bound(const std::string& kernel, std::size_t tap
         least_peak = std::min(least_peak, record.peak);
     }
     double bound = std::numeric_limits<double>::infinity();
-    with_kernel(kernel, [&]<class K>() {
+    bench::with_kernel(kernel, [&]<class K>() {
         if constexpr (!std::is_same_v<K, glsum::Null>) {  // which promises nothing
             const glsum::Design design = design_of(kernel, taps);
             bench::HostLine<K> line(design);
@@ -146,7 +131,7 @@ MeasuredErrors::Known MeasuredErrors::of_signal(const std::string& kernel, std::
     }
     Run found{};
     const glsum::Design design = design_of(kernel, taps);
-    with_kernel(kernel, [&]<class K>() { found = run<K>(design, records_[signal], limit); });
+    bench::with_kernel(kernel, [&]<class K>() { found = run<K>(design, records_[signal], limit); });
     if (found.status != glsum::Status::ok) {
         fault = bench::to_text(found.status);
         return {std::numeric_limits<double>::infinity(), true};

@@ -6,6 +6,7 @@
 #include <ctime>
 
 #include "base/files.hpp"
+#include "base/glob.hpp"
 #include "bench/gate/row_table.hpp"
 #include "bench/gate/rules.hpp"
 
@@ -58,7 +59,7 @@ Results make_baseline(const Results& current, const std::vector<std::string>& ro
     std::vector<std::string> names;
     std::size_t wrong = 0;
     for (const std::string& name : table.names()) {
-        if (matches_any(rows, name)) {
+        if (base::matches_any(rows, name)) {
             names.push_back(name);
             wrong += table.find(name)->wrong() ? 1 : 0;
         }

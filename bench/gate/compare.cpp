@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/glob.hpp"
 #include "bench/gate/host_time.hpp"
 #include "bench/gate/row_table.hpp"
 #include "bench/rows/counters.hpp"
@@ -99,7 +100,7 @@ Comparison compare(const Results& results_a, const Results& results_b, const Rul
     comparison.differences = differences(results_a.context, results_b.context, kinds_of_both(a, b));
     std::map<std::pair<Kind, std::string>, std::optional<Better>> directions;  // alike for all rows of a kind
     for (const std::string& name : a.names()) {
-        if (!matches_any(rows, name)) {
+        if (!base::matches_any(rows, name)) {
             continue;
         }
         const Measured* in_a = a.find(name);
@@ -116,7 +117,7 @@ Comparison compare(const Results& results_a, const Results& results_b, const Rul
         for (const auto& [counter, value] : in_a->first().items()) {
             const auto other = in_b->first().find(counter);
             if (!is_counter(counter, value) || other == in_b->first().end() || !other->is_number() ||
-                !matches_any(counters, counter) || (kind == Kind::host && is_of_the_clock(counter))) {
+                !base::matches_any(counters, counter) || (kind == Kind::host && is_of_the_clock(counter))) {
                 continue;
             }
             const auto [direction, is_new] = directions.try_emplace({kind, counter});
@@ -131,12 +132,12 @@ Comparison compare(const Results& results_a, const Results& results_b, const Rul
             set_ratio(pair, direction->second);
             comparison.pairs.push_back(std::move(pair));
         }
-        if (kind == Kind::host && matches_any(counters, std::string(name_of(Counter::cpu_time)))) {
+        if (kind == Kind::host && base::matches_any(counters, std::string(name_of(Counter::cpu_time)))) {
             add_times(a, b, name, rules, comparison.pairs);
         }
     }
     for (const std::string& name : b.names()) {
-        if (matches_any(rows, name) && a.find(name) == nullptr) {
+        if (base::matches_any(rows, name) && a.find(name) == nullptr) {
             comparison.only_b.push_back(name);
         }
     }

@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/glob.hpp"
 #include "bench/gate/host_time.hpp"
 #include "bench/gate/row_table.hpp"
 #include "bench/rows/key.hpp"
@@ -53,7 +54,7 @@ public:
           baseline_(baseline),
           current_(current) {
         for (const std::string& name : baseline_.names()) {
-            if (matches_any(selection_, name)) {
+            if (base::matches_any(selection_, name)) {
                 verdict_.rows.push_back(name);
             }
         }
@@ -124,7 +125,7 @@ private:
         std::vector<std::string> added;
         for (const std::string& name : current_.names()) {
             theirs.insert(kernel_of(name));
-            if (baseline_.find(name) == nullptr && matches_any(selection_, name)) {
+            if (baseline_.find(name) == nullptr && base::matches_any(selection_, name)) {
                 added.push_back(name);
             }
         }
@@ -318,7 +319,7 @@ private:
         double most = 0.5 * rule.relative;
         for (const std::string& name : verdict_.rows) {
             const std::string kernel = kernel_of(name);
-            if (kernel == rule.anchor || !matches_any(rule.witnesses, kernel) ||
+            if (kernel == rule.anchor || !base::matches_any(rule.witnesses, kernel) ||
                 row_of(rule.anchor, name) != anchor_row) {
                 continue;
             }
@@ -350,7 +351,7 @@ private:
             }
             const Rule& rule = fails != nullptr ? *fails : *warns;
             const std::string kernel = kernel_of(name);
-            if (kernel.empty() || kernel == rule.anchor || matches_any(rule.witnesses, kernel) ||
+            if (kernel.empty() || kernel == rule.anchor || base::matches_any(rule.witnesses, kernel) ||
                 judged(Layer::host_time, name) == nullptr) {
                 continue;
             }
@@ -379,7 +380,7 @@ private:
         }
         const auto any_timed = [&](const std::vector<std::string>& names) {
             return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
-                return kind_of(name) == Kind::host && matches_any(selection_, name);
+                return kind_of(name) == Kind::host && base::matches_any(selection_, name);
             });
         };
         if (!any_timed(verdict_.rows) && any_timed(current_.names())) {

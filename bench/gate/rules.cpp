@@ -1,7 +1,6 @@
 #include "bench/gate/rules.hpp"
 
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <toml++/toml.h>
 #include <algorithm>
@@ -9,6 +8,7 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "base/glob.hpp"
 
 namespace bench::gate {
 namespace {
@@ -175,14 +175,9 @@ std::string_view name_of(Layer layer) {
     return "";
 }
 
-bool matches_any(const std::vector<std::string>& globs, const std::string& name) {
-    return std::any_of(globs.begin(), globs.end(),
-                       [&](const std::string& glob) { return fnmatch(glob.c_str(), name.c_str(), 0) == 0; });
-}
+bool Rule::wants_row(const std::string& name) const { return base::matches_any(rows, name); }
 
-bool Rule::wants_row(const std::string& name) const { return matches_any(rows, name); }
-
-bool Rule::wants_counter(const std::string& name) const { return matches_any(counters, name); }
+bool Rule::wants_counter(const std::string& name) const { return base::matches_any(counters, name); }
 
 double Rule::allowed(double baseline) const { return std::max(absolute, relative * std::fabs(baseline)); }
 

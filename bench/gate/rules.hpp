@@ -58,9 +58,6 @@ using Rules = std::vector<Rule>;
 /// The same of a text. \param name  what messages call it
 [[nodiscard]] Rules parse_rules(std::string_view text, const std::string& name);
 
-/// Whether a glob of the list matches.
-[[nodiscard]] bool matches_any(const std::vector<std::string>& globs, const std::string& name);
-
 /// Which direction of a counter the rules call better; empty where none speaks of it.
 [[nodiscard]] std::optional<Better> better_of(const Rules& rules, const std::string& row, const std::string& counter);
 

@@ -244,15 +244,13 @@ KernelData describe(const std::string& kernel, double order, std::size_t taps, s
                     const std::vector<double>& inputs, std::size_t calls) {
     KernelData data;
     std::string why = "no kernel is called " + kernel;
-    glsum::Registry::for_each([&]<class K>() {
-        if (K::name() == kernel) {
-            if constexpr (can_generate<K>) {
-                data = describe<K>(order, taps, horizon, inputs, calls);
-                why.clear();
-            } else {
-                why = kernel + " cannot be generated: " +
-                      (K::host_only ? "it needs the host's vector unit" : "its words have no text in bench/generate");
-            }
+    glsum::Registry::with(kernel, [&]<class K>() {
+        if constexpr (can_generate<K>) {
+            data = describe<K>(order, taps, horizon, inputs, calls);
+            why.clear();
+        } else {
+            why = kernel + " cannot be generated: " +
+                  (K::host_only ? "it needs the host's vector unit" : "its words have no text in bench/generate");
         }
     });
     if (!why.empty()) {

@@ -17,6 +17,7 @@
 #include "bench/rows/row.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
+#include "glsum/catalogue.hpp"
 #include "qemu/emulate/elf.hpp"
 #include "qemu/emulate/watched.hpp"
 
@@ -62,6 +63,13 @@ std::string upper(std::string word) {
     return word;
 }
 
+const char* sample_type(const glsum::CatalogueEntry& kernel) {
+    if (kernel.floating_point) {
+        return kernel.sample_bytes == sizeof(double) ? "double" : "float";
+    }
+    return kernel.sample_bytes == sizeof(std::int32_t) ? "int32_t" : "int16_t";
+}
+
 void write(const std::filesystem::path& path, const std::string& text) {
     std::ofstream out(path, std::ios::binary);
     out << text;
@@ -92,7 +100,7 @@ std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& bo
         flags,
         source.string() + "' -I'" + targets.string() + "' -I'" + (targets / "firmware").string() + "' -I'" +
             (source / "kernels").string(),
-        (targets / "mps2-an500" / "memory.ld").string(), (targets / "cortex-m7" / "sections.ld").string(),
+        (board.folder() / "memory.ld").string(), (targets / "cortex-m7" / "sections.ld").string(),
         (targets / "firmware" / "verify.cpp").string(), (targets / "firmware" / "verify_calls.cpp").string(),
         (targets / "firmware" / "marks.S").string(), scratch.file("counted.o").string(),
         (board.measure_elf.parent_path() / "libboard.a").string(), elf.string()));
@@ -101,13 +109,23 @@ std::filesystem::path link(const std::vector<Spec>& specs, const qemu::Board& bo
 
 }  // namespace
 
+bool Verified::good() const {
+    const glsum::CatalogueEntry* const entry = glsum::find_kernel(kernel);
+    const bool in_software = entry != nullptr && entry->in_double;
+    const double place = in_software ? std::max(place_share * kernel_cycles, place_cycles) : 0.0;
+    const double saved = in_software ? std::max(saved_share * kernel_instructions, saved_instructions) : 0.0;
+    return first_wrong == 0 && header_instructions <= kernel_instructions + saved &&
+           header_cycles <= kernel_cycles + place;
+}
+
 std::string counted_source(const std::vector<Spec>& specs) {
     std::string text =
         "#include <stdint.h>\nvoid glsum_make_calls(unsigned taps, unsigned software_double, void (*make)(unsigned "
         "call));\n";
     std::string entries;
     for (std::size_t i = 0; i < specs.size(); ++i) {
-        const std::string format = format_word(specs[i].kernel);
+        const glsum::CatalogueEntry& kernel = bench::facts_of(specs[i].kernel);
+        const std::string format(kernel.format);
         const std::string name = specs[i].prefix + "_" + format;
         const firmware::TimedCalls calls = qemu::timed_calls(specs[i].kernel, specs[i].taps);
         text += fmt::format(R"(#define {7}_TABLE_ATTRIBUTES __attribute__((section(".data.tables"), aligned(8)))
@@ -132,15 +150,9 @@ static uint32_t verify_{0}(void)
     return wrong;
 }}
 )",
-                            specs[i].prefix, name, format, specs[i].taps,
-                            format == "f64"             ? "double"
-                            : format.starts_with("f32") ? "float"
-                            : format == "q31"           ? "int32_t"
-                                                        : "int16_t",
-                            format == "f64"             ? "double"
-                            : format.starts_with("f32") ? "float"
-                                                        : "int32_t",
-                            calls.software_double ? 1 : 0, upper(name));
+                            specs[i].prefix, name, format, specs[i].taps, sample_type(kernel),
+                            kernel.floating_point ? sample_type(kernel) : "int32_t", calls.software_double ? 1 : 0,
+                            upper(name));
         entries += fmt::format("    verify_{},\n", specs[i].prefix);
     }
     return text + "static uint32_t (*const entries[])(void) = {\n" + entries +

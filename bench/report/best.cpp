@@ -56,9 +56,9 @@ std::vector<std::string> never_on_front(const std::vector<CurvePoint>& points, c
 }
 
 std::optional<std::size_t> deciding_cost(const std::vector<Cost>& costs) {
-    for (const char* name : {"model_cycles:", "instructions", "host_ns"}) {
+    for (const Cost::Kind kind : {Cost::Kind::model_cycles, Cost::Kind::instructions, Cost::Kind::host_time}) {
         const auto found =
-            std::find_if(costs.begin(), costs.end(), [&](const Cost& cost) { return cost.name.starts_with(name); });
+            std::find_if(costs.begin(), costs.end(), [&](const Cost& cost) { return cost.kind == kind; });
         if (found != costs.end()) {
             return static_cast<std::size_t>(found - costs.begin());
         }
@@ -73,10 +73,10 @@ std::string best_table(const std::vector<CurvePoint>& points, const std::vector<
         return "";
     }
     const auto cells = [&](const CurvePoint* point) {
-        return point == nullptr
-                   ? fmt::format("{:<28} {:>8} {:>10}", "none", "", "")
-                   : fmt::format("{:<28} {:>8} {:>10.{}f}", point->entry->kernel, point->group->taps,
-                                 *ranked_cost(*point, costs[*cost]), costs[*cost].name == "host_ns" ? 1 : 0);
+        return point == nullptr ? fmt::format("{:<28} {:>8} {:>10}", "none", "", "")
+                                : fmt::format("{:<28} {:>8} {:>10.{}f}", point->entry->kernel, point->group->taps,
+                                              *ranked_cost(*point, costs[*cost]),
+                                              costs[*cost].kind == Cost::Kind::host_time ? 1 : 0);
     };
     std::string text = fmt::format(
         "cheapest kernel that errs no more, by {}\n\n  {:>8} {:>6}   {:<28} {:>8} {:>10}   {:<28} {:>8} {:>10}\n",

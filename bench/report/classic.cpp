@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "bench/report/best.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace bench::report {
 namespace {
@@ -34,10 +35,9 @@ std::string spread(const std::vector<Gain>& gains, double limit, const Cost& cos
 }  // namespace
 
 bool is_classic(const CurvePoint& point) {
-    const std::string_view kernel = point.entry->kernel;
-    const std::string_view history = kernel.substr(0, kernel.find('_'));
-    return is_window(point) &&
-           std::find(classic_histories.begin(), classic_histories.end(), history) != classic_histories.end();
+    const glsum::CatalogueEntry* const kernel = glsum::find_kernel(point.entry->kernel);
+    return is_window(point) && kernel != nullptr && kernel->family == glsum::Family::window &&
+           kernel->forgotten == glsum::Forgotten::zero;
 }
 
 std::vector<CurvePoint> classic_points(const std::vector<CurvePoint>& points, const std::vector<Cost>& costs) {
@@ -72,7 +72,7 @@ std::vector<std::size_t> gain_costs(const std::vector<CurvePoint>& points, const
     std::vector<std::size_t> wanted;
     const auto deciding = deciding_cost(costs);
     for (std::size_t c = 0; c < costs.size(); ++c) {
-        if ((c == deciding || costs[c].name == "bytes") &&
+        if ((c == deciding || costs[c].kind == Cost::Kind::bytes) &&
             std::any_of(points.begin(), points.end(),
                         [&](const CurvePoint& point) { return ranked_cost(point, costs[c]).has_value(); })) {
             wanted.push_back(c);
@@ -105,9 +105,9 @@ std::string gain_table(const std::vector<CurvePoint>& points, const std::vector<
             const Gain& gain = of_costs[w][i];
             const Cost& cost = costs[wanted[w]];
             const auto cell = [&](const CurvePoint* point) {
-                return point == nullptr
-                           ? "none"
-                           : fmt::format("{:.{}f}", *ranked_cost(*point, cost), cost.name == "host_ns" ? 1 : 0);
+                return point == nullptr ? "none"
+                                        : fmt::format("{:.{}f}", *ranked_cost(*point, cost),
+                                                      cost.kind == Cost::Kind::host_time ? 1 : 0);
             };
             const auto ratio = factor(gain, cost);
             text += fmt::format("   {:>14} {:>14} {:>14}", cell(gain.before), cell(gain.after),

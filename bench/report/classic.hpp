@@ -1,22 +1,18 @@
 // What is gained over the classic window: its front, and that of all kernels, at the same errors.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "bench/report/curves.hpp"
 
 namespace bench::report {
 
-/// Histories that keep samples as they came. Windows of increments, with a guessed tail or summed in blocks are newer.
-inline constexpr std::array<std::string_view, 3> classic_histories = {"shift", "ring", "mirror"};
-
-/// A window (`is_window`) in one of these histories: all before it is truncated.
+/// A window (`is_window`) of samples as they came: all before it is truncated. Windows of increments, with a guessed
+/// tail or summed in blocks are newer.
 [[nodiscard]] bool is_classic(const CurvePoint& point);
 
 /// The classic windows among the points, with their fronts among themselves.

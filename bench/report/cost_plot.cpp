@@ -5,13 +5,12 @@
 
 #include "base/gnuplot.hpp"
 #include "bench/report/curves.hpp"
+#include "bench/rows/key.hpp"
 
 namespace bench::report {
 namespace {
 
 constexpr std::size_t most_orders = 24;
-
-std::string format_of(const std::string& kernel) { return kernel.substr(kernel.rfind('_') + 1); }
 
 template <class Get>
 std::vector<std::string> distinct(const std::vector<CurvePoint>& points, Get get) {
@@ -39,7 +38,7 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
             *entry.error_max <= 0.0) {
             continue;
         }
-        const auto format = std::find(formats.begin(), formats.end(), format_of(entry.kernel)) - formats.begin();
+        const auto format = std::find(formats.begin(), formats.end(), number_format_of(entry.kernel)) - formats.begin();
         data[static_cast<std::size_t>(format)] += fmt::format("{:.6e} {:.6e}\n", *x, *entry.error_max);
         costs_shown.push_back(*x);
         errors_shown.push_back(*entry.error_max);
@@ -85,7 +84,8 @@ void plot_costs(const std::filesystem::path& stem, const std::vector<CurvePoint>
                 const std::vector<Cost>& costs) {
     auto orders = distinct(points, [](const CurvePoint& point) { return point.group->order; });
     orders.resize(std::min(orders.size(), most_orders));
-    const auto formats = distinct(points, [](const CurvePoint& point) { return format_of(point.entry->kernel); });
+    const auto formats =
+        distinct(points, [](const CurvePoint& point) { return number_format_of(point.entry->kernel); });
     const std::size_t height = 140 + 330 * orders.size();
     const auto share = [&](double pixels) { return pixels / static_cast<double>(height); };
     std::string text = fmt::format(

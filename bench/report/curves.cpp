@@ -11,6 +11,15 @@
 #include "bench/rows/front.hpp"
 
 namespace bench::report {
+namespace {
+
+// Null where they were not modelled.
+const ModelCycles* cycles_on(const std::string& core, const Entry& entry) {
+    const auto found = entry.model_cycles.find(core);
+    return found == entry.model_cycles.end() ? nullptr : &found->second;
+}
+
+}  // namespace
 
 std::vector<Cost> costs_of(const std::vector<Group>& groups) {
     std::set<std::string> cores;
@@ -27,20 +36,23 @@ std::vector<Cost> costs_of(const std::vector<Group>& groups) {
     }
     std::vector<Cost> costs;
     if (host) {
-        costs.push_back({"host_ns", "host, ns per sample", [](const Entry& entry) { return entry.host_ns; }});
+        costs.push_back({Cost::Kind::host_time, "", "host_ns", "host, ns per sample",
+                         [](const Entry& entry) { return entry.host_ns; }});
     }
     if (target) {
-        costs.push_back({"instructions", "emulated Cortex-M7, instructions per sample (not cycles)",
+        costs.push_back({Cost::Kind::instructions, "", "instructions",
+                         "emulated Cortex-M7, instructions per sample (not cycles)",
                          [](const Entry& entry) { return entry.target_instructions; }});
     }
     for (const std::string& core : cores) {
-        costs.push_back({"model_cycles:" + core, core + ", modelled cycles per sample", [core](const Entry& entry) {
-                             const auto found = entry.model_cycles.find(core);
-                             return found == entry.model_cycles.end() ? std::nullopt
-                                                                      : std::optional(found->second.median);
+        costs.push_back({Cost::Kind::model_cycles, core, "model_cycles:" + core, core + ", modelled cycles per sample",
+                         [core](const Entry& entry) {
+                             const ModelCycles* const cycles = cycles_on(core, entry);
+                             return cycles == nullptr ? std::nullopt : std::optional(cycles->median);
                          }});
     }
-    costs.push_back({"bytes", "bytes of state and coefficients", [](const Entry& entry) { return entry.bytes; }});
+    costs.push_back({Cost::Kind::bytes, "", "bytes", "bytes of state and coefficients",
+                     [](const Entry& entry) { return entry.bytes; }});
     return costs;
 }
 
@@ -90,9 +102,10 @@ void write_curves(const std::filesystem::path& path, const std::vector<CurvePoin
         "order,kernel,taps,error_max,rounding_error_max,truncation_error_max,truncation_bound,effective_taps";
     for (const Cost& cost : costs) {
         text += ',' + csv_field(cost.name);
-        if (cost.name.starts_with("model_cycles:")) {
-            const std::string core = cost.name.substr(cost.name.find(':'));
-            text += ',' + csv_field("model_cycles_low" + core) + ',' + csv_field("model_cycles_high" + core);
+        if (cost.kind == Cost::Kind::model_cycles) {
+            for (const Counter end : {Counter::model_cycles_low, Counter::model_cycles_high}) {
+                text += ',' + csv_field(fmt::format("{}:{}", name_of(end), cost.core));
+            }
         }
     }
     for (const Cost& cost : costs) {
@@ -115,11 +128,10 @@ void write_curves(const std::filesystem::path& path, const std::vector<CurvePoin
         }
         for (const Cost& cost : costs) {
             add(cost.of(entry));
-            if (cost.name.starts_with("model_cycles:")) {
-                const auto found = entry.model_cycles.find(cost.name.substr(cost.name.find(':') + 1));
-                const bool known = found != entry.model_cycles.end();
-                add(known ? found->second.low : std::nullopt);
-                add(known ? found->second.high : std::nullopt);
+            if (cost.kind == Cost::Kind::model_cycles) {
+                const ModelCycles* const cycles = cycles_on(cost.core, entry);
+                add(cycles == nullptr ? std::nullopt : cycles->low);
+                add(cycles == nullptr ? std::nullopt : cycles->high);
             }
         }
         for (std::size_t c = 0; c < costs.size(); ++c) {

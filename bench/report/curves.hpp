@@ -14,6 +14,9 @@ namespace bench::report {
 
 /// What an error is weighed against.
 struct Cost {
+    enum class Kind { host_time, instructions, model_cycles, bytes };
+    Kind kind;
+    std::string core;   ///< of modelled cycles
     std::string name;   ///< of a CSV column: host_ns, instructions, model_cycles:<core>, bytes
     std::string title;  ///< with its unit
     std::function<std::optional<double>(const Entry&)> of;

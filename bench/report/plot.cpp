@@ -24,7 +24,7 @@ struct Series {
 
 // Up to eight kernels have a colour each; of more, those of one number format share theirs.
 std::string label_of(const std::string& kernel, std::size_t kernels) {
-    return kernels <= std::size(base::palette) ? kernel : kernel.substr(kernel.rfind('_') + 1);
+    return kernels <= std::size(base::palette) ? kernel : number_format_of(kernel);
 }
 
 std::vector<Series> series_of(const std::vector<std::string>& kernels, std::optional<double> Entry::*member) {

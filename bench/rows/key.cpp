@@ -8,6 +8,8 @@
 #include <span>
 #include <system_error>
 
+#include "glsum/catalogue.hpp"
+
 namespace bench {
 namespace {
 
@@ -137,6 +139,11 @@ std::optional<RowKey> parse_any_key(std::string_view name) {
 std::optional<RowKey> parse_key(std::string_view name) {
     auto key = parse_any_key(name);
     return key && key->kind == RowKind::sum ? key : std::nullopt;
+}
+
+std::string number_format_of(const std::string& kernel) {
+    const glsum::CatalogueEntry* const entry = glsum::find_kernel(kernel);
+    return entry != nullptr ? std::string(entry->format) : kernel.substr(kernel.rfind('_') + 1);
 }
 
 std::optional<double> taps_number(const std::string& taps) {

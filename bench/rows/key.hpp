@@ -56,6 +56,10 @@ inline constexpr const char* count_only = "count";
 /// The same of a sum's row alone: what tables, fronts and choices are made of.
 [[nodiscard]] std::optional<RowKey> parse_key(std::string_view name);
 
+/// The word of a kernel's number format: the catalogue's; of a peer and of another program's kernel, which are not
+/// there, the last word of the name.
+[[nodiscard]] std::string number_format_of(const std::string& kernel);
+
 /// "gl/<kernel>/order:<v>/taps:<L>": what all rows of a kernel, order and length share.
 [[nodiscard]] std::string subject_of(const RowKey& key);
 

@@ -18,6 +18,7 @@
 #include "bench/sweep/host_line.hpp"
 #include "bench/sweep/signals.hpp"
 #include "bench/sweep/sweep.hpp"
+#include "bench/sweep/with_kernel.hpp"
 #include "glsum/registry.hpp"
 
 namespace bench {
@@ -41,7 +42,7 @@ std::optional<Length> length_within(const std::string& kernel, double order, std
         return std::nullopt;
     }
     std::size_t taps = 0;
-    glsum::Registry::for_each([&]<class K>() { taps = K::name() == kernel ? taps_within<K>(cost) : taps; });
+    with_kernel(kernel, [&]<class K>() { taps = taps_within<K>(cost); });
     const Length length = length_of(kernel, order, taps, samples);
     return length.modes && *length.modes == 0 ? std::nullopt : std::optional(length);
 }

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <fnmatch.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,6 +11,7 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "base/glob.hpp"
 #include "base/progress.hpp"
 #include "bench/rows/result_file.hpp"
 #include "bench/run/context.hpp"
@@ -151,10 +151,7 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
                 const std::string kernel(K::name());
                 const std::string written = drive::realtime_name(kernel, writing);
                 const bool suits =
-                    std::any_of(wanted.kernels.begin(), wanted.kernels.end(), [&](const std::string& glob) {
-                        return fnmatch(glob.c_str(), kernel.c_str(), 0) == 0 ||
-                               fnmatch(glob.c_str(), written.c_str(), 0) == 0;
-                    });
+                    base::matches_any(wanted.kernels, kernel) || base::matches_any(wanted.kernels, written);
                 constexpr bool with_modes = std::is_same_v<typename K::HistoryPart, glsum::Modes>;
                 const bool increments = writing == drive::Writing::delta || writing == drive::Writing::bdf2;
                 if (!suits || (with_modes && (!increments || !has_tail(models[name])))) {

@@ -67,11 +67,9 @@ std::vector<double> named_weights(Discretisation discretisation, double order, b
 std::string why_not_served(const std::string& kernel, Discretisation discretisation) {
     std::string why_not;
     if (names_weights(discretisation)) {
-        glsum::Registry::for_each([&]<class K>() {
+        glsum::Registry::with(kernel, [&]<class K>() {
             if constexpr (requires { typename K::HistoryPart; }) {
-                if (K::name() == kernel) {
-                    why_not = why_not_named<K>();
-                }
+                why_not = why_not_named<K>();
             }
         });
     }

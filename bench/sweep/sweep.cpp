@@ -8,14 +8,13 @@
 namespace bench {
 
 std::optional<Length> parse_length(const std::string& text, std::size_t samples) {
-    constexpr std::size_t most_taps = 1'000'000;  // beyond any record; tables and windows still fit the memory
     if (text == "full") {
         return Length{samples, true};
     }
     std::size_t taps = 0;
     const char* const end = text.data() + text.size();
     const auto [behind, error] = std::from_chars(text.data(), end, taps);
-    if (error != std::errc{} || taps < 1 || taps > most_taps) {
+    if (error != std::errc{} || taps < 1 || taps > longest_length) {
         return std::nullopt;
     }
     if (behind == end) {
@@ -23,7 +22,7 @@ std::optional<Length> parse_length(const std::string& text, std::size_t samples)
     }
     std::size_t modes = 0;
     const auto [read_to, fault] = std::from_chars(behind + 1, end, modes);
-    if (*behind != '+' || fault != std::errc{} || read_to != end || modes > most_taps) {
+    if (*behind != '+' || fault != std::errc{} || read_to != end || modes > longest_length) {
         return std::nullopt;
     }
     return Length{taps + 2 * modes, false, modes};

@@ -34,8 +34,11 @@ struct Length {
     }
 };
 
-/// The length that `text` writes; `full` is that of a record of `samples`. Empty for what is none: of 1 to 1 000 000
-/// taps, before a plus at least one.
+/// Beyond any record; tables and windows still fit the memory.
+inline constexpr std::size_t longest_length = 1'000'000;
+
+/// The length that `text` writes; `full` is that of a record of `samples`. Empty for what is none: of 1 to
+/// `longest_length` taps, before a plus at least one.
 [[nodiscard]] std::optional<Length> parse_length(const std::string& text, std::size_t samples);
 
 struct Sweep {

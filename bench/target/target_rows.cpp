@@ -52,6 +52,7 @@ Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::Measured
         return std::move(made).take();
     }
     add_instructions(made, measured);
+    made.set(Counter::counted_at_order, counted_at);
     if (modelled != nullptr) {
         add_modelled(made, *modelled, clock_hz);
     }

@@ -189,4 +189,12 @@ std::string to_csv(const Record& record, bool truth) {
     return text;
 }
 
+std::string to_text(const Record& record) {
+    const auto& events = record.truth.events;
+    const auto impacts =
+        std::count_if(events.begin(), events.end(), [](const Event& event) { return event.kind == EventKind::impact; });
+    return fmt::format("{} samples, up to {:.4f} rad, {} impacts on a stop", record.time_s.size(),
+                       *std::max_element(record.angle_rad.begin(), record.angle_rad.end()), impacts);
+}
+
 }  // namespace stand

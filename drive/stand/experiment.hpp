@@ -50,4 +50,7 @@ struct Record {
 /// and rotor that nobody measured. The first lines, comments, say what was run.
 [[nodiscard]] std::string to_csv(const Record& record, bool truth);
 
+/// For people: how many samples, how high the bar came, how often it hit a stop.
+[[nodiscard]] std::string to_text(const Record& record);
+
 }  // namespace stand

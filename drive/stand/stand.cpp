@@ -97,6 +97,14 @@ void set(Stand& stand, const Size& size, double value, const std::string& where)
     stand.*size.value = value;
 }
 
+void check_effect(const std::string& effect) {
+    const std::vector<std::string> all = effects();
+    if (std::find(all.begin(), all.end(), effect) == all.end()) {
+        refuse(fmt::format("expected one of the effects {}, found {}; the nearest is {}", fmt::join(all, ", "), effect,
+                           base::nearest_name(effect, all)));
+    }
+}
+
 std::string number(double value) {
     std::string text = fmt::format("{}", value);
     // TOML wants a point or an exponent in a float.
@@ -131,16 +139,22 @@ void set_size(Stand& stand, const std::string& name, double value) {
 }
 
 void remove_effect(Stand& stand, const std::string& effect) {
-    bool found = false;
+    check_effect(effect);
     for (const Size& size : table) {
-        if (*size.effect != '\0' && effect == size.effect) {
+        if (effect == size.effect) {
             stand.*size.value = size.neutral;
-            found = true;
         }
     }
-    if (!found) {
-        refuse(fmt::format("expected one of the effects {}, found {}; the nearest is {}", fmt::join(effects(), ", "),
-                           effect, base::nearest_name(effect, effects())));
+}
+
+void keep_effects(Stand& stand, std::span<const std::string> kept) {
+    for (const std::string& effect : kept) {
+        check_effect(effect);
+    }
+    for (const std::string& effect : effects()) {
+        if (std::find(kept.begin(), kept.end(), effect) == kept.end()) {
+            remove_effect(stand, effect);
+        }
     }
 }
 

@@ -101,6 +101,9 @@ void set_size(Stand& stand, const std::string& name, double value);
 /// Makes an effect absent. \throws glsum::Failure (bad input) naming the effects, if there is none of that name.
 void remove_effect(Stand& stand, const std::string& effect);
 
+/// Makes all others absent. \throws as `remove_effect`
+void keep_effects(Stand& stand, std::span<const std::string> kept);
+
 /// \throws glsum::Failure (bad input) where sizes contradict each other: stops that leave no room, a curve without an
 /// actuator it can belong to.
 void check(const Stand& stand, const std::string& name);

@@ -1,7 +1,10 @@
 #include "gap/cycles/blind.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <random>
 
 #include "gap/cycles/evidence.hpp"
@@ -52,6 +55,28 @@ void add_cost(Secret& secret, Draw& draw) {
 
 }  // namespace
 
+std::vector<std::string> switches_that_show(const std::string& core, const Predict& predict) {
+    constexpr double shows = 0.03;
+    std::vector<qemu::CoreVariant> variants{{core}};
+    for (const std::string_view name : timing::effect_names) {
+        variants.push_back({core, "", {std::string(name)}});
+    }
+    const auto predicted = predict(variants);
+    std::vector<std::string> found;
+    for (std::size_t v = 1; v < variants.size(); ++v) {
+        double difference = 0.0;
+        double sum = 0.0;
+        for (std::size_t i = 0; i < predicted[v].size(); ++i) {
+            difference += std::fabs(predicted[v][i].nominal - predicted[0][i].nominal);
+            sum += predicted[v][i].nominal;
+        }
+        if (difference > shows * sum) {
+            found.push_back(variants[v].without.front());
+        }
+    }
+    return found;
+}
+
 std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed, const std::vector<std::string>& switches) {
     Draw draw(seed);
     std::vector<Secret> secrets;
@@ -78,6 +103,24 @@ std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed, const st
         secrets.push_back(std::move(secret));
     }
     return secrets;
+}
+
+std::string name_of_case(std::size_t number) { return fmt::format("case-{:03}", number); }
+
+std::string seal(const std::vector<Secret>& secrets) {
+    nlohmann::ordered_json truths = nlohmann::ordered_json::array();
+    for (std::size_t c = 0; c < secrets.size(); ++c) {
+        const Secret& secret = secrets[c];
+        truths.push_back({{"case", name_of_case(c + 1)},
+                          {"kind", secret.kind},
+                          {"effects", secret.effects},
+                          {"ratio", secret.ratio},
+                          {"overhead", secret.overhead},
+                          {"maintenance", secret.maintenance},
+                          {"contention", secret.contention},
+                          {"sawtooth", secret.sawtooth}});
+    }
+    return truths.dump(2) + "\n";
 }
 
 std::vector<qemu::MeasuredCycles> blind_rows() {

@@ -22,10 +22,20 @@ struct Secret {
     double sawtooth = 0.0;                  ///< of the cycles of lengths 3 n + 1: what no listed effect does
 };
 
+/// Effects without which the rows' cycles differ by more than what is taken for no gap: what a switch takes away.
+/// \param predict  of `blind_rows`
+[[nodiscard]] std::vector<std::string> switches_that_show(const std::string& core, const Predict& predict);
+
 /// A quarter nothing, 15 % two at once, 15 % unlisted, of the rest half a switch and half a cost.
-/// \param switches  effects of the model that these rows show: what a switch takes away
+/// \param switches  as `switches_that_show`
 [[nodiscard]] std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed,
                                                const std::vector<std::string>& switches);
+
+/// `case-001`, ...
+[[nodiscard]] std::string name_of_case(std::size_t number);
+
+/// The truth of all cases, as the sealed file holds it: JSON.
+[[nodiscard]] std::string seal(const std::vector<Secret>& secrets);
 
 /// The rows of a blind case: kernels of each number format, loops of published measurements among them, in the fastest
 /// memory and over the bus with caches maintained, six lengths each. Their cycles are 0.

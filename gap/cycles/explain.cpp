@@ -9,6 +9,7 @@
 #include "gap/cycles/locate.hpp"
 #include "gap/cycles/search.hpp"
 #include "gap/cycles/steps.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace gap::cycles {
 namespace {
@@ -17,8 +18,15 @@ namespace {
 constexpr double small_gap = 0.02;
 constexpr double large_rest = 0.03;
 
-std::string format_of(const std::string& kernel) { return kernel.substr(kernel.rfind('_') + 1); }
-bool is_floating(const std::string& kernel) { return format_of(kernel).starts_with("f"); }
+// A loop of the program's that is no kernel stands for itself.
+std::string_view format_of(const std::string& name) {
+    const glsum::CatalogueEntry* const kernel = glsum::find_kernel(name);
+    return kernel != nullptr ? kernel->format : name;
+}
+bool is_floating(const std::string& name) {
+    const glsum::CatalogueEntry* const kernel = glsum::find_kernel(name);
+    return kernel != nullptr && kernel->floating_point;
+}
 
 class Explainer {
 public:
@@ -125,7 +133,7 @@ private:
         std::map<std::string, Rows> groups;
         for (std::size_t i = 0; i < evidence_.rows().size(); ++i) {
             const auto& row = evidence_.rows()[i];
-            groups[format_of(row.kernel) + " " + placement_of(row)].push_back(i);
+            groups[fmt::format("{} {}", format_of(row.kernel), placement_of(row))].push_back(i);
         }
         std::map<std::string, double> a_tap;
         for (const auto& [name, rows] : groups) {

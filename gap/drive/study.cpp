@@ -145,13 +145,7 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     return scales;
 }
 
-drive::Model model_of(const drive::Form& form) {
-    std::vector<double> values;
-    for (const drive::Parameter& parameter : form.parameters()) {
-        values.push_back(parameter.value);
-    }
-    return form.to_model(values);
-}
+drive::Model model_of(const drive::Form& form) { return form.to_model(form.values()); }
 
 std::vector<std::vector<char>> all_count(const std::vector<Record>& records) {
     std::vector<std::vector<char>> counts;

@@ -2,37 +2,19 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "base/failure.hpp"
+#include "gap/drive/fair_records.hpp"
 #include "gap/drive/start.hpp"
 #include "gap/drive/verdict.hpp"
 
 namespace gap::exam {
-namespace {
 
 using Json = nlohmann::ordered_json;
 
-void check_split(const Asked& asked, const std::vector<Record>& train) {
-    constexpr std::ptrdiff_t least = 32;
-    for (const Record& record : train) {
-        const auto before =
-            std::count_if(record.time_s.begin(), record.time_s.end(), [&](double t) { return t < *asked.split_s; });
-        if (before < least || static_cast<std::ptrdiff_t>(record.size()) - before < least) {
-            throw glsum::Failure(
-                glsum::Exit::bad_input,
-                fmt::format("{}: split_s {}: expected {} samples or more on both sides, found {} of {} before it in {}",
-                            asked.name, *asked.split_s, least, before, record.size(), record.name));
-        }
-    }
-}
-
-}  // namespace
-
 Question to_question(const Asked& asked, Given given, unsigned jobs) {
     if (asked.split_s) {
-        check_split(asked, given.train);
+        check_split(fmt::format("{}: split_s {}", asked.name, *asked.split_s), *asked.split_s, given.train);
     }
     Question question{.form = asked.is_fitted() ? form_to_find() : form_of(given.model.value()),
                       .refit = asked.refit || asked.is_fitted(),

@@ -36,11 +36,13 @@ struct CatalogueEntry {
     std::string_view format;
     Family family = Family::nothing;
     Forgotten forgotten = Forgotten::zero;
-    bool running_sum = false;  ///< of exponentials: the slowest is a running sum, for integrals alone
-    bool in_halves = false;    ///< it answers before it settles (InHalves)
-    bool host_only = false;    ///< it needs the host's vector unit
-    bool exact_sums = false;   ///< products and their sum are exact: every order of summation gives the same bits
-    bool in_double = false;    ///< it computes in double precision: in software on a core without a double unit
+    bool running_sum = false;     ///< of exponentials: the slowest is a running sum, for integrals alone
+    bool in_halves = false;       ///< it answers before it settles (InHalves)
+    bool host_only = false;       ///< it needs the host's vector unit
+    std::size_t sample_bytes = 0;
+    bool floating_point = false;  ///< its format's samples are floating-point numbers
+    bool exact_sums = false;      ///< products and their sum are exact: every order of summation gives the same bits
+    bool in_double = false;       ///< it computes in double precision: in software on a core without a double unit
     bool (*takes_order)(double order) = nullptr;  ///< the orders that `prepare` takes
 };
 
@@ -50,11 +52,13 @@ template <Kernel K>
     entry.in_halves = InHalves<K>;
     entry.host_only = K::host_only;
     entry.in_double = computes_in_double<K>();
+    entry.sample_bytes = sizeof(typename K::Sample);
     if constexpr (requires { typename K::HistoryPart; }) {
         using History = typename K::HistoryPart;
         entry.history = History::word;
         entry.technique = K::TechniquePart::word;
         entry.format = K::FormatPart::word;
+        entry.floating_point = !K::FormatPart::fixed_point;
         entry.exact_sums = K::FormatPart::fixed_point;
         entry.takes_order = K::order_in_range;
         entry.running_sum = keeps_running_sum<History>;

@@ -128,6 +128,12 @@ struct KernelList {
     static constexpr void for_each(Visitor&& visit) {
         (visit.template operator()<Ks>(), ...);
     }
+
+    /// The same for the kernel of this name alone. \return whether there is one
+    template <class Visitor>
+    static constexpr bool with(std::string_view name, Visitor&& visit) {
+        return ((Ks::name() == name && (visit.template operator()<Ks>(), true)) || ...);
+    }
 };
 
 /// A State with buffers of its own, for at most `capacity` taps: the convenient way to use a kernel.

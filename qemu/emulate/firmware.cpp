@@ -195,28 +195,25 @@ std::size_t calls_hashed(const std::string& kernel, std::size_t calls) {
 
 ReplayedRow replay_here(const PlannedRow& row, const Signals& signals) {
     const auto& signal = signals.at(row.signal);
-    std::optional<ReplayedRow> result;
-    glsum::Registry::for_each([&]<class K>() {
-        if (K::name() != row.kernel) {
-            return;
-        }
+    ReplayedRow result{};
+    const bool found = glsum::Registry::with(row.kernel, [&]<class K>() {
         std::vector<typename K::Coefficient> table(glsum::table_needed<K>(row.design()));
         std::vector<typename K::Sample> past(glsum::past_needed<K>(row.design()));
         typename K::State state{};
-        result = ReplayedRow{K::prepare(state, row.design(), table, past), 0};
-        if (result->status != glsum::Status::ok) {
+        result.status = K::prepare(state, row.design(), table, past);
+        if (result.status != glsum::Status::ok) {
             return;
         }
         firmware::OutputHash hash;
         for (std::size_t k = 0; k < row.calls; ++k) {
             hash.add(K::step(state, K::from_real(signal[k % signal.size()])));
         }
-        result->hash = hash.value();
+        result.hash = hash.value();
     });
-    if (!result) {
+    if (!found) {
         throw std::out_of_range("no kernel " + row.kernel);
     }
-    return *result;
+    return result;
 }
 
 std::vector<ReplayedRow> replay(const Board& board, std::span<const PlannedRow> plan, const Signals& signals,

@@ -23,6 +23,9 @@ struct Board {
     std::filesystem::path plugin;
     Emulator emulator;
     std::filesystem::path cores = {};  ///< folder of core files, for the timing model
+
+    /// Of the board, below targets/: its `emulate` and its memory map.
+    [[nodiscard]] std::filesystem::path folder() const { return emulator.command.parent_path(); }
 };
 
 /// The board's files below the build folder of its preset.

@@ -107,4 +107,13 @@ std::vector<MeasuredCycles> parse_measured_cycles(const std::string& content, co
     return rows;
 }
 
+std::string to_csv(const std::vector<MeasuredCycles>& rows) {
+    std::string csv = "kernel,code,data,maintenance,taps,cycles\n";
+    for (const MeasuredCycles& row : rows) {
+        csv += fmt::format("{},{},{},{},{},{}\n", row.kernel, row.code, row.data, row.maintenance ? 1 : 0, row.taps,
+                           row.cycles);
+    }
+    return csv;
+}
+
 }  // namespace qemu

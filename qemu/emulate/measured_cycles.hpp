@@ -32,4 +32,7 @@ struct MeasuredLimits {
 ///         word or number that is none, too many rows or columns, and a file without rows
 [[nodiscard]] std::vector<MeasuredCycles> parse_measured_cycles(const std::string& text, const std::string& name);
 
+/// Such a file, without counts of instructions.
+[[nodiscard]] std::string to_csv(const std::vector<MeasuredCycles>& rows);
+
 }  // namespace qemu

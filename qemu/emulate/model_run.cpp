@@ -11,7 +11,7 @@
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
-#include "glsum/computes_in_double.hpp"
+#include "glsum/catalogue.hpp"
 #include "qemu/emulate/answers.hpp"
 #include "qemu/emulate/elf.hpp"
 #include "qemu/emulate/software_double.hpp"
@@ -27,10 +27,8 @@ using glsum::Failure;
 constexpr std::uint64_t steady_steps = firmware::steady_steps;
 
 bool computes_in_double(const std::string& kernel) {
-    bool computes = false;
-    glsum::ModelKernels::for_each(
-        [&]<class K>() { computes |= K::name() == kernel && glsum::computes_in_double<K>(); });
-    return computes;
+    const glsum::CatalogueEntry* const entry = glsum::find_kernel(kernel);
+    return entry != nullptr && entry->in_double;
 }
 
 // Tables and inputs, each kept once however many rows have it.
@@ -211,12 +209,7 @@ std::vector<MeasuredRow> step_models(const Board& board, std::span<const Planned
 
 SteppedModel step_model_here(const PlannedModel& planned) {
     SteppedModel stepped{};
-    bool found = false;
-    glsum::ModelKernels::for_each([&]<class K>() {
-        if (K::name() != planned.kernel) {
-            return;
-        }
-        found = true;
+    const bool found = glsum::ModelKernels::with(planned.kernel, [&]<class K>() {
         using Stepper = glsum::Stepper<K>;
         std::size_t coefficients = 1;
         std::size_t samples = 1;

@@ -11,6 +11,7 @@
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
 #include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/silicon_loops.hpp"
 #include "qemu/emulate/timed_program.hpp"
 #include "qemu/emulate/watched.hpp"
 #include "targets/shared/silicon_calls.hpp"
@@ -23,11 +24,6 @@ using glsum::Failure;
 
 constexpr std::uint32_t most_taps = 1024;   // of a registered kernel, as targets/firmware/silicon.cpp has memory for
 constexpr std::size_t rows_of_a_run = 400;  // of at most 40 bytes: the firmware's plan holds 16 KB
-const std::map<std::string, std::uint32_t> most_taps_of_loops{
-#define GLSUM_LOOP(name, most) {#name, most},
-#include "targets/shared/silicon_loops.def"
-#undef GLSUM_LOOP
-};
 
 }  // namespace
 
@@ -50,20 +46,19 @@ std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program,
     };
     std::vector<std::pair<std::size_t, std::size_t>> of_row;  // placement, plan
     for (const MeasuredCycles& row : rows) {
-        const auto loop = most_taps_of_loops.find(row.kernel);
+        const SiliconLoop* const loop = find_loop(row.kernel);
         const auto kernel = kernels.find(row.kernel);
-        if (loop == most_taps_of_loops.end() && kernel == kernels.end()) {
+        if (loop == nullptr && kernel == kernels.end()) {
             throw Failure(Exit::bad_input, fmt::format("{}:{}: kernel: expected one of the registry's that runs on the "
                                                        "target, or a loop of silicon_loops.def; found {}",
                                                        file.string(), row.line, row.kernel));
         }
-        const std::uint32_t most = loop != most_taps_of_loops.end() ? loop->second : most_taps;
+        const std::uint32_t most = loop != nullptr ? loop->most_taps : most_taps;
         if (row.taps > most) {
             throw Failure(Exit::bad_input, fmt::format("{}:{}: taps: {} takes 1 to {}, found {}", file.string(),
                                                        row.line, row.kernel, most, row.taps));
         }
-        entries.insert(loop != most_taps_of_loops.end() ? address_of(elf, "glsum_silicon_" + row.kernel)
-                                                        : kernel->second.step);
+        entries.insert(loop != nullptr ? address_of(elf, "glsum_silicon_" + row.kernel) : kernel->second.step);
         of_row.emplace_back(index_in(placements, std::pair(row.code, row.data)),
                             index_in(plan, std::pair(row.kernel, row.taps)));
     }

@@ -166,4 +166,21 @@ TEST(Files, NoneIsLeftOpen) {
     EXPECT_EQ(open_files(), before);
 }
 
+TEST(Files, AFolderForResultsIsNewOrEmpty) {
+    const base::Scratch folder;
+    const auto path = folder.file("out");
+    EXPECT_NO_THROW(base::check_new_or_empty(path));
+    std::filesystem::create_directory(path);
+    EXPECT_NO_THROW(base::check_new_or_empty(path));
+    base::write_file(path / "a", "");
+    try {
+        base::check_new_or_empty(path);
+        FAIL() << "a folder with a file in it was taken";
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        EXPECT_EQ(std::string(failure.what()),
+                  path.string() + ": expected a folder that is new or empty, found files in it");
+    }
+}
+
 }  // namespace

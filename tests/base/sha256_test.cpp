@@ -9,6 +9,8 @@
 #include <string>
 
 #include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/scratch.hpp"
 
 namespace {
 
@@ -58,6 +60,22 @@ TEST(Sha256, ADamagedLineIsNamed) {
             EXPECT_EQ(std::string(failure.what()),
                       "seal:2: expected a hash of 64 digits, two spaces and a file's name, found " + found);
         }
+    }
+}
+
+TEST(Sha256, AChangedFileIsNamedBesideWhatNotedIt) {
+    const base::Scratch folder;
+    const auto path = folder.file("a");
+    base::write_file(path, "abc");
+    EXPECT_NO_THROW(base::check_sha256(path, of_abc, "seal"));
+    base::write_file(path, "abd");
+    try {
+        base::check_sha256(path, of_abc, "seal");
+        FAIL() << "a changed file was taken";
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        EXPECT_EQ(std::string(failure.what()), path.string() + ": expected the sha256 " + of_abc + " of seal, found " +
+                                                   base::sha256_of(path) + ": it was changed since");
     }
 }
 

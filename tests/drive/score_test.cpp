@@ -191,4 +191,14 @@ TEST(Verdict, IsRefusedWhereItIsNone) {
     EXPECT_THAT(refusal(good, "{\"schema\"", "[\"schema\""), HasSubstr("expected a JSON object"));
 }
 
+TEST(Score, ACriterionNamesOneEffectOrNone) {
+    const Answer one = stand::blind::answer_naming("backlash");
+    EXPECT_TRUE(is_right(sealed("single", {"backlash"}), one));
+    EXPECT_EQ(one.ranking, one.effects);
+    const Answer none = stand::blind::answer_naming("none");
+    EXPECT_TRUE(is_right(sealed("none"), none));
+    EXPECT_TRUE(none.effects.empty());
+    EXPECT_TRUE(none.ranking.empty());
+}
+
 }  // namespace

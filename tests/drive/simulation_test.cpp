@@ -234,6 +234,14 @@ TEST(Excitation, PulsesAndStairs) {
     EXPECT_EQ(stairs, (std::vector<double>{0.5, 0.5, 1, 1, 0.5, 0.5, 0, 0}));
 }
 
+TEST(Excitation, IsALogWithoutAnOutput) {
+    const drive::Log log = drive::make_log({.name = "pulse", .amplitude = 0.5, .off_s = 0.25}, 0.125, 0.5);
+    EXPECT_EQ(log.name, "pulse");
+    EXPECT_EQ(log.time_s, (std::vector<double>{0.0, 0.125, 0.25, 0.375, 0.5}));
+    EXPECT_EQ(log.input, (std::vector<double>{0.5, 0.5, 0.0, 0.0, 0.0}));
+    EXPECT_TRUE(log.output.empty());
+}
+
 TEST(FastMemory, IsTheDirectSum) {
     const std::size_t count = 5000;
     const auto weights = drive::merged_weights(undelayed().denominator, 0.001, count);

@@ -553,6 +553,30 @@ TEST(Stand, EachEffectCanBeAbsentAndBeBroughtBack) {
     EXPECT_EQ(stand::parse_stand(stand::to_toml(none), "own"), none);
 }
 
+TEST(Stand, AllEffectsButTheKeptAreAbsent) {
+    stand::Stand built;
+    built.backlash_rad = 0.01;
+    const std::vector<std::string> kept{"coulomb_friction", "backlash"};
+    stand::keep_effects(built, kept);
+    EXPECT_THAT(stand::present_effects(built), testing::UnorderedElementsAreArray(kept));
+    EXPECT_EQ(built.friction, stand::Stand().friction);
+    const stand::Stand before = built;
+    EXPECT_THROW(stand::keep_effects(built, std::vector<std::string>{"coulomb"}), glsum::Failure);
+    EXPECT_EQ(built, before);
+    stand::keep_effects(built, {});
+    EXPECT_TRUE(stand::present_effects(built).empty());
+}
+
+TEST(Stand, ARecordIsToldByItsHighestAngleAndImpacts) {
+    stand::Record record;
+    record.time_s = {0.0, 0.1, 0.2};
+    record.angle_rad = {0.1, 0.25, 0.2};
+    record.truth.events = {{0.05, EventKind::impact, 0.1, 0.3},
+                           {0.06, EventKind::sticks, 0.1, 0.0},
+                           {0.15, EventKind::impact, 0.25, 0.2}};
+    EXPECT_EQ(stand::to_text(record), "3 samples, up to 0.2500 rad, 2 impacts on a stop");
+}
+
 // What is commanded, by the closed form of each name.
 TEST(Stand, CommandsAreWhatTheirNamesSay) {
     const stand::Experiment usual;

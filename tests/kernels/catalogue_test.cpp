@@ -77,6 +77,9 @@ TEST(Catalogue, SaysWhichNumbersAKernelComputesIn) {
     for (const CatalogueEntry& entry : glsum::catalogue) {
         const std::string format(entry.format);
         EXPECT_EQ(entry.in_double, format == "f64" || format == "f32a64") << entry.name;
+        EXPECT_EQ(entry.sample_bytes == 8, format == "f64") << entry.name;
+        EXPECT_EQ(entry.sample_bytes == 2, format == "q15" || format == "q15c31") << entry.name;
+        EXPECT_EQ(entry.floating_point, format == "f64" || format == "f32" || format == "f32a64") << entry.name;
         EXPECT_EQ(entry.exact_sums, format == "q31" || format == "q15" || format == "q15c31") << entry.name;
     }
 }

@@ -118,6 +118,7 @@ TEST_F(TargetRows, SayWhatWasCountedAndModelled) {
         EXPECT_EQ(row.at("iterations"), 32);  // steady calls
         EXPECT_FALSE(row.contains("error_occurred")) << row;
         EXPECT_EQ(row.at("instructions_per_sample"), 60.0);
+        EXPECT_EQ(row.at("counted_at_order"), 0.5);
         EXPECT_EQ(row.at("loads_per_sample"), 22.0);
         EXPECT_EQ(row.at("stores_per_sample"), 10.0);
         EXPECT_EQ(row.at("branches_per_sample"), 5.0);

@@ -305,11 +305,16 @@ Score score(std::span<const SealedCase> truths, std::span<const Answer> answers,
     return total;
 }
 
-std::vector<Answer> constant_guess(std::size_t cases) {
-    Answer nothing;
-    nothing.verdict = "no_gap";
-    return std::vector<Answer>(cases, nothing);
+Answer answer_naming(const std::string& effect) {
+    Answer answer;
+    answer.verdict = effect == "none" ? "no_gap" : "attributed";
+    if (effect != "none") {
+        answer.effects = answer.ranking = {effect};
+    }
+    return answer;
 }
+
+std::vector<Answer> constant_guess(std::size_t cases) { return std::vector<Answer>(cases, answer_naming("none")); }
 
 std::vector<std::string> missed_goals(const Score& score) {
     std::vector<std::string> missed;

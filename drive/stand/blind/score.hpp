@@ -46,10 +46,13 @@ struct Answer {
     std::vector<Stretch> where;
 };
 
+/// By how much of the validation log-likelihood a true effect beats every other single one where it is identifiable.
+inline constexpr double identifiable_lead = 10.0;
+
 /// The true effect, refitted by the optimizer of the diagnosis: what could have been reached.
 struct Oracle {
-    bool identifiable = false;  ///< beats every other single effect by 10 in validation log-likelihood
-    double gap_base = 0.0;      ///< on the validation records, as the diagnosis simulates them
+    bool identifiable = false;
+    double gap_base = 0.0;  ///< on the validation records, as the diagnosis simulates them
     double gap_after = 0.0;
 };
 
@@ -90,6 +93,9 @@ struct Score {
 /// \param oracle  of each case, or empty
 [[nodiscard]] Score score(std::span<const SealedCase> truths, std::span<const Answer> answers,
                           std::span<const std::optional<Oracle>> oracle = {});
+
+/// The answer of somebody who names one effect, or `none`.
+[[nodiscard]] Answer answer_naming(const std::string& effect);
 
 /// The answers of somebody who looks at nothing.
 [[nodiscard]] std::vector<Answer> constant_guess(std::size_t cases);

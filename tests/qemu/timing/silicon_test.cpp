@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/failure.hpp"
+#include "qemu/emulate/silicon_loops.hpp"
 
 namespace {
 
@@ -33,6 +34,31 @@ TEST(MeasuredCycles, ReadsRowsCommentsAndFurtherColumns) {
     EXPECT_EQ(rows[1].data, "axi");
     EXPECT_EQ(rows[1].taps, 100U);
     EXPECT_EQ(rows[1].line, 5U);
+}
+
+TEST(MeasuredCycles, AreReadAsTheyAreWritten) {
+    const std::vector<qemu::MeasuredCycles> rows{{"a_b_f32", "itcm", "axi", true, 100, 914.25, 0},
+                                                 {"c", "flash_cached", "dtcm", false, 5, 60.0, 0}};
+    const std::string text = qemu::to_csv(rows);
+    EXPECT_EQ(text,
+              "kernel,code,data,maintenance,taps,cycles\na_b_f32,itcm,axi,1,100,914.25\nc,flash_cached,dtcm,0,5,60\n");
+    const auto read = qemu::parse_measured_cycles(text, "m.csv");
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_EQ(read[0].kernel, "a_b_f32");
+    EXPECT_TRUE(read[0].maintenance);
+    EXPECT_EQ(read[0].cycles, 914.25);
+    EXPECT_EQ(read[1].code, "flash_cached");
+    EXPECT_EQ(read[1].taps, 5U);
+}
+
+TEST(SiliconLoops, RivalsAreAmongThem) {
+    EXPECT_EQ(qemu::rival_loops().size(), 8U);
+    for (const qemu::SiliconLoop& rival : qemu::rival_loops()) {
+        ASSERT_NE(qemu::find_loop(rival.name), nullptr) << rival.name;
+        EXPECT_EQ(qemu::find_loop(rival.name)->most_taps, 1000U);
+    }
+    EXPECT_EQ(qemu::find_loop("shift_fir_q31")->most_taps, 128U);
+    EXPECT_EQ(qemu::find_loop("ring_plain_f32"), nullptr);
 }
 
 // What is said of a file whose only row is this one.

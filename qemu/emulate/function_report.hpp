@@ -1,0 +1,38 @@
+// What a function takes, for people and as a file.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/function_time.hpp"
+#include "qemu/timing/core_file.hpp"
+
+namespace qemu {
+
+/// Where a function's time goes: an instruction, all calls together.
+struct HotInstruction {
+    std::uint32_t address;
+    std::string symbol;       ///< of the function that holds it; may be empty
+    std::string disassembly;  ///< likewise
+    double cycles;
+};
+
+/// The dearest `most`. Their texts are objdump's.
+[[nodiscard]] std::vector<HotInstruction> hot_instructions(const FunctionTime& time, const Elf& elf, std::size_t most);
+
+struct FunctionReport {
+    std::string function;
+    timing::CoreFile core;
+    std::vector<std::string> without;  ///< effects that cost nothing
+    FunctionTime time;
+    std::vector<HotInstruction> hot;
+};
+
+[[nodiscard]] std::string to_text(const FunctionReport& report);
+
+/// Schema `glsum-time-1`. \param elf_sha256  of the program
+[[nodiscard]] std::string to_json(const FunctionReport& report, const std::string& elf_sha256);
+
+}  // namespace qemu

@@ -1,0 +1,72 @@
+#include "qemu/emulate/function_time.hpp"
+
+#include <algorithm>
+
+namespace qemu {
+namespace {
+
+// How often a quantity had each value.
+class Distribution {
+public:
+    void add(std::int64_t value, std::uint64_t times) {
+        counts_[value] += times;
+        total_ += times;
+    }
+    [[nodiscard]] Spread spread() const {
+        Spread spread{counts_.begin()->first, 0, counts_.rbegin()->first};
+        std::uint64_t seen = 0;
+        for (const auto& [value, times] : counts_) {
+            seen += times;
+            if (2 * seen >= total_) {
+                spread.median = value;
+                break;
+            }
+        }
+        return spread;
+    }
+
+private:
+    std::map<std::int64_t, std::uint64_t> counts_;
+    std::uint64_t total_ = 0;
+};
+
+}  // namespace
+
+FunctionTime function_time(const timing::TimingLog& log) {
+    Distribution instructions;
+    std::vector<Distribution> sets(log.runs.front().call.cores.at(0).half_cycles.size());
+    std::array<Distribution, timing::effect_count> lost;
+    Distribution in_double;
+    FunctionTime time;
+    for (const timing::TimedRun& run : log.runs) {
+        time.calls += run.calls;
+        instructions.add(static_cast<std::int64_t>(run.call.instructions), run.calls);
+        const timing::CoreTime& core = run.call.cores.at(0);
+        for (std::size_t s = 0; s < sets.size(); ++s) {
+            sets[s].add(core.half_cycles[s], run.calls);
+        }
+        for (std::size_t e = 0; e < lost.size(); ++e) {
+            lost[e].add(core.losses[e], run.calls);
+        }
+        in_double.add(core.double_in_software, run.calls);
+    }
+    time.instructions = instructions.spread();
+    time.nominal = sets.front().spread();
+    time.low = time.high = time.nominal.median;
+    for (const Distribution& set : sets) {
+        time.low = std::min(time.low, set.spread().median);
+        time.high = std::max(time.high, set.spread().median);
+    }
+    std::transform(lost.begin(), lost.end(), time.lost.begin(), [](const Distribution& one) { return one.spread(); });
+    time.in_double = in_double.spread();
+    if (!log.hot.empty()) {
+        time.hot.assign(log.hot[0].begin(), log.hot[0].end());
+    }
+    std::stable_sort(time.hot.begin(), time.hot.end(),
+                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    time.unknown = log.unknown;
+    time.recursive = log.recursive;
+    return time;
+}
+
+}  // namespace qemu
