@@ -76,8 +76,8 @@ TEST(RecordCase, ATurnIsTheMeanOfItsRunsWithoutLoading) {
     EXPECT_EQ(runs, 3);
     EXPECT_GE(turn.processor, 0.004);
     EXPECT_LE(turn.processor, all / 3.0 - 0.02);
-    EXPECT_GE(turn.wall, 0.99 * 0.004);
-    way.load = nullptr;  // none is needed
+    EXPECT_GE(turn.wall, 0.9 * 0.004);  // two clocks, of which a virtual machine may set one
+    way.load = nullptr;                 // none is needed
     loads = 4;
     EXPECT_GE(bench::time_once(way, {{}, std::vector<double>(100'000)}).processor, 0.004);
     EXPECT_EQ(runs, 4);
