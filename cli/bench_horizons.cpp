@@ -13,7 +13,7 @@
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
 #include "cli/rising.hpp"
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 
 namespace cli {
 namespace {
@@ -31,7 +31,7 @@ struct Options {
 void run(Options options) {
     options.wanted.horizons = to_rising(options.horizons, {"--horizons", "samples", 100, 10'000'000});
     for (const double order : options.wanted.orders) {
-        if (!glsum::modes::has_tail(order)) {
+        if (!glsum::design::has_tail(order)) {
             throw Failure(Exit::bad_input,
                           fmt::format("--orders: expected orders in (-1, 2) that are not whole, found {}", order));
         }

@@ -92,8 +92,8 @@ void run(const Options& options) {
     fmt::print("\n{:<46} {:>10} {:>10} {:>10} {:>10}\n", "cycles a tap and beside them", "measured", "predicted",
                "measured", "predicted");
     for (const auto& [name, group] : groups) {
-        const qemu::Line measured = qemu::fit_line(group.taps, group.measured);
-        const qemu::Line model = qemu::fit_line(group.taps, group.predicted);
+        const qemu::FittedLine measured = qemu::fit_line(group.taps, group.measured);
+        const qemu::FittedLine model = qemu::fit_line(group.taps, group.predicted);
         fmt::print("{:<46} {:>10.3f} {:>10.3f} {:>10.1f} {:>10.1f}\n", name, measured.slope, model.slope,
                    measured.constant, model.constant);
     }

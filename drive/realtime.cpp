@@ -7,7 +7,7 @@
 
 #include "base/failure.hpp"
 #include "drive/simulation.hpp"
-#include "modes/merged.hpp"
+#include "glsum/design/merged.hpp"
 
 namespace drive {
 namespace {
@@ -64,18 +64,18 @@ RealtimeModel::RealtimeModel(const Model& model, Writing writing, const Memory& 
     } else if (writing == Writing::merged) {
         weights.push_back(merged_weights(model.denominator, step_s, near_taps));
     } else {
-        const auto discretisation = writing == Writing::bdf2 ? glsum::modes::Discretisation::bdf2
-                                                             : glsum::modes::Discretisation::grunwald_letnikov;
-        std::vector<glsum::modes::Term> terms;
+        const auto discretisation = writing == Writing::bdf2 ? glsum::design::Discretisation::bdf2
+                                                             : glsum::design::Discretisation::grunwald_letnikov;
+        std::vector<glsum::design::Term> terms;
         for (const Term& term : model.denominator) {
             if (term.order != 0.0 && term.coefficient != 0.0) {
                 terms.push_back({term.coefficient, term.order});
             }
         }
-        weights.push_back(glsum::modes::merged_weights(terms, step_s, discretisation, near_taps - 1));
+        weights.push_back(glsum::design::merged_weights(terms, step_s, discretisation, near_taps - 1));
         if (memory.modes > 0) {
-            auto found = glsum::modes::approximate_merged(terms, step_s, discretisation, std::max(horizon, near_taps),
-                                                          near_taps, memory.modes);
+            auto found = glsum::design::approximate_merged(terms, step_s, discretisation, std::max(horizon, near_taps),
+                                                           near_taps, memory.modes);
             modes_ = std::move(found.modes);
             loop_gain_ = found.error;
         }

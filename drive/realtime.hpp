@@ -1,4 +1,4 @@
-// A model as a microcontroller steps it in real time: the numbers of `kernels/model/stepper.hpp`, designed here.
+// A model as a microcontroller steps it in real time: the numbers of `kernels/glsum/model/stepper.hpp`, designed here.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "drive/model.hpp"
-#include "model/stepper.hpp"
+#include "glsum/model/stepper.hpp"
 
 namespace drive {
 
@@ -52,8 +52,8 @@ public:
 
     [[nodiscard]] const glsum::ModelDesign& design() const { return design_; }
     /// With modes: how far their table is off (the sum of the magnitudes), times what the exact scheme makes of a
-    /// disturbance of its right-hand side (the sum of the magnitudes of its increments, each of 1 caused by one sample).
-    /// Below 1 the loop is stable, by the small-gain theorem. 0 without modes.
+    /// disturbance of its right-hand side (the sum of the magnitudes of its increments, each of 1 caused by one
+    /// sample). Below 1 the loop is stable, by the small-gain theorem. 0 without modes.
     [[nodiscard]] double loop_gain() const { return loop_gain_; }
     /// Of the longest sum.
     [[nodiscard]] const Memory& memory() const { return memory_; }

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "base/failure.hpp"
-#include "modes/merged.hpp"
+#include "glsum/design/merged.hpp"
 
 namespace drive {
 namespace {
@@ -14,8 +14,8 @@ namespace {
 [[noreturn]] void refuse(const std::string& message) { throw glsum::Failure(glsum::Exit::bad_input, message); }
 
 // C as terms of increments: an order v is v + 1 there, and h^-(v+1) too large by 1/h.
-std::vector<glsum::modes::Term> terms_of(const FractionalPid& gains, double step_s) {
-    std::vector<glsum::modes::Term> terms;
+std::vector<glsum::design::Term> terms_of(const FractionalPid& gains, double step_s) {
+    std::vector<glsum::design::Term> terms;
     for (const auto& [gain, order] : {std::pair(gains.kp, 0.0), std::pair(gains.ki, -gains.integral_order),
                                       std::pair(gains.kd, gains.derivative_order)}) {
         if (gain != 0.0) {
@@ -27,7 +27,7 @@ std::vector<glsum::modes::Term> terms_of(const FractionalPid& gains, double step
 
 // A controller or a model with buffers of its own.
 template <template <class> class Stepped, class K>
-struct Line {
+struct Buffered {
     typename Stepped<K>::State state{};
     std::vector<typename K::Coefficient> table;
     std::vector<typename K::Sample> past;
@@ -56,15 +56,15 @@ RealtimeController::RealtimeController(const FractionalPid& gains, const Memory&
     // p_0, p_1, ... of the position; the velocity's are their differences. What stands for the tail of p is then what
     // stands for u: its error is not summed up.
     const std::size_t last = std::max(horizon, near_taps);
-    const std::vector<glsum::modes::Term> terms = terms_of(gains, step_s);
-    constexpr auto scheme = glsum::modes::Discretisation::grunwald_letnikov;
-    const std::vector<double> position = glsum::modes::merged_weights(terms, step_s, scheme, last);
+    const std::vector<glsum::design::Term> terms = terms_of(gains, step_s);
+    constexpr auto scheme = glsum::design::Discretisation::grunwald_letnikov;
+    const std::vector<double> position = glsum::design::merged_weights(terms, step_s, scheme, last);
     std::vector<double> velocity = {position[0]};
     for (std::size_t j = 1; j < near_taps; ++j) {
         velocity.push_back(position[j] - position[j - 1]);
     }
     if (memory.modes > 0) {
-        auto found = glsum::modes::approximate_merged(terms, step_s, scheme, last, near_taps - 1, memory.modes);
+        auto found = glsum::design::approximate_merged(terms, step_s, scheme, last, near_taps - 1, memory.modes);
         modes_ = std::move(found.modes);
         error_ = found.error;
     }
@@ -98,10 +98,10 @@ double loop_gain(const RealtimeController& controller, const FractionalPid& gain
     Model sooner = plant;  // a step returns the output before the sample that it is given acts: one of its delay
     sooner.delay_s = std::max(0.0, plant.delay_s - step_s);
     const RealtimeModel model(sooner, Writing::delta, {horizon}, step_s);
-    Line<glsum::Controller, K> one;
+    Buffered<glsum::Controller, K> one;
     one.table.resize(K::table_count(horizon));
     one.past.resize(K::past_count(horizon));
-    Line<glsum::Stepper, K> other;
+    Buffered<glsum::Stepper, K> other;
     other.table.resize(K::table_count(horizon));
     other.past.resize(K::past_count(horizon));
     other.delay.resize(glsum::Stepper<K>::line_count(model.design().delay));

@@ -1,5 +1,5 @@
-// A fractional PID controller as a microcontroller steps it: the numbers of `kernels/model/controller.hpp`, designed
-// here.
+// A fractional PID controller as a microcontroller steps it: the numbers of `kernels/glsum/model/controller.hpp`,
+// designed here.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +7,7 @@
 
 #include "drive/model.hpp"
 #include "drive/realtime.hpp"
-#include "model/controller.hpp"
+#include "glsum/model/controller.hpp"
 
 namespace drive {
 

@@ -11,11 +11,11 @@
 #include "base/failure.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/kernel_sum.hpp"
+#include "glsum/design/merged.hpp"
+#include "glsum/design/modes.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/registry.hpp"
 #include "glsum/weights.hpp"
-#include "modes/design.hpp"
-#include "modes/merged.hpp"
 
 namespace drive {
 namespace {
@@ -81,8 +81,8 @@ std::vector<double> step_merged(const Model& model, const Scheme& scheme, const 
     return output;
 }
 
-std::vector<glsum::modes::Term> derivatives_of(const std::vector<Term>& terms) {
-    std::vector<glsum::modes::Term> derivatives;
+std::vector<glsum::design::Term> derivatives_of(const std::vector<Term>& terms) {
+    std::vector<glsum::design::Term> derivatives;
     for (const Term& term : terms) {
         if (term.order != 0.0 && term.coefficient != 0.0) {
             derivatives.push_back({term.coefficient, term.order});
@@ -172,16 +172,16 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
         std::vector<glsum::Mode> modes;
         if (with_modes) {
             // The parting of an order in (0, 1), as increments leave them; the table has one tap more than that needs.
-            const std::size_t wanted = glsum::modes::modes_within(0.5, taps - std::min<std::size_t>(taps, 1));
+            const std::size_t wanted = glsum::design::modes_within(0.5, taps - std::min<std::size_t>(taps, 1));
             near_taps = taps - 2 * wanted;
             if (!scheme.increments || near_taps < 2) {
                 refuse(
                     fmt::format("{}: expected increments and at least 2 taps: the modes of a merged table are theirs",
                                 kernel.name));
             }
-            modes = glsum::modes::approximate_merged(derivatives_of(model.denominator), scheme.step_s,
-                                                     glsum::modes::Discretisation::grunwald_letnikov,
-                                                     std::max(count, near_taps), near_taps, wanted)
+            modes = glsum::design::approximate_merged(derivatives_of(model.denominator), scheme.step_s,
+                                                      glsum::design::Discretisation::grunwald_letnikov,
+                                                      std::max(count, near_taps), near_taps, wanted)
                         .modes;
         }
         std::vector<double> weights = merged_weights(model.denominator, scheme.step_s, near_taps, scheme.increments);
@@ -207,9 +207,9 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
             }
             glsum::Design design{term.order - (scheme.increments ? 1.0 : 0.0), taps};
             std::vector<glsum::Mode> modes;
-            if (with_modes && glsum::modes::has_tail(design.order)) {
-                const std::size_t wanted = glsum::modes::modes_within(design.order, taps);
-                modes = glsum::modes::approximate({design.order, count}, taps - 2 * wanted, wanted).modes;
+            if (with_modes && glsum::design::has_tail(design.order)) {
+                const std::size_t wanted = glsum::design::modes_within(design.order, taps);
+                modes = glsum::design::approximate({design.order, count}, taps - 2 * wanted, wanted).modes;
                 design.taps = taps - 2 * (wanted - modes.size());
                 design.modes = modes;
             }

@@ -10,7 +10,8 @@ set(libraries ${CMAKE_INSTALL_LIBDIR})
 if(NOT flavour STREQUAL "host")
     set(libraries lib/arm-none-eabi/${flavour})
 endif()
-install(TARGETS glsum_kernels EXPORT glsum_targets ARCHIVE DESTINATION ${libraries})
+list(TRANSFORM beside PREPEND glsum_ OUTPUT_VARIABLE targets)
+install(TARGETS glsum_kernels ${targets} EXPORT glsum_targets ARCHIVE DESTINATION ${libraries})
 install(DIRECTORY glsum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
     FILES_MATCHING PATTERN "*.hpp" PATTERN "*.def" PATTERN "*.h" PATTERN "*_arch.hpp" EXCLUDE PATTERN "*_body.hpp" EXCLUDE)
 
@@ -27,12 +28,22 @@ if(definitions)
     list(TRANSFORM definitions PREPEND "-D" OUTPUT_VARIABLE defines)
     list(JOIN defines " " defines)
 endif()
-file(CONFIGURE OUTPUT glsum.pc @ONLY CONTENT [=[
+# describe(PACKAGE DESCRIPTION LINE...)
+function(describe package description)
+    list(JOIN ARGN "\n" lines)
+    file(CONFIGURE OUTPUT ${package}.pc @ONLY CONTENT [=[
 prefix=${pcfiledir}/@up@
-Name: glsum
-Description: Kernels of the Grünwald-Letnikov sum, in C++20 (@flavour@)
+Name: @package@
+Description: @description@ (@flavour@)
 Version: @PROJECT_VERSION@
-Cflags: -I${prefix}/@CMAKE_INSTALL_INCLUDEDIR@ @defines@
-Libs: -L${prefix}/@libraries@ -lglsum
+@lines@
 ]=])
-install(FILES ${CMAKE_CURRENT_BINARY_DIR}/glsum.pc DESTINATION ${libraries}/pkgconfig)
+    install(FILES ${CMAKE_CURRENT_BINARY_DIR}/${package}.pc DESTINATION ${libraries}/pkgconfig)
+endfunction()
+describe(glsum "Kernels of the Grünwald-Letnikov sum, in C++20"
+    "Cflags: -I\${prefix}/${CMAKE_INSTALL_INCLUDEDIR} ${defines}" "Libs: -L\${prefix}/${libraries} -lglsum")
+set(what_model "Fractional models and controllers stepped with glsum's kernels")
+set(what_design "Tables for glsum's kernels, with certificates")
+foreach(library IN LISTS beside)
+    describe(glsum-${library} ${what_${library}} "Requires: glsum" "Libs: -L\${prefix}/${libraries} -lglsum_${library}")
+endforeach()

@@ -1,4 +1,4 @@
-// The oracle for weights of higher order (kernels/modes/bdf.hpp), in 50 digits, by another way: not by their
+// The oracle for weights of higher order (kernels/glsum/design/bdf.hpp), in 50 digits, by another way: not by their
 // recurrence.
 //
 // P(z) = sum_{i=1..p} (1-z)^i / i = c_0 (1 - z) prod_r (1 - z/r) over its other roots r, all beyond the unit circle. So

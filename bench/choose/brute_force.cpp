@@ -24,7 +24,7 @@ public:
     [[nodiscard]] std::string unit() const override { return source_.unit(); }
     [[nodiscard]] std::string limited_unit() const override { return source_.limited_unit(); }
     [[nodiscard]] bool exact() const override { return true; }
-    [[nodiscard]] bool dear(const std::string& kernel) const override { return source_.dear(kernel); }
+    [[nodiscard]] bool costly(const std::string& kernel) const override { return source_.costly(kernel); }
     [[nodiscard]] std::vector<Cost> costs(const std::vector<Case>& cases) override {
         std::vector<Cost> costs;
         for (const Case& wanted : cases) {

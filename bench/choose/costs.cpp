@@ -40,7 +40,7 @@ OnTarget::OnTarget(qemu::Board board, double order, std::size_t samples, std::ui
 
 void OnTarget::remember(const Case& of, const Cost& cost) { given_[of] = cost; }
 
-bool OnTarget::dear(const std::string& kernel) const { return bench::double_in_software(kernel); }
+bool OnTarget::costly(const std::string& kernel) const { return bench::double_in_software(kernel); }
 
 std::vector<Cost> OnTarget::costs(const std::vector<Case>& cases) {
     std::vector<qemu::PlannedRow> plan;

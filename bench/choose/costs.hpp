@@ -31,8 +31,8 @@ public:
     [[nodiscard]] virtual std::string limited_unit() const = 0;  ///< of what is limited
     /// Whether equal code and length give equal costs, every time.
     [[nodiscard]] virtual bool exact() const = 0;
-    /// Whether a kernel is known to be so dear that a short length should be measured before a long one.
-    [[nodiscard]] virtual bool dear(const std::string&) const { return false; }
+    /// Whether a kernel is known to be so costly that a short length should be measured before a long one.
+    [[nodiscard]] virtual bool costly(const std::string&) const { return false; }
     [[nodiscard]] virtual std::vector<Cost> costs(const std::vector<Case>& cases) = 0;
 };
 
@@ -53,7 +53,7 @@ public:
         return modelled() ? "model cycles, upper end of the band" : unit();
     }
     [[nodiscard]] bool exact() const override { return true; }
-    [[nodiscard]] bool dear(const std::string& kernel) const override;
+    [[nodiscard]] bool costly(const std::string& kernel) const override;
     /// Each measured call's outputs are held against the host's, bit by bit.
     [[nodiscard]] std::vector<Cost> costs(const std::vector<Case>& cases) override;
 

@@ -138,7 +138,7 @@ void remember(const Earlier& earlier, const Question& question, OnTarget& costs)
             return;
         }
         // In software double the data decides, and with it the order at which the count was taken.
-        if (costs.dear(key.kernel) && value_of(row, Counter::counted_at_order) != question.conditions.order) {
+        if (costs.costly(key.kernel) && value_of(row, Counter::counted_at_order) != question.conditions.order) {
             return;
         }
         Cost cost;

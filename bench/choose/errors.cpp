@@ -12,7 +12,7 @@
 #include "bench/sweep/signals.hpp"
 #include "bench/sweep/with_kernel.hpp"
 #include "glsum/bound.hpp"
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 
 namespace choose {
 namespace {
@@ -62,7 +62,7 @@ std::optional<std::vector<std::size_t>> MeasuredErrors::lengths(const std::strin
     }
     if (bench::has_modes(kernel)) {
         const double of_weights = bench::order_of_weights(kernel, order_);
-        std::vector<std::size_t> all(std::min(longest(), glsum::modes::most_taps(of_weights)));
+        std::vector<std::size_t> all(std::min(longest(), glsum::design::most_taps(of_weights)));
         std::iota(all.begin(), all.end(), std::size_t{1});
         return all;
     }

@@ -67,7 +67,7 @@ std::vector<std::string> kernels_of(Target target, double order) {
     std::vector<std::string> kernels;
     for (const glsum::CatalogueEntry& kernel : glsum::catalogue) {
         const std::string name(kernel.name);
-        const bool of_another_order = kernel.running_sum && !bench::serves(name, order);
+        const bool of_another_order = kernel.integrator && !bench::serves(name, order);
         if (kernel.family != glsum::Family::nothing && (target == Target::host || !kernel.host_only) &&
             !of_another_order) {
             kernels.push_back(name);

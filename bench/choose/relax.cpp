@@ -10,35 +10,35 @@ namespace {
 
 class Relaxer {
 public:
-    Relaxer(ErrorSource& errors, CostSource& costs, const Limits& limits, std::vector<Fared>& kernels)
+    Relaxer(ErrorSource& errors, CostSource& costs, const Limits& limits, std::vector<Outcome>& kernels)
         : errors_(errors), costs_(costs), limits_(limits), kernels_(kernels) {}
 
     std::vector<Relaxed> run() {
-        // A kernel that was too dear at a short length already: how dear it is where it would do.
+        // A kernel that was too costly at a short length already: how costly it is where it would do.
         std::vector<Candidate*> unknown;
-        for (Fared& fared : kernels_) {
-            if (fared.already) {
-                unknown.push_back(&*fared.best);
+        for (Outcome& outcome : kernels_) {
+            if (outcome.already) {
+                unknown.push_back(&*outcome.best);
             }
         }
-        const bool nothing_meets = std::none_of(kernels_.begin(), kernels_.end(),
-                                                [](const Fared& fared) { return fared.best && !fared.already; });
+        const bool nothing_meets = std::none_of(
+            kernels_.begin(), kernels_.end(), [](const Outcome& outcome) { return outcome.best && !outcome.already; });
         if (nothing_meets && !unknown.empty()) {
             measure(costs_, unknown);
         }
         std::optional<Candidate> cost;
         std::optional<Candidate> bytes;
-        for (const Fared& fared : kernels_) {
-            if (!fared.best || !fared.best->cost.fault.empty() || (fared.already && !nothing_meets)) {
+        for (const Outcome& outcome : kernels_) {
+            if (!outcome.best || !outcome.best->cost.fault.empty() || (outcome.already && !nothing_meets)) {
                 continue;
             }
-            if (within(limits_.max_bytes, fared.best->cost.bytes) &&
-                (!cost || fared.best->cost.limited < cost->cost.limited)) {
-                cost = fared.best;
+            if (within(limits_.max_bytes, outcome.best->cost.bytes) &&
+                (!cost || outcome.best->cost.limited < cost->cost.limited)) {
+                cost = outcome.best;
             }
-            if (within(limits_.max_cost, fared.best->cost.limited) &&
-                (!bytes || fared.best->cost.bytes < bytes->cost.bytes)) {
-                bytes = fared.best;
+            if (within(limits_.max_cost, outcome.best->cost.limited) &&
+                (!bytes || outcome.best->cost.bytes < bytes->cost.bytes)) {
+                bytes = outcome.best;
             }
         }
         if (limits_.max_cost) {
@@ -67,17 +67,17 @@ private:
         Limits others = limits_;
         others.max_error = std::numeric_limits<double>::infinity();
         std::vector<Candidate> candidates;
-        for (const Fared& fared : kernels_) {
-            if (fared.fate != Fate::wrong) {
-                candidates.push_back({fared.kernel, 0, {}, {}});
+        for (const Outcome& outcome : kernels_) {
+            if (outcome.standing != Standing::wrong) {
+                candidates.push_back({outcome.kernel, 0, {}, {}});
             }
         }
         if (limits_.max_cost || limits_.max_bytes) {
             find_longest(candidates, others);
         }
-        for (const Fared& fared : kernels_) {
-            if (fared.short_of) {
-                candidates.push_back(*fared.short_of);
+        for (const Outcome& outcome : kernels_) {
+            if (outcome.short_of) {
+                candidates.push_back(*outcome.short_of);
             }
         }
         std::erase_if(candidates, [](const Candidate& candidate) { return candidate.taps == 0; });
@@ -164,13 +164,14 @@ private:
     ErrorSource& errors_;
     CostSource& costs_;
     const Limits& limits_;
-    std::vector<Fared>& kernels_;
+    std::vector<Outcome>& kernels_;
     std::vector<Relaxed> relaxed_;
 };
 
 }  // namespace
 
-std::vector<Relaxed> relax(ErrorSource& errors, CostSource& costs, const Limits& limits, std::vector<Fared>& kernels) {
+std::vector<Relaxed> relax(ErrorSource& errors, CostSource& costs, const Limits& limits,
+                           std::vector<Outcome>& kernels) {
     return Relaxer(errors, costs, limits, kernels).run();
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/choose/fared.hpp"
+#include "bench/choose/outcome.hpp"
 
 namespace choose {
 
@@ -17,9 +17,9 @@ struct Relaxed {
     [[nodiscard]] double factor() const { return to / from; }
 };
 
-/// \param kernels  as they fared; costs that are missing are measured and kept there
+/// \param kernels  what became of them; costs that are missing are measured and kept there
 /// \return least relaxation first
 [[nodiscard]] std::vector<Relaxed> relax(ErrorSource& errors, CostSource& costs, const Limits& limits,
-                                         std::vector<Fared>& kernels);
+                                         std::vector<Outcome>& kernels);
 
 }  // namespace choose

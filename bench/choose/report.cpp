@@ -50,57 +50,57 @@ double limit_of_cost(const Question& question) {
     return question.max_cycles ? *question.max_cycles : question.max_instructions.value();
 }
 
-std::string why(const Answer& answer, const Fared& fared) {
+std::string why(const Answer& answer, const Outcome& outcome) {
     const auto& chosen = answer.choice.chosen;
     const auto times = [&](const Candidate& candidate) {
         return chosen ? fmt::format("{:.3g} times the chosen one's cost", candidate.cost.value / chosen->cost.value)
                       : std::string();
     };
-    switch (fared.fate) {
-        case Fate::chosen:
+    switch (outcome.standing) {
+        case Standing::chosen:
             return "the cheapest that meets every limit";
-        case Fate::runner_up:
-            return answer.choice.tie ? "as cheap within the noise" : times(*fared.best);
-        case Fate::dominated:
-            return fared.why + ", no worse in error, cost and bytes";
-        case Fate::dearer:
-            return fared.already ? fmt::format("at {} taps already {}", taps_of(answer, *fared.already),
-                                               cost_text(answer, *fared.already))
-                                 : times(*fared.best);
-        case Fate::too_dear:
-            return fared.already ? fmt::format("at {} taps already {}", taps_of(answer, *fared.already),
-                                               cost_text(answer, *fared.already))
-                                 : fmt::format("{:.3g} times the limit",
-                                               fared.best->cost.limited / limit_of_cost(answer.question));
-        case Fate::too_large:
-            return fmt::format("{:.3g} times the limit", fared.best->cost.bytes / answer.question.max_bytes.value());
-        case Fate::inaccurate:
-            return fmt::format("gets to {:.2e} at best, at {} taps", fared.short_of->error.error,
-                               taps_of(answer, *fared.short_of));
-        case Fate::wrong:
-            return fared.why;
+        case Standing::runner_up:
+            return answer.choice.tie ? "as cheap within the noise" : times(*outcome.best);
+        case Standing::dominated:
+            return outcome.why + ", no worse in error, cost and bytes";
+        case Standing::costlier:
+            return outcome.already ? fmt::format("at {} taps already {}", taps_of(answer, *outcome.already),
+                                                 cost_text(answer, *outcome.already))
+                                   : times(*outcome.best);
+        case Standing::too_costly:
+            return outcome.already ? fmt::format("at {} taps already {}", taps_of(answer, *outcome.already),
+                                                 cost_text(answer, *outcome.already))
+                                   : fmt::format("{:.3g} times the limit",
+                                                 outcome.best->cost.limited / limit_of_cost(answer.question));
+        case Standing::too_large:
+            return fmt::format("{:.3g} times the limit", outcome.best->cost.bytes / answer.question.max_bytes.value());
+        case Standing::inaccurate:
+            return fmt::format("gets to {:.2e} at best, at {} taps", outcome.short_of->error.error,
+                               taps_of(answer, *outcome.short_of));
+        case Standing::wrong:
+            return outcome.why;
     }
     return "";
 }
 
-std::string line_of(const Answer& answer, const Fared& fared) {
+std::string line_of(const Answer& answer, const Outcome& outcome) {
     std::string taps = "-";
     std::string error = "-";
     std::string signal = "-";
     std::string cost = "-";
     std::string bytes = "-";
-    if (const auto& shown = fared.best ? fared.best : fared.short_of) {
+    if (const auto& shown = outcome.best ? outcome.best : outcome.short_of) {
         taps = taps_of(answer, *shown);
         error = fmt::format("{:.2e}", shown->error.error);
         signal = shown->error.signal;
-        if (fared.best && !fared.already && shown->cost.fault.empty()) {
+        if (outcome.best && !outcome.already && shown->cost.fault.empty()) {
             cost = count(shown->cost.value);
             bytes = count(shown->cost.bytes);
         }
     }
-    std::string line = fmt::format("  {:<24} {:>6} {:>9}  {:<7} {:>10} {:>8}  {}", fared.kernel, taps, error, signal,
-                                   cost, bytes, to_text(fared.fate));
-    if (const std::string reason = why(answer, fared); !reason.empty()) {
+    std::string line = fmt::format("  {:<24} {:>6} {:>9}  {:<7} {:>10} {:>8}  {}", outcome.kernel, taps, error, signal,
+                                   cost, bytes, to_text(outcome.standing));
+    if (const std::string reason = why(answer, outcome); !reason.empty()) {
         line += ": " + reason;
     }
     return line;
@@ -232,21 +232,22 @@ std::string to_table(const Answer& answer, bool colour) {
                         : answer.unit == "ns"         ? "ns"
                                                       : "instr.",
                         "bytes", "verdict");
-    std::vector<const Fared*> order;
-    for (const Fared& fared : answer.choice.kernels) {
-        order.push_back(&fared);
+    std::vector<const Outcome*> order;
+    for (const Outcome& outcome : answer.choice.kernels) {
+        order.push_back(&outcome);
     }
-    const auto key = [](const Fared* fared) {
-        const bool costed = fared->best && !fared->already;
-        return std::make_tuple(static_cast<int>(fared->fate == Fate::dominated ? Fate::dearer : fared->fate),
-                               costed            ? fared->best->cost.value
-                               : fared->short_of ? fared->short_of->error.error
-                                                 : 1e300);
+    const auto key = [](const Outcome* outcome) {
+        const bool costed = outcome->best && !outcome->already;
+        return std::make_tuple(
+            static_cast<int>(outcome->standing == Standing::dominated ? Standing::costlier : outcome->standing),
+            costed              ? outcome->best->cost.value
+            : outcome->short_of ? outcome->short_of->error.error
+                                : 1e300);
     };
-    std::stable_sort(order.begin(), order.end(), [&](const Fared* a, const Fared* b) { return key(a) < key(b); });
-    for (const Fared* fared : order) {
-        const bool dim = colour && fared->fate != Fate::chosen && fared->fate != Fate::runner_up;
-        const std::string line = line_of(answer, *fared);
+    std::stable_sort(order.begin(), order.end(), [&](const Outcome* a, const Outcome* b) { return key(a) < key(b); });
+    for (const Outcome* outcome : order) {
+        const bool dim = colour && outcome->standing != Standing::chosen && outcome->standing != Standing::runner_up;
+        const std::string line = line_of(answer, *outcome);
         text += dim ? "\033[2m" + line + "\033[0m\n" : line + "\n";
     }
     text += "\n";
@@ -307,11 +308,11 @@ bench::Json to_json(const Answer& answer) {
         }
     }
     bench::Json& kernels = json["kernels"] = bench::Json::array();
-    for (const Fared& fared : answer.choice.kernels) {
-        const auto& shown = fared.best ? fared.best : fared.short_of;
-        bench::Json row = shown ? to_json(answer, *shown) : bench::Json{{"kernel", fared.kernel}};
-        row["verdict"] = to_text(fared.fate);
-        row["why"] = why(answer, fared);
+    for (const Outcome& outcome : answer.choice.kernels) {
+        const auto& shown = outcome.best ? outcome.best : outcome.short_of;
+        bench::Json row = shown ? to_json(answer, *shown) : bench::Json{{"kernel", outcome.kernel}};
+        row["verdict"] = to_text(outcome.standing);
+        row["why"] = why(answer, outcome);
         kernels.push_back(std::move(row));
     }
     json["notes"] = answer.notes;

@@ -17,7 +17,7 @@ constexpr double group_cost = 64.0;
 constexpr std::size_t group_taps = 7;
 // In software double the data decides too, and what the branch predictor makes of it: a tenth.
 constexpr double dear_share = 0.1;
-// A kernel that is known to be dear is tried at this length first.
+// A kernel that is known to be costly is tried at this length first.
 constexpr std::size_t short_taps = 64;
 
 // One search: the kernels' fates grow as errors, then costs become known.
@@ -28,7 +28,7 @@ public:
         : errors_(errors), costs_(costs), limits_(limits), jobs_(jobs) {
         for (const std::string& kernel : kernels) {
             choice_.kernels.push_back(
-                {.kernel = kernel, .fate = Fate::wrong, .best = {}, .short_of = {}, .already = {}, .why = {}});
+                {.kernel = kernel, .standing = Standing::wrong, .best = {}, .short_of = {}, .already = {}, .why = {}});
         }
     }
 
@@ -56,11 +56,11 @@ private:
         });
     }
 
-    void find_length(Fared& fared) {
-        if (const auto lengths = errors_.lengths(fared.kernel)) {
+    void find_length(Outcome& outcome) {
+        if (const auto lengths = errors_.lengths(outcome.kernel)) {
             Reach reach;
             for (const std::size_t taps : *lengths) {
-                const ErrorAt at = errors_.error(fared.kernel, taps);
+                const ErrorAt at = errors_.error(outcome.kernel, taps);
                 if (reach.best_taps == 0 || at.error < reach.best.error) {
                     reach.best_taps = taps;
                     reach.best = at;
@@ -70,20 +70,20 @@ private:
                     break;
                 }
             }
-            take(fared, reach);
+            take(outcome, reach);
         } else {
-            take(fared, reach(errors_, fared.kernel, limits_.max_error));
+            take(outcome, reach(errors_, outcome.kernel, limits_.max_error));
         }
     }
 
-    void take(Fared& fared, const Reach& reach) {
+    void take(Outcome& outcome, const Reach& reach) {
         if (reach.shortest) {
-            fared.best = at(fared.kernel, *reach.shortest);
+            outcome.best = at(outcome.kernel, *reach.shortest);
         } else if (reach.best.fault.empty()) {
-            fared.fate = Fate::inaccurate;
-            fared.short_of = {fared.kernel, reach.best_taps, reach.best, {}};
+            outcome.standing = Standing::inaccurate;
+            outcome.short_of = {outcome.kernel, reach.best_taps, reach.best, {}};
         } else {
-            fared.why = reach.best.fault;
+            outcome.why = reach.best.fault;
         }
     }
 
@@ -94,9 +94,9 @@ private:
     // The least cost of what fits so far.
     [[nodiscard]] double least() const {
         double least = std::numeric_limits<double>::infinity();
-        for (const Fared& fared : choice_.kernels) {
-            if (fared.best && !fared.already && fits(*fared.best, limits_)) {
-                least = std::min(least, fared.best->cost.value);
+        for (const Outcome& outcome : choice_.kernels) {
+            if (outcome.best && !outcome.already && fits(*outcome.best, limits_)) {
+                least = std::min(least, outcome.best->cost.value);
             }
         }
         return least;
@@ -104,24 +104,24 @@ private:
 
     void find_costs() {
         std::vector<Candidate*> now;
-        std::vector<Fared*> dear;
-        for (Fared& fared : choice_.kernels) {
-            if (fared.best && costs_.dear(fared.kernel) && fared.best->taps > short_taps) {
-                fared.already = Candidate{fared.kernel, short_taps, {}, {}};
-                now.push_back(&*fared.already);
-                dear.push_back(&fared);
-            } else if (fared.best) {
-                now.push_back(&*fared.best);
+        std::vector<Outcome*> costly;
+        for (Outcome& outcome : choice_.kernels) {
+            if (outcome.best && costs_.costly(outcome.kernel) && outcome.best->taps > short_taps) {
+                outcome.already = Candidate{outcome.kernel, short_taps, {}, {}};
+                now.push_back(&*outcome.already);
+                costly.push_back(&outcome);
+            } else if (outcome.best) {
+                now.push_back(&*outcome.best);
             }
         }
         measure(costs_, now);
         const double so_far = least();
         now.clear();
-        for (Fared* fared : dear) {
-            const Cost& cost = fared->already->cost;
+        for (Outcome* outcome : costly) {
+            const Cost& cost = outcome->already->cost;
             if (!cost.fault.empty() || (cost.value <= so_far && within(limits_.max_cost, cost.limited))) {
-                fared->already.reset();
-                now.push_back(&*fared->best);
+                outcome->already.reset();
+                now.push_back(&*outcome->best);
             }
         }
         if (!now.empty()) {
@@ -136,15 +136,16 @@ private:
     void look_behind() {
         const double so_far = std::min(least(), limits_.max_cost.value_or(std::numeric_limits<double>::infinity()));
         std::vector<Candidate> longer;
-        for (const Fared& fared : choice_.kernels) {
-            const double group = group_cost + (costs_.dear(fared.kernel) ? dear_share * so_far : 0.0);
-            if (!fared.best || fared.already || fared.best->cost.value > so_far + group) {
+        for (const Outcome& outcome : choice_.kernels) {
+            const double group = group_cost + (costs_.costly(outcome.kernel) ? dear_share * so_far : 0.0);
+            if (!outcome.best || outcome.already || outcome.best->cost.value > so_far + group) {
                 continue;
             }
-            for (std::size_t i = 1; i <= group_taps && fared.best->taps + i <= errors_.longest_of(fared.kernel); ++i) {
-                const std::size_t taps = fared.best->taps + i;
-                if (errors_.meets(fared.kernel, taps, limits_.max_error)) {
-                    longer.push_back(at(fared.kernel, taps));
+            for (std::size_t i = 1; i <= group_taps && outcome.best->taps + i <= errors_.longest_of(outcome.kernel);
+                 ++i) {
+                const std::size_t taps = outcome.best->taps + i;
+                if (errors_.meets(outcome.kernel, taps, limits_.max_error)) {
+                    longer.push_back(at(outcome.kernel, taps));
                 }
             }
         }
@@ -154,36 +155,38 @@ private:
         }
         measure(costs_, now);
         for (const Candidate& candidate : longer) {
-            for (Fared& fared : choice_.kernels) {
-                if (fared.kernel != candidate.kernel || !candidate.cost.fault.empty()) {
+            for (Outcome& outcome : choice_.kernels) {
+                if (outcome.kernel != candidate.kernel || !candidate.cost.fault.empty()) {
                     continue;
                 }
                 const bool fits_now = fits(candidate, limits_);
-                const bool fitted = fits(*fared.best, limits_);
-                if (fits_now != fitted ? fits_now : better(candidate, *fared.best)) {
-                    fared.best = candidate;
+                const bool fitted = fits(*outcome.best, limits_);
+                if (fits_now != fitted ? fits_now : better(candidate, *outcome.best)) {
+                    outcome.best = candidate;
                 }
             }
         }
     }
 
     void judge() {
-        Fared* first = nullptr;
-        Fared* second = nullptr;
-        for (Fared& fared : choice_.kernels) {
-            if (!fared.best || fared.already || !fits(*fared.best, limits_)) {
+        Outcome* first = nullptr;
+        Outcome* second = nullptr;
+        for (Outcome& outcome : choice_.kernels) {
+            if (!outcome.best || outcome.already || !fits(*outcome.best, limits_)) {
                 continue;
             }
-            if (first == nullptr || better(*fared.best, *first->best)) {
+            if (first == nullptr || better(*outcome.best, *first->best)) {
                 second = first;
-                first = &fared;
-            } else if (second == nullptr || better(*fared.best, *second->best)) {
-                second = &fared;
+                first = &outcome;
+            } else if (second == nullptr || better(*outcome.best, *second->best)) {
+                second = &outcome;
             }
         }
-        for (Fared& fared : choice_.kernels) {
-            if (fared.best) {
-                fared.fate = &fared == first ? Fate::chosen : &fared == second ? Fate::runner_up : fate_of(fared);
+        for (Outcome& outcome : choice_.kernels) {
+            if (outcome.best) {
+                outcome.standing = &outcome == first    ? Standing::chosen
+                                   : &outcome == second ? Standing::runner_up
+                                                        : fate_of(outcome);
             }
         }
         if (first != nullptr) {
@@ -196,28 +199,28 @@ private:
         }
     }
 
-    Fate fate_of(Fared& fared) {
-        if (fared.already) {
-            return within(limits_.max_cost, fared.already->cost.limited) ? Fate::dearer : Fate::too_dear;
+    Standing fate_of(Outcome& outcome) {
+        if (outcome.already) {
+            return within(limits_.max_cost, outcome.already->cost.limited) ? Standing::costlier : Standing::too_costly;
         }
-        if (!fared.best->cost.fault.empty()) {
-            fared.why = fared.best->cost.fault;
-            return Fate::wrong;
+        if (!outcome.best->cost.fault.empty()) {
+            outcome.why = outcome.best->cost.fault;
+            return Standing::wrong;
         }
-        if (!within(limits_.max_cost, fared.best->cost.limited)) {
-            return Fate::too_dear;
+        if (!within(limits_.max_cost, outcome.best->cost.limited)) {
+            return Standing::too_costly;
         }
-        if (!within(limits_.max_bytes, fared.best->cost.bytes)) {
-            return Fate::too_large;
+        if (!within(limits_.max_bytes, outcome.best->cost.bytes)) {
+            return Standing::too_large;
         }
-        for (const Fared& other : choice_.kernels) {
-            if (&other != &fared && other.best && !other.already && fits(*other.best, limits_) &&
-                dominates(*other.best, *fared.best)) {
-                fared.why = "by " + other.kernel;
-                return Fate::dominated;
+        for (const Outcome& other : choice_.kernels) {
+            if (&other != &outcome && other.best && !other.already && fits(*other.best, limits_) &&
+                dominates(*other.best, *outcome.best)) {
+                outcome.why = "by " + other.kernel;
+                return Standing::dominated;
             }
         }
-        return Fate::dearer;
+        return Standing::costlier;
     }
 
     ErrorSource& errors_;

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/choose/fared.hpp"
+#include "bench/choose/outcome.hpp"
 #include "bench/choose/reach.hpp"
 #include "bench/choose/relax.hpp"
 
@@ -16,7 +16,7 @@ struct Choice {
     std::optional<Candidate> chosen;
     std::optional<Candidate> runner_up;
     bool tie = false;              ///< the runner-up's cost is the same within the noise
-    std::vector<Fared> kernels;    ///< in the order given
+    std::vector<Outcome> kernels;  ///< in the order given
     std::vector<Relaxed> relaxed;  ///< when nothing fits: least relaxation first
 };
 

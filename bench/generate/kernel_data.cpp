@@ -13,9 +13,9 @@
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
+#include "glsum/design/blocks.hpp"
+#include "glsum/design/modes.hpp"
 #include "glsum/registry.hpp"
-#include "modes/blocks.hpp"
-#include "modes/design.hpp"
 #include "targets/shared/output_hash.hpp"
 
 namespace generate {
@@ -173,11 +173,11 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.technique_text = modes_text(data.past, data.decaying, std::is_same_v<Technique, glsum::Compensated>,
                                          Format::fixed_point, std::is_same_v<Format, glsum::F64>);
         const double largest = increments ? 2.0 : 1.0;  // of what is kept
-        data.design_error =
-            data.modes == 0
-                ? 0.0
-                : largest * glsum::modes::error_of(glsum::modes::weights_to(increments ? order - 1.0 : order, horizon),
-                                                   data.past + 1, {design.modes.begin(), design.modes.end()}, INFINITY);
+        data.design_error = data.modes == 0
+                                ? 0.0
+                                : largest * glsum::design::error_of(
+                                                glsum::design::weights_to(increments ? order - 1.0 : order, horizon),
+                                                data.past + 1, {design.modes.begin(), design.modes.end()}, INFINITY);
         if constexpr (glsum::keeps_running_sum<typename K::HistoryPart>) {
             if (data.modes > 0) {
                 data.running_weight = static_cast<double>(state.weight);
@@ -193,7 +193,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.has_blocks = true;
         data.technique_text =
             nested_text(data.past, data.blocks, Format::fixed_point, std::is_same_v<Format, glsum::F64>);
-        data.design_error = glsum::modes::design_blocks({order, horizon}, taps).error;
+        data.design_error = glsum::design::design_blocks({order, horizon}, taps).error;
     } else {
         data.technique_text = text_of<Technique, Format>(data.history_text, past, shifts);
     }

@@ -17,7 +17,7 @@ constexpr std::size_t most_orders = 24;
 constexpr std::array<double, 3> marked_limits = {1e-2, 1e-4, 1e-6};
 constexpr double least_error = 1e-9;  // below, both fronts are kernels in double, and the limits would lie too close
 constexpr double above_all = 1e30;
-constexpr double label_room = 2.0;  // a factor stands to the right of the dearest
+constexpr double label_room = 2.0;  // a factor stands to the right of the costliest
 
 using Line = std::vector<std::pair<double, double>>;  // cost and error, both above 0, the cheapest first
 
@@ -135,9 +135,10 @@ std::string ranges(const std::vector<Fronts>& all) {
         return "";
     }
     const auto by_error = [](const auto& one, const auto& other) { return one.second < other.second; };
-    const auto [cheapest, dearest] = std::minmax_element(every.begin(), every.end());
+    const auto [cheapest, costliest] = std::minmax_element(every.begin(), every.end());
     const auto [best, worst] = std::minmax_element(every.begin(), every.end(), by_error);
-    return fmt::format("set xrange {}\nset yrange {}\n", base::log_range(cheapest->first, label_room * dearest->first),
+    return fmt::format("set xrange {}\nset yrange {}\n",
+                       base::log_range(cheapest->first, label_room * costliest->first),
                        base::log_range(std::max(best->second, least_error), std::max(worst->second, least_error)));
 }
 

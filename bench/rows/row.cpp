@@ -56,7 +56,7 @@ std::string to_text(glsum::Status status) {
         case glsum::Status::modes_out_of_range:
             return "the modes leave no tap, or do not decay";
         case glsum::Status::weights_out_of_range:
-            return "the weights are too few, are no numbers, or cannot be nested";
+            return "the weights are too few, are no numbers, or have no Horner form";
         case glsum::Status::blocks_out_of_range:
             return "the blocks leave no tap, are none a level, or reach too far";
     }

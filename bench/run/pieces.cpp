@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "bench/target/deal.hpp"
+#include "bench/target/shares.hpp"
 #include "bench/target/target_plan.hpp"
 
 namespace bench {
@@ -51,7 +51,7 @@ std::vector<std::size_t> pieces_of(const std::vector<Piece>& pieces, const Shard
     for (const Piece& piece : pieces) {
         costs.push_back(piece.cost);
     }
-    std::vector<std::vector<std::size_t>> shares = deal(costs, shard.count);
+    std::vector<std::vector<std::size_t>> shares = balanced_shares(costs, shard.count);
     shares.resize(shard.count);
     const auto times_host = std::find_if(shares.begin(), shares.end(), [&](const auto& share) {
         return !share.empty() && pieces[share.back()].kind == Piece::Kind::host;

@@ -9,7 +9,7 @@
 
 namespace bench {
 
-/// What is measured in one go because it shares its dear part:
+/// What is measured in one go because it shares its costly part:
 ///   accuracy  one order and signal, all kernels and lengths: they are held against one exact sum
 ///   target    one kernel and length, all orders: they share their counts of instructions; with modes, one kernel
 ///   host      all timings: rows of one run are compared by ratio, so none is taken elsewhere or at another time

@@ -15,7 +15,7 @@ constexpr EqualCostWay ways[] = {
     {"mirrorhold_oldest_f64", "window, oldest held"},
     {"mirrorlinear_oldest_f64", "window, line to first"},
     {"mirrordelta_oldest_f64", "window of increments"},
-    {"nested_plain_f64", "nested blocks"},
+    {"nested_plain_f64", "logarithmic memory"},
     {oustaloup_of_sums, "Oustaloup's filter", true},
     {oustaloup_of_derivative, "... for one derivative", true},
     {"modes_plain_f64", "modes"},

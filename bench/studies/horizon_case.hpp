@@ -9,7 +9,7 @@
 
 #include "base/gnuplot.hpp"
 #include "bench/rows/row.hpp"
-#include "modes/mode.hpp"
+#include "glsum/design/mode.hpp"
 
 namespace bench {
 
@@ -22,7 +22,7 @@ struct HorizonCase {
     std::size_t samples;
     std::optional<std::size_t> window;  ///< multiplications; nothing: as many as samples, but one
     std::optional<std::size_t> blocks;  ///< multiplications; nothing: a window is as short
-    std::optional<glsum::modes::Approximation> modes;
+    std::optional<glsum::design::Approximation> modes;
     double largest_error = 0.0;  ///< of the modes' kernel over the whole record, found
     std::optional<double> cycles = {};
 

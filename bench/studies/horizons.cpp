@@ -16,9 +16,9 @@
 #include "bench/sweep/sweep.hpp"
 #include "bench/target/target_rows.hpp"
 #include "drive/whole_record.hpp"
+#include "glsum/design/blocks.hpp"
+#include "glsum/design/modes.hpp"
 #include "glsum/registry.hpp"
-#include "modes/blocks.hpp"
-#include "modes/design.hpp"
 
 namespace bench {
 namespace {
@@ -27,10 +27,10 @@ using WithModes = glsum::Sum<glsum::Modes, glsum::Plain, glsum::F64>;
 
 // Of the fewest coefficients whose best layout keeps the error, within a sixty-fourth; nothing where a window is as
 // short.
-std::optional<std::size_t> blocks_for(const glsum::modes::Tail& tail, double error) {
+std::optional<std::size_t> blocks_for(const glsum::design::Tail& tail, double error) {
     std::size_t too_few = 1;
     std::size_t enough = 2;
-    while (glsum::modes::design_blocks(tail, enough).error > error) {
+    while (glsum::design::design_blocks(tail, enough).error > error) {
         too_few = enough;
         enough *= 2;
         if (enough > tail.horizon) {
@@ -39,7 +39,7 @@ std::optional<std::size_t> blocks_for(const glsum::modes::Tail& tail, double err
     }
     while (enough - too_few > std::max<std::size_t>(1, enough / 64)) {
         const std::size_t middle = (enough + too_few) / 2;
-        (glsum::modes::design_blocks(tail, middle).error > error ? too_few : enough) = middle;
+        (glsum::design::design_blocks(tail, middle).error > error ? too_few : enough) = middle;
     }
     return enough - 1;
 }
@@ -112,9 +112,9 @@ Study measure_horizons(const Horizons& wanted) {
             for (const std::size_t samples : horizons) {
                 const std::vector<double> seen(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(samples));
                 // The oldest sample that a record of N shows has the index N - 1.
-                const glsum::modes::Tail tail{order, samples - 1};
-                all.push_back(
-                    {order, error, samples, window_for(seen, error), blocks_for(tail, error), design(tail, error)});
+                const glsum::design::Tail tail{order, samples - 1};
+                all.push_back({order, error, samples, window_for(seen, error), blocks_for(tail, error),
+                               design_modes(tail, error)});
                 progress.advance();
             }
         }

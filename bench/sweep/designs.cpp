@@ -9,11 +9,11 @@
 #include <type_traits>
 
 #include "glsum/catalogue.hpp"
+#include "glsum/design/blocks.hpp"
+#include "glsum/design/fitted.hpp"
+#include "glsum/design/integral.hpp"
+#include "glsum/design/modes.hpp"
 #include "glsum/logmemory/nested.hpp"
-#include "modes/blocks.hpp"
-#include "modes/design.hpp"
-#include "modes/fitted.hpp"
-#include "modes/integral.hpp"
 
 namespace bench {
 namespace {
@@ -33,12 +33,12 @@ struct Named {
     Discretisation weights;
     double order;        // v
     bool of_increments;  // then they are of order v - 1
-    bool adds_up;        // the slowest mode is a running sum
+    bool integrates;     // the slowest mode does not decay
     [[nodiscard]] double of_weights() const { return of_increments ? order - 1.0 : order; }
     // a_0 ... a_last.
     [[nodiscard]] std::vector<double> to(std::size_t last) const {
         if (!names_weights(weights)) {
-            return glsum::modes::weights_to(of_weights(), last);
+            return glsum::design::weights_to(of_weights(), last);
         }
         std::vector<double> all = named_weights(weights, order, of_increments, last);
         all.insert(all.begin(), 1.0);
@@ -50,15 +50,15 @@ struct Named {
 // An order's own weights are those of v - 1 over increments: the same whoever sums them.
 Named named_of(const std::string& kernel, double order, Discretisation weights) {
     const double of_weights = order_of_weights(kernel, order);
-    const bool adds_up = bench::adds_up(kernel);
-    return names_weights(weights) ? Named{weights, order, of_weights != order, adds_up}
-                                  : Named{Discretisation::gl, of_weights, false, adds_up};
+    const bool integrates = bench::has_integrator(kernel);
+    return names_weights(weights) ? Named{weights, order, of_weights != order, integrates}
+                                  : Named{Discretisation::gl, of_weights, false, integrates};
 }
 
-glsum::modes::Approximation approximation_of(const Named& named, std::size_t samples, std::size_t near_taps,
-                                             std::size_t modes) {
-    namespace design = glsum::modes;
-    return named.adds_up ? design::approximate_integral(named.to(samples), named.of_weights(), near_taps, modes)
+glsum::design::Approximation approximation_of(const Named& named, std::size_t samples, std::size_t near_taps,
+                                              std::size_t modes) {
+    namespace design = glsum::design;
+    return named.integrates ? design::approximate_integral(named.to(samples), named.of_weights(), near_taps, modes)
            : names_weights(named.weights)
                ? design::approximate_fitted(named.to(samples), named.of_weights(), near_taps, modes)
                : design::approximate({named.of_weights(), samples}, near_taps, modes);
@@ -67,10 +67,10 @@ glsum::modes::Approximation approximation_of(const Named& named, std::size_t sam
 // The shortest design for an error; empty if there is none.
 std::optional<Length> shortest(const Named& named, std::size_t samples, double error) {
     return remembered(std::tuple(named, samples, error), [&]() -> std::optional<Length> {
-        const auto found = named.adds_up ? glsum::modes::design_integral(named.to(samples), named.of_weights(), error)
-                           : names_weights(named.weights)
-                               ? glsum::modes::design_fitted(named.to(samples), named.of_weights(), error)
-                               : glsum::modes::design({named.of_weights(), samples}, error);
+        const auto found =
+            named.integrates ? glsum::design::design_integral(named.to(samples), named.of_weights(), error)
+            : names_weights(named.weights) ? glsum::design::design_fitted(named.to(samples), named.of_weights(), error)
+                                           : glsum::design::design_modes({named.of_weights(), samples}, error);
         return found ? std::optional(Length{found->length(), false, found->modes.size()}) : std::nullopt;
     });
 }
@@ -87,9 +87,9 @@ const glsum::CatalogueEntry& facts_of(const std::string& kernel) {
 
 bool has_modes(const std::string& kernel) { return facts_of(kernel).family == glsum::Family::exponentials; }
 
-bool adds_up(const std::string& kernel) {
+bool has_integrator(const std::string& kernel) {
     const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
-    return entry != nullptr && entry->running_sum;
+    return entry != nullptr && entry->integrator;
 }
 
 bool has_blocks(const std::string& kernel) { return facts_of(kernel).family == glsum::Family::logmemory; }
@@ -101,7 +101,7 @@ double order_of_weights(const std::string& kernel, double order) {
 
 bool serves(const std::string& kernel, double order) {
     const glsum::CatalogueEntry& entry = facts_of(kernel);
-    return entry.takes_order(order) && (!entry.running_sum || glsum::modes::is_integral(order));
+    return entry.takes_order(order) && (!entry.integrator || glsum::design::is_integral(order));
 }
 
 bool truncates(const std::string& kernel) {
@@ -109,14 +109,14 @@ bool truncates(const std::string& kernel) {
 }
 
 Length length_with_modes(const std::string& kernel, double order, std::size_t taps) {
-    return {
-        taps, false,
-        adds_up(kernel) ? glsum::modes::integral_modes_within(order, taps) : glsum::modes::modes_within(order, taps)};
+    return {taps, false,
+            has_integrator(kernel) ? glsum::design::integral_modes_within(order, taps)
+                                   : glsum::design::modes_within(order, taps)};
 }
 
 Length length_with_blocks(double order, std::size_t taps, std::size_t samples) {
     const glsum::Blocks blocks = remembered(std::tuple(order, taps, samples), [&] {
-        return glsum::modes::design_blocks({order, samples}, taps).blocks;
+        return glsum::design::design_blocks({order, samples}, taps).blocks;
     });
     return {taps, false, {}, blocks};
 }
@@ -152,8 +152,8 @@ glsum::Design design_of(const std::string& kernel, double order, const Length& l
 }
 
 std::string named(const Length& length, const glsum::Design& design) {
-    const bool adds_up = !design.modes.empty() && design.modes.front().decay == 0.0;
-    return (length.blocks ? "blocks " : adds_up ? "running sum " : "") + length.text();
+    const bool integrates = !design.modes.empty() && design.modes.front().decay == 0.0;
+    return (length.blocks ? "blocks " : integrates ? "integrator " : "") + length.text();
 }
 
 std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, double order) {
@@ -176,7 +176,7 @@ std::vector<Length> lengths_of(const Sweep& sweep, const std::string& kernel, do
         return lengths;
     }
     const double of_weights = order_of_weights(kernel, order);
-    if (!adds_up(kernel) && !glsum::modes::has_tail(of_weights)) {
+    if (!has_integrator(kernel) && !glsum::design::has_tail(of_weights)) {
         return {};
     }
     if (lengths.empty()) {

@@ -20,8 +20,8 @@ namespace bench {
 /// Whether a kernel keeps near taps and modes in place of a window. \throws as facts_of.
 [[nodiscard]] bool has_modes(const std::string& kernel);
 
-/// Whether the slowest of a kernel's modes is a running sum: integrals alone. Of any other name no.
-[[nodiscard]] bool adds_up(const std::string& kernel);
+/// Whether the slowest of a kernel's modes does not decay: an integrator, for integrals alone. Of any other name no.
+[[nodiscard]] bool has_integrator(const std::string& kernel);
 
 /// Whether a kernel keeps near taps and blocks in place of a window. \throws as facts_of.
 [[nodiscard]] bool has_blocks(const std::string& kernel);
@@ -58,7 +58,7 @@ namespace bench {
 [[nodiscard]] glsum::Design design_of(const std::string& kernel, double order, const Length& length,
                                       std::size_t samples, Discretisation weights = Discretisation::gl);
 
-/// The length with what else tells designs of one order and length apart: blocks, or a running sum.
+/// The length with what else tells designs of one order and length apart: blocks, or an integrator.
 [[nodiscard]] std::string named(const Length& length, const glsum::Design& design);
 
 /// The lengths at which a sweep measures a kernel. With a window: those without modes. With

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "bench/sweep/host_line.hpp"
+#include "glsum/design/bdf.hpp"
 #include "glsum/registry.hpp"
-#include "modes/bdf.hpp"
 
 namespace bench {
 namespace {
@@ -23,7 +23,7 @@ std::string why_not_named() {
         return "";
     }
     return glsum::guesses_tail<typename K::HistoryPart> ? "the guessed tail's weights have a closed form for gl alone"
-                                                        : "nested in fixed point it takes those of an order alone";
+                                                        : "in Horner form and fixed point it takes those of an order alone";
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ bool names_weights(Discretisation discretisation) { return steps_of(discretisati
 
 std::vector<double> named_weights(Discretisation discretisation, double order, bool of_increments, std::size_t count) {
     const unsigned steps = steps_of(discretisation);
-    std::vector<double> weights = of_increments ? glsum::modes::bdf_increment_weights(steps, order, count + 1)
-                                                : glsum::modes::bdf_weights(steps, order, count + 1);
+    std::vector<double> weights = of_increments ? glsum::design::bdf_increment_weights(steps, order, count + 1)
+                                                : glsum::design::bdf_weights(steps, order, count + 1);
     weights.erase(weights.begin());  // a_0 = 1 is implied
     return weights;
 }

@@ -7,7 +7,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "bench/sweep/signals.hpp"
-#include "bench/target/deal.hpp"
+#include "bench/target/shares.hpp"
 #include "bench/target/target_plan.hpp"
 
 namespace bench {
@@ -28,7 +28,7 @@ std::vector<Compared<Outcome>> run_in_shares(const std::vector<qemu::PlannedRow>
     for (const qemu::PlannedRow& planned : plan) {
         costs.push_back(estimated_cost(planned));
     }
-    const auto shares = deal(costs, jobs);
+    const auto shares = balanced_shares(costs, jobs);
     std::vector<Compared<Outcome>> compared(plan.size());
     base::parallel_for(shares.size(), jobs, [&](std::size_t s) {
         const std::vector<Outcome> outcomes = run(pick(plan, shares[s]));

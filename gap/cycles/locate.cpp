@@ -27,7 +27,7 @@ WhereInRows locate(const Evidence& evidence, const Cycles& base) {
             taps.push_back(evidence.rows()[i].taps);
             rest.push_back(evidence.measured()[i] - base[i]);
         }
-        const qemu::Line line = qemu::fit_line(taps, rest);
+        const qemu::FittedLine line = qemu::fit_line(taps, rest);
         for (const double one : taps) {
             slope += std::fabs(line.slope * one);
             constant += std::fabs(line.constant);

@@ -51,7 +51,7 @@ std::vector<double> ticks(double low, double high) {
     return at;
 }
 
-struct Line {
+struct Trace {
     const char* css;
     std::vector<double> values;
 };
@@ -60,10 +60,10 @@ class Plot {
 public:
     Plot(const std::vector<double>& time_s, double height) : time_s_(time_s), height_(height) {}
 
-    std::string draw(const std::vector<Line>& lines, const std::string& label) const {
+    std::string draw(const std::vector<Trace>& lines, const std::string& label) const {
         double low = lines.front().values.front();
         double high = low;
-        for (const Line& line : lines) {
+        for (const Trace& line : lines) {
             for (const double value : line.values) {
                 low = std::isfinite(value) ? std::min(low, value) : low;
                 high = std::isfinite(value) ? std::max(high, value) : high;
@@ -88,7 +88,7 @@ public:
             svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.4g}{}</text>\n", x(tick),
                                height_ - bottom_margin + 16.0, tick, tick == 0.0 ? " s" : "");
         }
-        for (const Line& line : lines) {
+        for (const Trace& line : lines) {
             svg += fmt::format("<polyline class=\"{}\" points=\"", line.css);
             const std::size_t stride = std::max<std::size_t>(1, line.values.size() / 2200);
             for (std::size_t i = 0; i < line.values.size(); i += stride) {
@@ -181,8 +181,8 @@ std::string to_html(const Verdict& verdict, const OfDrive& of, const std::vector
             ? ""
             : fmt::format("<span style=\"color:var(--after)\"><i></i>base + {}</span>", escaped(of.chosen)));
     for (const Curve& curve : curves) {
-        std::vector<Line> lines{{"measured", curve.measured}, {"base", simulated(curve, curve.left_by_base)}};
-        std::vector<Line> gaps{{"base", curve.left_by_base}};
+        std::vector<Trace> lines{{"measured", curve.measured}, {"base", simulated(curve, curve.left_by_base)}};
+        std::vector<Trace> gaps{{"base", curve.left_by_base}};
         if (!curve.left_by_chosen.empty()) {
             lines.push_back({"after", simulated(curve, curve.left_by_chosen)});
             gaps.push_back({"after", curve.left_by_chosen});

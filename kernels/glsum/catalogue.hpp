@@ -36,9 +36,9 @@ struct CatalogueEntry {
     std::string_view format;
     Family family = Family::nothing;
     Forgotten forgotten = Forgotten::zero;
-    bool running_sum = false;     ///< of exponentials: the slowest is a running sum, for integrals alone
-    bool in_halves = false;       ///< it answers before it settles (InHalves)
-    bool host_only = false;       ///< it needs the host's vector unit
+    bool integrator = false;  ///< of exponentials: the slowest does not decay, for integrals alone
+    bool in_halves = false;   ///< it answers before it settles (InHalves)
+    bool host_only = false;   ///< it needs the host's vector unit
     std::size_t sample_bytes = 0;
     bool floating_point = false;  ///< its format's samples are floating-point numbers
     bool exact_sums = false;      ///< products and their sum are exact: every order of summation gives the same bits
@@ -61,7 +61,7 @@ template <Kernel K>
         entry.floating_point = !K::FormatPart::fixed_point;
         entry.exact_sums = K::FormatPart::fixed_point;
         entry.takes_order = K::order_in_range;
-        entry.running_sum = keeps_running_sum<History>;
+        entry.integrator = keeps_running_sum<History>;
         entry.family = keeps_modes<History> || keeps_running_sum<History>                     ? Family::exponentials
                        : keeps_blocks<History>                                                ? Family::logmemory
                        : std::is_same_v<History, Block> || std::is_same_v<History, HostBlock> ? Family::lookahead

@@ -19,7 +19,7 @@ struct HotInstruction {
     double cycles;
 };
 
-/// The dearest `most`. Their texts are objdump's.
+/// The costliest `most`. Their texts are objdump's.
 [[nodiscard]] std::vector<HotInstruction> hot_instructions(const FunctionTime& time, const Elf& elf, std::size_t most);
 
 struct FunctionReport {

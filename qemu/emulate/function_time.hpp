@@ -29,7 +29,7 @@ struct FunctionTime {
     std::array<Spread, timing::effect_count> lost;
     Spread in_double;  ///< within the routines of double precision in software
     std::vector<std::pair<std::uint32_t, std::int64_t>>
-        hot;                                         ///< addresses and what all calls spent there, dearest first
+        hot;                                         ///< addresses and what all calls spent there, costliest first
     std::map<std::uint32_t, std::uint64_t> unknown;  ///< executions of what the decoder does not know
     bool recursive = false;
 };

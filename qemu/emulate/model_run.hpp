@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "model/stepper.hpp"
+#include "glsum/model/stepper.hpp"
 #include "qemu/emulate/firmware.hpp"
 
 namespace qemu {

@@ -128,7 +128,7 @@ std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program,
     return predictions;
 }
 
-Line fit_line(const std::vector<double>& taps, const std::vector<double>& cycles) {
+FittedLine fit_line(const std::vector<double>& taps, const std::vector<double>& cycles) {
     const auto n = static_cast<double>(taps.size());
     double sx = 0;
     double sy = 0;

@@ -45,10 +45,10 @@ struct SiliconProgram {
                                                                 const std::vector<CoreVariant>& variants);
 
 /// Least-squares line through (taps, cycles).
-struct Line {
+struct FittedLine {
     double slope;
     double constant;
 };
-[[nodiscard]] Line fit_line(const std::vector<double>& taps, const std::vector<double>& cycles);
+[[nodiscard]] FittedLine fit_line(const std::vector<double>& taps, const std::vector<double>& cycles);
 
 }  // namespace qemu

@@ -64,7 +64,7 @@ struct Session {
     std::unordered_map<std::uint32_t, std::unique_ptr<qemu::Instruction>> instructions = {};
     // By first address and number of instructions: the emulator may cut the same code elsewhere when it is translated
     // again.
-    std::map<std::pair<std::uint32_t, std::size_t>, std::unique_ptr<qemu::Block>> blocks = {};
+    std::map<std::pair<std::uint32_t, std::size_t>, std::unique_ptr<qemu::TranslationBlock>> blocks = {};
 };
 // Never deleted: the emulator asks for the last time after this library's static objects are gone.
 Session* session = nullptr;
@@ -97,11 +97,11 @@ qemu::Instruction* instruction_at(const qemu_plugin_insn* translated) {
 }
 
 // \param from, to  of the translated block's instructions
-qemu::Block* block_at(const qemu_plugin_tb* translated, std::size_t from, std::size_t to) {
+qemu::TranslationBlock* block_at(const qemu_plugin_tb* translated, std::size_t from, std::size_t to) {
     const auto index = static_cast<std::uint32_t>(session->blocks.size());
     auto& slot = session->blocks[{instruction_at(qemu_plugin_tb_get_insn(translated, from))->address, to - from}];
     if (!slot) {
-        slot = std::make_unique<qemu::Block>(qemu::Block{{}, index});
+        slot = std::make_unique<qemu::TranslationBlock>(qemu::TranslationBlock{{}, index});
         for (std::size_t i = from; i < to; ++i) {
             slot->instructions.push_back(*instruction_at(qemu_plugin_tb_get_insn(translated, i)));
         }
@@ -146,7 +146,7 @@ void times_block(unsigned int, void* block) {
     Timing& timing = *session->timing;
     if (timing.timer.on()) {
         const std::uint64_t executed = timing.executed.value();
-        timing.timer.executes_block(*static_cast<qemu::Block*>(block), 1 + executed - timing.before);
+        timing.timer.executes_block(*static_cast<qemu::TranslationBlock*>(block), 1 + executed - timing.before);
         timing.before = executed;
     }
 }
@@ -174,7 +174,7 @@ void take_totals() {
 }
 void executes_block(unsigned int, void* block) {
     take_totals();
-    session->counter.executes_block(*static_cast<qemu::Block*>(block));
+    session->counter.executes_block(*static_cast<qemu::TranslationBlock*>(block));
 }
 
 void counts_by_stream(qemu_plugin_tb* block) {

@@ -71,7 +71,7 @@ void CallCounter::executes(const Instruction& instruction) {
     }
 }
 
-void CallCounter::executes_block(const Block& block) { executes(blocks_, block.index, block.instructions); }
+void CallCounter::executes_block(const TranslationBlock& block) { executes(blocks_, block.index, block.instructions); }
 
 void CallCounter::accesses(const Access& access) {
     ++(access.store ? totals_.stores : totals_.loads);

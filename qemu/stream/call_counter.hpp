@@ -49,7 +49,7 @@ public:
     void accesses(const Access& access) override;
 
     /// In place of `executes` and `accesses`: called before each block. The producer adds each access to `totals`.
-    void executes_block(const Block& block);
+    void executes_block(const TranslationBlock& block);
     [[nodiscard]] AccessTotals& totals() { return totals_; }
 
     [[nodiscard]] const std::vector<CallRun>& runs() const { return runs_; }

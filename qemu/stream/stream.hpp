@@ -15,7 +15,7 @@ struct Instruction {
 };
 
 /// Instructions that are executed one after the other whenever the first of them is: only the last may branch.
-struct Block {
+struct TranslationBlock {
     std::vector<Instruction> instructions;  ///< at least one
     std::uint32_t index;                    ///< numbers the distinct blocks from 0
 };

@@ -80,7 +80,7 @@ void BlockReplay::execute_steps(const CodeBlock& block, const BlockEvents& met, 
     step.block = &block;
     step.moves_begin = static_cast<std::uint32_t>(moves_.size());
     for (std::size_t nth = 0; nth < block.lines.size(); ++nth) {
-        const CodeBlock::Line& line = block.lines[nth];
+        const CodeBlock::Instruction& line = block.lines[nth];
         const std::int64_t moved = execute(line, met.events[nth]);
         if (counted) {
             count(line.site, moved);
@@ -121,7 +121,7 @@ void BlockReplay::execute_steps(const CodeBlock& block, const BlockEvents& met, 
     }
 }
 
-std::int64_t BlockReplay::execute(const CodeBlock::Line& line, const Event& event) {
+std::int64_t BlockReplay::execute(const CodeBlock::Instruction& line, const Event& event) {
     const std::int64_t before = replay_.positions()[0];
     replay_.execute(line.site, *line.instruction, event);
     last_step_ = 0;

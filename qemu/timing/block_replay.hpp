@@ -21,7 +21,7 @@ public:
     /// \param counted  whether its half cycles are added to those of its instructions (`half_cycles`)
     void execute(const CodeBlock& block, const BlockEvents& met, bool counted);
     /// One instruction. \return half cycles that it moved the nominal set on by
-    std::int64_t execute(const CodeBlock::Line& line, const Event& event);
+    std::int64_t execute(const CodeBlock::Instruction& line, const Event& event);
     void count(std::uint32_t site, std::int64_t half_cycles) { add(half_cycles_, site, half_cycles); }
 
     [[nodiscard]] const Replay& core() const { return replay_; }

@@ -76,7 +76,7 @@ void CallTimer::executes(const qemu::Instruction& instruction) {
     pending_ = &piece_of(singles_, instruction.index, std::span(&instruction, 1));
 }
 
-void CallTimer::executes_block(const qemu::Block& block, std::size_t done) {
+void CallTimer::executes_block(const qemu::TranslationBlock& block, std::size_t done) {
     if (pending_ != nullptr) {
         flush(done, block.instructions.front().address);
     }
@@ -88,7 +88,7 @@ void CallTimer::finish() { finish(pending_ != nullptr ? pending_->code.lines.siz
 
 void CallTimer::finish(std::size_t done) {
     if (pending_ != nullptr) {
-        const CodeBlock::Line& last = pending_->code.lines.back();
+        const CodeBlock::Instruction& last = pending_->code.lines.back();
         flush(done, last.address + last.instruction->decoded.bytes);
         pending_ = nullptr;
     }
@@ -108,7 +108,7 @@ void CallTimer::follow_calls(std::uint32_t address) {
 
 void CallTimer::flush(std::size_t done, std::uint32_t next) {
     Piece& piece = *pending_;
-    const std::vector<CodeBlock::Line>& lines = piece.code.lines;
+    const std::vector<CodeBlock::Instruction>& lines = piece.code.lines;
     done = std::clamp<std::size_t>(done, 1, lines.size());
     follow_calls(lines.front().address);
     const bool ends = inside_ && returns_.size() < depth_;
@@ -142,7 +142,7 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
     if (piece.in_double_routine && inside_) {
         leave_double_routine();
     }
-    const CodeBlock::Line& last = lines[done - 1];
+    const CodeBlock::Instruction& last = lines[done - 1];
     const Decoded& d = last.instruction->decoded;
     last_site_ = last.site;
     sequential_ = last.address + d.bytes;
@@ -154,7 +154,7 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
 // A call ends and begins with a block's first instruction.
 void CallTimer::time_by_steps(const Piece& piece, std::size_t done, bool ends, bool begins) {
     for (std::size_t nth = 0; nth < done; ++nth) {
-        const CodeBlock::Line& line = piece.code.lines[nth];
+        const CodeBlock::Instruction& line = piece.code.lines[nth];
         for (std::size_t c = 0; c < cores_.size(); ++c) {
             const std::int64_t moved = cores_[c]->replay.execute(line, piece.met[c].events[nth]);
             if (inside_) {

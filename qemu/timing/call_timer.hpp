@@ -51,7 +51,7 @@ public:
     /// In place of `executes` and `accesses`, several times as fast: called before a block, and after that for each of
     /// its accesses. A watched function begins with a block.
     /// \param done  how many instructions of the block before were executed: fewer than it has if one of them faulted
-    void executes_block(const qemu::Block& block, std::size_t done);
+    void executes_block(const qemu::TranslationBlock& block, std::size_t done);
     /// The stream has ended. \param done  as above
     void finish(std::size_t done);
     void finish();

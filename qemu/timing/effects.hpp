@@ -27,9 +27,9 @@ enum class Effect : std::uint8_t {
 inline constexpr std::size_t effect_count = 13;
 
 inline constexpr std::array<std::string_view, effect_count> effect_names{
-    "single_issue",      "result_latency",   "load_use",        "load_bank_conflict", "fpu_latency",
-    "mac_latency",       "branch_mispredict", "store_buffer",   "unaligned_access",   "fetch_alignment",
-    "icache_misses",     "dcache_misses",    "flash_wait_states"};
+    "single_issue",  "result_latency",    "load_use",         "load_bank_conflict", "fpu_latency",
+    "mac_latency",   "branch_mispredict", "store_buffer",     "unaligned_access",   "fetch_alignment",
+    "icache_misses", "dcache_misses",     "flash_wait_states"};
 
 [[nodiscard]] constexpr std::optional<Effect> effect_named(std::string_view name) {
     for (std::size_t i = 0; i < effect_count; ++i) {

@@ -50,14 +50,30 @@ void single(Decoded& d, uint32_t e, std::uint8_t bytes) {
         d.write(rn(e), Source::base);
     } else if (field(e, 9, 1) != 0 && d.kind != Kind::hint) {  // unprivileged
         switch (field(e, 20, 5)) {
-            case 0x00: d.mnemonic = "strbt"; break;
-            case 0x01: d.mnemonic = "ldrbt"; break;
-            case 0x02: d.mnemonic = "strht"; break;
-            case 0x03: d.mnemonic = "ldrht"; break;
-            case 0x04: d.mnemonic = "strt"; break;
-            case 0x05: d.mnemonic = "ldrt"; break;
-            case 0x11: d.mnemonic = "ldrsbt"; break;
-            default: d.mnemonic = "ldrsht"; break;
+            case 0x00:
+                d.mnemonic = "strbt";
+                break;
+            case 0x01:
+                d.mnemonic = "ldrbt";
+                break;
+            case 0x02:
+                d.mnemonic = "strht";
+                break;
+            case 0x03:
+                d.mnemonic = "ldrht";
+                break;
+            case 0x04:
+                d.mnemonic = "strt";
+                break;
+            case 0x05:
+                d.mnemonic = "ldrt";
+                break;
+            case 0x11:
+                d.mnemonic = "ldrsbt";
+                break;
+            default:
+                d.mnemonic = "ldrsht";
+                break;
         }
     }
     if (d.branch == Branch::indirect && rn(e) == registers::sp && writes_base) {

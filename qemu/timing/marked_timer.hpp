@@ -43,7 +43,7 @@ public:
     void executes(const Instruction& instruction) override;
     void accesses(const Access& access) override { part_->timer.accesses(access); }
     /// In place of `executes`, see `timing::CallTimer`.
-    void executes_block(const Block& block, std::size_t done) { part_->timer.executes_block(block, done); }
+    void executes_block(const TranslationBlock& block, std::size_t done) { part_->timer.executes_block(block, done); }
     /// The program has ended.
     void finish();
 

@@ -18,13 +18,13 @@ struct Prepared {
 
 /// Instructions one behind the other, of which only the last may branch.
 struct CodeBlock {
-    struct Line {
+    struct Instruction {
         const Prepared* instruction;
         std::uint32_t site;  ///< numbers the distinct instructions
         std::uint32_t address;
     };
-    std::uint32_t index = 0;  ///< numbers the distinct blocks
-    std::vector<Line> lines;  ///< at least one
+    std::uint32_t index = 0;         ///< numbers the distinct blocks
+    std::vector<Instruction> lines;  ///< at least one
 };
 
 }  // namespace timing

@@ -38,7 +38,7 @@ const Event& Surroundings::meet(const Decoded& d, std::uint32_t address, std::sp
     return event_;
 }
 
-void Surroundings::meet(std::span<const CodeBlock::Line> lines, std::span<const qemu::Access> accesses,
+void Surroundings::meet(std::span<const CodeBlock::Instruction> lines, std::span<const qemu::Access> accesses,
                         std::uint32_t next, BlockEvents& met) {
     met.events.resize(lines.size());
     for (const std::uint32_t nth : met.touched) {
@@ -55,7 +55,7 @@ void Surroundings::meet(std::span<const CodeBlock::Line> lines, std::span<const 
         met.touched.push_back(nth);
     };
     // Where fetching takes nothing, all but the first instruction take up the words that they took up before.
-    const CodeBlock::Line& last = lines.back();
+    const CodeBlock::Instruction& last = lines.back();
     const std::uint32_t last_byte = last.address + last.instruction->decoded.bytes - 1;
     met.fetched_freely = met.known && memory_.fetches_freely(lines.front().address, last_byte);
     if (met.fetched_freely) {

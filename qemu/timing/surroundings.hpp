@@ -29,7 +29,7 @@ public:
     /// \param lines  the block's, or as many of its first as were executed
     /// \param next   address of the instruction that is executed after the last of them
     /// \param met    as the last call left it for this block, or new
-    void meet(std::span<const CodeBlock::Line> lines, std::span<const qemu::Access> accesses, std::uint32_t next,
+    void meet(std::span<const CodeBlock::Instruction> lines, std::span<const qemu::Access> accesses, std::uint32_t next,
               BlockEvents& met);
 
     [[nodiscard]] const Memory& memory() const { return memory_; }

@@ -11,8 +11,8 @@
 //   row <n> <status> <hash of the outputs> <bytes of stack> <bytes of state> <bytes of coefficients>
 #include "cortex-m7/stack.hpp"
 #include "glsum/computes_in_double.hpp"
+#include "glsum/model/stepper.hpp"
 #include "marker.hpp"
-#include "model/stepper.hpp"
 #include "plan.hpp"
 #include "port.hpp"
 #include "shared/output_hash.hpp"

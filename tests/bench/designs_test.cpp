@@ -12,9 +12,9 @@
 #include "bench/sweep/signals.hpp"
 #include "bench/sweep/truncation_bound.hpp"
 #include "bench/target/target_plan.hpp"
+#include "glsum/design/blocks.hpp"
+#include "glsum/design/modes.hpp"
 #include "glsum/logmemory/nested.hpp"
-#include "modes/blocks.hpp"
-#include "modes/design.hpp"
 
 namespace {
 
@@ -53,7 +53,7 @@ TEST(Designs, OfAKernelWithModesAreTheShortestForTheErrors) {
         ASSERT_LE(lengths.size(), sweep.design_errors.size());
         ASSERT_FALSE(lengths.empty());
         for (const double error : sweep.design_errors) {
-            const auto found = glsum::modes::design({order, sweep.samples}, error);
+            const auto found = glsum::design::design_modes({order, sweep.samples}, error);
             ASSERT_TRUE(found);
             EXPECT_TRUE(std::any_of(lengths.begin(), lengths.end(),
                                     [&](const bench::Length& length) {
@@ -80,7 +80,7 @@ TEST(Designs, OfAKernelWithBlocksAreTheBestForTheLengths) {
         const auto lengths = bench::lengths_of(sweep, "nested_plain_f32", order);
         ASSERT_EQ(lengths.size(), 2U) << order;
         for (const bench::Length& length : lengths) {
-            const auto found = glsum::modes::design_blocks({order, sweep.samples}, length.taps);
+            const auto found = glsum::design::design_blocks({order, sweep.samples}, length.taps);
             ASSERT_TRUE(length.blocks);
             EXPECT_FALSE(length.modes);
             EXPECT_EQ(*length.blocks, found.blocks);
@@ -187,7 +187,7 @@ TEST(Accuracy, OfModesIsThatOfTheirDesign) {
             ASSERT_TRUE(length && length->modes) << row["name"];
             ASSERT_FALSE(row.contains("error_occurred")) << row;
             const double designed =
-                glsum::modes::approximate({order, sweep.samples}, length->taps - 2 * *length->modes, *length->modes)
+                glsum::design::approximate({order, sweep.samples}, length->taps - 2 * *length->modes, *length->modes)
                     .error;
             const double truncation = row["truncation_error_max"].get<double>();
             const double rounding = row["rounding_error_max"].get<double>();
@@ -220,7 +220,7 @@ TEST(Accuracy, OfBlocksIsThatOfTheirDesign) {
             const bench::Json& row = rows[i][r];
             const std::size_t taps = r % 2 == 0 ? 16 : 50;
             ASSERT_FALSE(row.contains("error_occurred")) << row;
-            const auto found = glsum::modes::design_blocks({order, sweep.samples}, taps);
+            const auto found = glsum::design::design_blocks({order, sweep.samples}, taps);
             const double truncation = row["truncation_error_max"].get<double>();
             const double rounding = row["rounding_error_max"].get<double>();
             EXPECT_LE(truncation, bench::signal_peak * found.error / peak * (1 + 1e-6)) << row["name"];

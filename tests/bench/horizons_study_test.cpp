@@ -14,8 +14,8 @@
 #include "bench/sweep/signals.hpp"
 #include "bench/sweep/sweep.hpp"
 #include "bench/target/target_rows.hpp"
-#include "modes/blocks.hpp"
-#include "modes/design.hpp"
+#include "glsum/design/blocks.hpp"
+#include "glsum/design/modes.hpp"
 
 namespace {
 
@@ -35,7 +35,7 @@ TEST(HorizonCase, AWindowLeavesNoMoreThanTheError) {
 // 2 near taps and 3 modes, that is 7 multiplications.
 HorizonCase made(double certificate, double found) {
     HorizonCase one{0.5, 1e-4, 600, std::nullopt, std::nullopt, std::nullopt};
-    one.modes = glsum::modes::Approximation{2, std::vector<glsum::Mode>(3), certificate};
+    one.modes = glsum::design::Approximation{2, std::vector<glsum::Mode>(3), certificate};
     one.largest_error = found;
     return one;
 }
@@ -143,7 +143,7 @@ std::vector<double> weights_of(double order, std::size_t count) {
 }
 
 // The most that near taps and exponentials err on the seven signals, by the plain sums of both.
-double largest_error(double order, const glsum::modes::Approximation& design, std::size_t samples) {
+double largest_error(double order, const glsum::design::Approximation& design, std::size_t samples) {
     std::vector<double> off = weights_of(order, samples);
     for (std::size_t j = 0; j < samples; ++j) {
         double approximate = j < design.near_taps ? off[j] : 0.0;
@@ -191,21 +191,21 @@ TEST(HorizonsStudy, EachDesignIsTheShortestOfItsKind) {
                 }
                 EXPECT_EQ(macs(), taps - 1) << place;
                 ++next;
-                const glsum::modes::Tail tail{order, samples - 1};
+                const glsum::design::Tail tail{order, samples - 1};
                 if (study.rows.at(next).at("name") == "horizon/nested" + place) {
                     const std::size_t enough = macs() + 1;
-                    EXPECT_LE(glsum::modes::design_blocks(tail, enough).error, error) << place;
+                    EXPECT_LE(glsum::design::design_blocks(tail, enough).error, error) << place;
                     const std::size_t fewer = enough - std::max<std::size_t>(1, enough / 64);
-                    EXPECT_GT(glsum::modes::design_blocks(tail, fewer).error, error) << place;
+                    EXPECT_GT(glsum::design::design_blocks(tail, fewer).error, error) << place;
                     ++next;
                 } else {  // no power of two below the horizon is enough
                     std::size_t most = 1;
                     while (2 * most <= samples - 1) {
                         most *= 2;
                     }
-                    EXPECT_GT(glsum::modes::design_blocks(tail, most).error, error) << place;
+                    EXPECT_GT(glsum::design::design_blocks(tail, most).error, error) << place;
                 }
-                const auto modes = glsum::modes::design(tail, error);
+                const auto modes = glsum::design::design_modes(tail, error);
                 ASSERT_TRUE(modes.has_value());
                 const Json& row = study.rows.at(next++);
                 EXPECT_EQ(row.at("name"), "horizon/modes" + place);
@@ -243,9 +243,9 @@ TEST(HorizonsStudy, LongDesignsOfBlocksAreTheShortestToASixtyFourth) {
             const double error = std::stod(
                 row.at("name").get<std::string>().substr(row.at("name").get<std::string>().find("error:") + 6));
             const std::size_t enough = row.at("macs_per_sample").get<std::size_t>() + 1;
-            const glsum::modes::Tail tail{0.2, 3999};
-            EXPECT_LE(glsum::modes::design_blocks(tail, enough).error, error);
-            EXPECT_GT(glsum::modes::design_blocks(tail, enough - std::max<std::size_t>(1, enough / 64)).error, error);
+            const glsum::design::Tail tail{0.2, 3999};
+            EXPECT_LE(glsum::design::design_blocks(tail, enough).error, error);
+            EXPECT_GT(glsum::design::design_blocks(tail, enough - std::max<std::size_t>(1, enough / 64)).error, error);
         }
     }
     EXPECT_GE(met, 2U);
@@ -281,7 +281,7 @@ TEST(HorizonsStudy, CyclesAreTheBoardsOfTheSameDesigns) {
             continue;
         }
         found.push_back(row.at("model_cycles_per_sample").get<double>());
-        const auto modes = glsum::modes::design(
+        const auto modes = glsum::design::design_modes(
             {0.5, row.at("horizon_samples").get<std::size_t>() - 1},
             std::stod(row.at("name").get<std::string>().substr(row.at("name").get<std::string>().find("error:") + 6)));
         plan.push_back({"modes_plain_f32", 0.5, modes->length(), 0,

@@ -53,9 +53,9 @@ TEST(Pieces, EveryPieceIsOneShardsAndTheLastTimesTheHost) {
 
 TEST(Pieces, ShardsCostAboutTheSame) {
     const std::vector<bench::Piece> pieces = bench::make_pieces(sweep());
-    double dearest = 0.0;  // never divided
+    double costliest = 0.0;  // never divided
     for (const bench::Piece& piece : pieces) {
-        dearest = std::max(dearest, piece.cost);
+        costliest = std::max(costliest, piece.cost);
     }
     for (const std::size_t count : {2U, 3U, 5U}) {
         std::vector<double> costs;
@@ -67,9 +67,9 @@ TEST(Pieces, ShardsCostAboutTheSame) {
             costs.push_back(cost);
         }
         const auto [least, most] = std::minmax_element(costs.begin(), costs.end());
-        EXPECT_LE(*most - *least, dearest) << count;
-        // A share of nothing but the dearest piece may be larger than the others.
-        EXPECT_LT(*most, std::max((count < 5 ? 1.1 : 1.5) * *least, 1.001 * dearest)) << count;
+        EXPECT_LE(*most - *least, costliest) << count;
+        // A share of nothing but the costliest piece may be larger than the others.
+        EXPECT_LT(*most, std::max((count < 5 ? 1.1 : 1.5) * *least, 1.001 * costliest)) << count;
     }
 }
 

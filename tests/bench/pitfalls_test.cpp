@@ -43,7 +43,7 @@ TEST(Pitfalls, CircularConvolutionIsRightAtTheLastSampleOnly) {
     digits::expect_thirty(circular(samples - 1), sum_at(a, x, samples - 1), "last sample");
 }
 
-// The nested form that stops at c_(k-1) loses a_k x_0.
+// The Horner form that stops at c_(k-1) loses a_k x_0.
 TEST(Pitfalls, DroppingTheOldestSampleIsAnError) {
     const std::vector<double> x(101, 1.0);
     for (const char* order : {"0.5", "0.98319", "-0.5"}) {
@@ -101,7 +101,7 @@ TEST(Pitfalls, WeightsByTheGammaFunctionEndAt170) {
     EXPECT_DOUBLE_EQ(weights.weight(), -1.9206126162304156e-5);
 }
 
-// The product of (x_i + c_(n-i)) has the look of the nested form and is another number.
+// The product of (x_i + c_(n-i)) has the look of the Horner form and is another number.
 TEST(Pitfalls, TheProductOfFactorsIsNotTheNestedSum) {
     const std::vector<double> x{0.5, -0.25, 0.75, 0.125, -0.5};
     const double v = 0.5;

@@ -15,8 +15,8 @@
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
+#include "glsum/design/modes.hpp"
 #include "glsum/registry.hpp"
-#include "modes/design.hpp"
 
 namespace {
 
@@ -152,11 +152,11 @@ TEST(MeasuredErrors, LengthsAreAsTheDesignsAre) {
             << kernel;
     }
     const auto modes = errors.lengths("modes_plain_f32").value();
-    EXPECT_EQ(modes.size(), std::min<std::size_t>(1000, glsum::modes::most_taps(0.5)));
+    EXPECT_EQ(modes.size(), std::min<std::size_t>(1000, glsum::design::most_taps(0.5)));
     EXPECT_EQ(modes.front(), 1U);
     EXPECT_EQ(modes.back(), modes.size());
     EXPECT_EQ(errors.lengths("modesdelta_plain_f32").value().size(),
-              std::min<std::size_t>(1000, glsum::modes::most_taps(-0.5)));
+              std::min<std::size_t>(1000, glsum::design::most_taps(-0.5)));
 }
 
 TEST(MeasuredErrors, WhatAnotherRunMeasuredIsTakenSignalBySignal) {
@@ -226,7 +226,7 @@ TEST(BruteForce, TheSearchAgreesOnRealKernels) {
     EXPECT_EQ(found.same_miss, found.nothing);
     EXPECT_GT(found.nothing, 3U);
     EXPECT_LT(found.nothing, 90U);
-    const std::size_t of_modes = std::min<std::size_t>(60, glsum::modes::most_taps(0.5));
+    const std::size_t of_modes = std::min<std::size_t>(60, glsum::design::most_taps(0.5));
     EXPECT_EQ(found.candidates, 4 * 60 + of_modes);
 }
 
@@ -292,11 +292,11 @@ TEST(Question, KernelsAreThoseThatRunThere) {
         if (name == "null") {
             return;
         }
-        const bool adds = bench::adds_up(name);
-        if (!adds) {
+        const bool integrates = bench::has_integrator(name);
+        if (!integrates) {
             of_host.insert(name);
         }
-        if (!adds && !K::host_only) {
+        if (!integrates && !K::host_only) {
             of_m7.insert(name);
         }
         if (!K::host_only) {
@@ -437,8 +437,8 @@ TEST(Earlier, CostsOfTheTargetAreItsCyclesBandAndBytes) {
     EXPECT_EQ(cycles.unit(), "model cycles");
     EXPECT_EQ(cycles.limited_unit(), "model cycles, upper end of the band");
     EXPECT_TRUE(cycles.exact());
-    EXPECT_TRUE(cycles.dear("shift_plain_f64"));
-    EXPECT_FALSE(cycles.dear("shift_plain_f32"));
+    EXPECT_TRUE(cycles.costly("shift_plain_f64"));
+    EXPECT_FALSE(cycles.costly("shift_plain_f32"));
     question.core = "m7-ideal";
     choose::remember(earlier, question, cycles);
     EXPECT_ANY_THROW((void)cycles.costs({{"ring_plain_f32", 7}}));

@@ -10,7 +10,7 @@ namespace {
 
 using choose::Answer;
 using choose::Candidate;
-using choose::Fate;
+using choose::Standing;
 
 Candidate candidate(const char* kernel, std::size_t taps, double error, double cost, double high, double bytes) {
     return {kernel, taps, {error, "sine5", ""}, {cost, high, 0.25, bytes, ""}};
@@ -43,8 +43,8 @@ TEST(ChoiceJson, HoldsTheQuestionTheChoiceAndEveryKernel) {
     answer.choice.chosen = first;
     answer.choice.runner_up = second;
     answer.choice.tie = true;
-    answer.choice.kernels = {{"ring_plain_f32", Fate::chosen, first, {}, {}, ""},
-                             {"shift_plain_f32", Fate::runner_up, second, {}, {}, ""}};
+    answer.choice.kernels = {{"ring_plain_f32", Standing::chosen, first, {}, {}, ""},
+                             {"shift_plain_f32", Standing::runner_up, second, {}, {}, ""}};
     EXPECT_EQ(to_json(answer), bench::Json::parse(R"({
         "schema": "glsum-choice-1",
         "fits": true,
@@ -77,8 +77,8 @@ TEST(ChoiceJson, SaysHowFarNothingFits) {
     answer.unit = "ns";
     const Candidate near = candidate("modes_plain_f32", 16, 0.2, 30.0, 90.0, 128.0);
     answer.choice.relaxed = {{"max_error", 0.125, 0.2, near}};
-    const choose::Fared fared{"modes_plain_f32", Fate::inaccurate, {}, near, {}, ""};
-    answer.choice.kernels = {fared};
+    const choose::Outcome outcome{"modes_plain_f32", Standing::inaccurate, {}, near, {}, ""};
+    answer.choice.kernels = {outcome};
     const bench::Json json = to_json(answer);
     EXPECT_EQ(json.at("fits"), false);
     EXPECT_EQ(json.at("question").at("target"), "host");
@@ -113,26 +113,36 @@ TEST(ChoiceTable, SaysWhatWasAskedWhatWasChosenAndWhyTheOthersLost) {
     answer.choice.chosen = first;
     answer.choice.runner_up = second;
     answer.choice.kernels = {
-        {"mirror_multi_f32", Fate::dearer, candidate("mirror_multi_f32", 60, 0.01, 800.0, 840.0, 500.0), {}, {}, ""},
-        {"ring_plain_q15", Fate::wrong, {}, {}, {}, "it is broken"},
-        {"ring_plain_q31", Fate::inaccurate, {}, candidate("ring_plain_q31", 70, 0.25, 0.0, 0.0, 0.0), {}, ""},
-        {"ring_plain_f32", Fate::chosen, first, {}, {}, ""},
-        {"shift_plain_f32", Fate::runner_up, second, {}, {}, ""},
+        {"mirror_multi_f32",
+         Standing::costlier,
+         candidate("mirror_multi_f32", 60, 0.01, 800.0, 840.0, 500.0),
+         {},
+         {},
+         ""},
+        {"ring_plain_q15", Standing::wrong, {}, {}, {}, "it is broken"},
+        {"ring_plain_q31", Standing::inaccurate, {}, candidate("ring_plain_q31", 70, 0.25, 0.0, 0.0, 0.0), {}, ""},
+        {"ring_plain_f32", Standing::chosen, first, {}, {}, ""},
+        {"shift_plain_f32", Standing::runner_up, second, {}, {}, ""},
         {"ring_horner_f32",
-         Fate::dominated,
+         Standing::dominated,
          candidate("ring_horner_f32", 55, 0.03, 500.0, 540.0, 420.0),
          {},
          {},
          "by ring_plain_f32"},
         {"shift_plain_f64",
-         Fate::too_dear,
+         Standing::too_costly,
          candidate("shift_plain_f64", 90, 0.005, 9000.0, 10000.0, 900.0),
          {},
          candidate("shift_plain_f64", 64, 0.0, 6400.0, 6400.0, 700.0),
          ""},
-        {"ring_oldest_f32", Fate::too_dear, candidate("ring_oldest_f32", 90, 0.005, 6000.0, 7500.0, 900.0), {}, {}, ""},
+        {"ring_oldest_f32",
+         Standing::too_costly,
+         candidate("ring_oldest_f32", 90, 0.005, 6000.0, 7500.0, 900.0),
+         {},
+         {},
+         ""},
         {"mirror_plain_f32",
-         Fate::too_large,
+         Standing::too_large,
          candidate("mirror_plain_f32", 90, 0.005, 600.0, 600.0, 14000.0),
          {},
          {},
@@ -152,16 +162,16 @@ TEST(ChoiceTable, SaysWhatWasAskedWhatWasChosenAndWhyTheOthersLost) {
             "takes 0.194 %\n"),
         std::string::npos)
         << text;
-    // By fate, and of one by cost.
+    // By standing, and of one by cost.
     std::vector<std::size_t> places;
     for (const char* line :
          {"ring_plain_f32               50  1.00e-02  sine5          400      408  chosen",
           "shift_plain_f32              40  2.00e-02  sine5        400.2     1320  runner-up",
           "ring_horner_f32              55  3.00e-02  sine5          500      420  dominated: by ring_plain_f32, no "
           "worse in error, cost and bytes",
-          "mirror_multi_f32             60  1.00e-02  sine5          800      500  dearer: ",
-          "ring_oldest_f32              90  5.00e-03  sine5         6000      900  too dear: 1.5 times the limit",
-          "shift_plain_f64              90  5.00e-03  sine5            -        -  too dear: at 64 taps already 6400 "
+          "mirror_multi_f32             60  1.00e-02  sine5          800      500  costlier: ",
+          "ring_oldest_f32              90  5.00e-03  sine5         6000      900  too costly: 1.5 times the limit",
+          "shift_plain_f64              90  5.00e-03  sine5            -        -  too costly: at 64 taps already 6400 "
           "model cycles",
           "mirror_plain_f32             90  5.00e-03  sine5          600    14000  too large: 2 times the limit",
           "ring_plain_q31               70  2.50e-01  sine5            -        -  too inaccurate: gets to 2.50e-01 at "

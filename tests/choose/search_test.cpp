@@ -16,8 +16,8 @@ using choose::Candidate;
 using choose::Choice;
 using choose::Cost;
 using choose::ErrorAt;
-using choose::Fate;
 using choose::Limits;
+using choose::Standing;
 
 struct Made {
     double rounding;  // at one tap; grows with the root of the length; below 0 it makes good what truncation costs
@@ -25,7 +25,7 @@ struct Made {
     double per_tap;
     double group;  // taps that cost the same
     double bytes_per_tap;
-    bool dear = false;
+    bool costly = false;
     std::string fault = {};
 };
 
@@ -68,7 +68,7 @@ public:
     [[nodiscard]] std::string unit() const override { return "instructions"; }
     [[nodiscard]] std::string limited_unit() const override { return "instructions"; }
     [[nodiscard]] bool exact() const override { return true; }
-    [[nodiscard]] bool dear(const std::string& kernel) const override { return kernels_.at(kernel).dear; }
+    [[nodiscard]] bool costly(const std::string& kernel) const override { return kernels_.at(kernel).costly; }
     [[nodiscard]] Cost cost(const std::string& kernel, std::size_t taps) const {
         const Made& made = kernels_.at(kernel);
         const auto past = static_cast<double>(taps - 1);
@@ -166,7 +166,7 @@ TEST(Search, AgreesWithAPlainLoopOverEveryKernelAndLength) {
     EXPECT_LT(nothing, 480);
 }
 
-// One that is known to be dear is tried at a short length first, and chosen where nothing else would do.
+// One that is known to be costly is tried at a short length first, and chosen where nothing else would do.
 TEST(Search, ADearKernelIsChosenWhereNothingElseWillDo) {
     for (const std::vector<std::string>& few :
          {std::vector<std::string>{"exact"}, {"exact", "coarse"}, {"broken", "exact"}}) {
@@ -180,15 +180,15 @@ TEST(Search, SaysWhyEachKernelLost) {
     MadeErrors errors(kernels);
     MadeCosts costs(kernels);
     const Choice found = choose::choose(errors, costs, names(), {0.06, 800.0, {}}, 1, false);
-    std::map<std::string, Fate> fates;
-    for (const choose::Fared& fared : found.kernels) {
-        fates[fared.kernel] = fared.fate;
+    std::map<std::string, Standing> fates;
+    for (const choose::Outcome& outcome : found.kernels) {
+        fates[outcome.kernel] = outcome.standing;
     }
-    EXPECT_EQ(fates["broken"], Fate::wrong);
-    EXPECT_EQ(fates["coarsest"], Fate::inaccurate);
-    EXPECT_EQ(fates["exact"], Fate::too_dear);
-    EXPECT_EQ(fates["lucky"], Fate::chosen);
-    EXPECT_EQ(fates["groups"], Fate::runner_up);
+    EXPECT_EQ(fates["broken"], Standing::wrong);
+    EXPECT_EQ(fates["coarsest"], Standing::inaccurate);
+    EXPECT_EQ(fates["exact"], Standing::too_costly);
+    EXPECT_EQ(fates["lucky"], Standing::chosen);
+    EXPECT_EQ(fates["groups"], Standing::runner_up);
 }
 
 TEST(Search, AWrongAnswerNeverWins) {
@@ -205,7 +205,7 @@ struct Few : choose::ErrorSource, choose::CostSource {
     struct One {
         std::size_t meets_from;
         std::function<Cost(std::size_t)> cost;
-        bool dear = false;
+        bool costly = false;
         double error = 0.01;
     };
     std::map<std::string, One> ones;
@@ -226,7 +226,7 @@ struct Few : choose::ErrorSource, choose::CostSource {
     [[nodiscard]] std::string unit() const override { return "instructions"; }
     [[nodiscard]] std::string limited_unit() const override { return "instructions"; }
     [[nodiscard]] bool exact() const override { return same_every_time; }
-    [[nodiscard]] bool dear(const std::string& kernel) const override { return ones.at(kernel).dear; }
+    [[nodiscard]] bool costly(const std::string& kernel) const override { return ones.at(kernel).costly; }
     [[nodiscard]] std::vector<Cost> costs(const std::vector<choose::Case>& cases) override {
         std::vector<Cost> found;
         rounds += cases.empty() ? 0 : 1;
@@ -276,11 +276,11 @@ TEST(Search, TheRestOfAGroupIsLookedAt) {
 
 // By the rest of a group a cost may fall by 64 instructions, in software double by a tenth of the best as well.
 TEST(Search, WhatCanNoMoreBecomeTheCheapestIsNotLookedAt) {
-    for (const auto& [cost, dear, looked_at] : {std::tuple(1064.0, false, true), std::tuple(1065.0, false, false),
-                                                std::tuple(1164.0, true, true), std::tuple(1165.0, true, false)}) {
+    for (const auto& [cost, costly, looked_at] : {std::tuple(1064.0, false, true), std::tuple(1065.0, false, false),
+                                                  std::tuple(1164.0, true, true), std::tuple(1165.0, true, false)}) {
         Few few;
         few.ones["a"] = {50, [](std::size_t) { return cost_of(1000.0); }};
-        few.ones["b"] = {50, [value = cost](std::size_t) { return cost_of(value); }, dear};
+        few.ones["b"] = {50, [value = cost](std::size_t) { return cost_of(value); }, costly};
         EXPECT_EQ(few.choose({0.1, {}, {}}).chosen->kernel, "a");
         EXPECT_EQ(std::count(few.asked.begin(), few.asked.end(), choose::Case("b", 57)), looked_at ? 1 : 0) << cost;
     }
@@ -292,22 +292,22 @@ TEST(Search, WhatCanNoMoreBecomeTheCheapestIsNotLookedAt) {
     }
 }
 
-// A dear kernel is measured at 64 taps first, and where it is longer and dearer there than what fits, nowhere else.
+// A costly kernel is measured at 64 taps first, and where it is longer and costlier there than what fits, nowhere else.
 TEST(Search, ADearKernelIsTriedAtAShortLengthFirst) {
     const auto asked_of = [](double short_cost, std::size_t meets_from, const Limits& limits, bool fails = false) {
         Few few;
         few.ones["cheap"] = {390, [](std::size_t) { return cost_of(1000.0); }};
-        few.ones["dear"] = {meets_from,
-                            [=](std::size_t taps) {
-                                Cost cost = cost_of(taps <= 64 ? short_cost : 5000.0);
-                                cost.fault = fails ? "too long" : "";
-                                return cost;
-                            },
-                            true};
+        few.ones["costly"] = {meets_from,
+                              [=](std::size_t taps) {
+                                  Cost cost = cost_of(taps <= 64 ? short_cost : 5000.0);
+                                  cost.fault = fails ? "too long" : "";
+                                  return cost;
+                              },
+                              true};
         (void)few.choose(limits);
         std::vector<std::size_t> asked;
         for (const auto& [kernel, taps] : few.asked) {
-            if (kernel == "dear") {
+            if (kernel == "costly") {
                 asked.push_back(taps);
             }
         }
@@ -320,17 +320,17 @@ TEST(Search, ADearKernelIsTriedAtAShortLengthFirst) {
     EXPECT_EQ(asked_of(3000.0, 64, {0.1, {}, {}}), Lengths{64});  // no longer than that
     EXPECT_EQ(asked_of(3000.0, 300, {0.1, {}, {}}, true), (Lengths{64, 300}));
     Few alone;
-    alone.ones["dear"] = {300, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }, true};
-    EXPECT_EQ(alone.choose({0.1, 640.0, {}}).kernels.at(0).fate, Fate::too_dear);
+    alone.ones["costly"] = {300, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }, true};
+    EXPECT_EQ(alone.choose({0.1, 640.0, {}}).kernels.at(0).standing, Standing::too_costly);
     EXPECT_EQ(alone.choose({0.1, 640.0, {}}).kernels.at(0).already,
               std::nullopt);  // 640 are within the limit: measured
     EXPECT_EQ(alone.choose({0.1, 639.0, {}}).kernels.at(0).already->taps, 64U);
-    EXPECT_EQ(alone.choose({0.1, 639.0, {}}).kernels.at(0).fate, Fate::too_dear);
+    EXPECT_EQ(alone.choose({0.1, 639.0, {}}).kernels.at(0).standing, Standing::too_costly);
     EXPECT_EQ(alone.choose({0.1, 3000.0, {}}).chosen->taps, 300U);
     Few beside;
     beside.ones["cheap"] = {20, [](std::size_t) { return cost_of(100.0); }};
-    beside.ones["dear"] = alone.ones["dear"];
-    EXPECT_EQ(beside.choose({0.1, {}, {}}).kernels.at(1).fate, Fate::dearer);
+    beside.ones["costly"] = alone.ones["costly"];
+    EXPECT_EQ(beside.choose({0.1, {}, {}}).kernels.at(1).standing, Standing::costlier);
 }
 
 TEST(Search, EachFateHasItsReason) {
@@ -344,7 +344,7 @@ TEST(Search, EachFateHasItsReason) {
                               return cost;
                           }};
     few.ones["small"] = {20, [](std::size_t) { return cost_of(130.0, 49.0); }};
-    few.ones["too dear"] = {20, [](std::size_t) { return cost_of(201.0, 50.0); }};
+    few.ones["too costly"] = {20, [](std::size_t) { return cost_of(201.0, 50.0); }};
     few.ones["too large"] = {20, [](std::size_t) { return cost_of(90.0, 61.0); }};
     few.ones["vague"] = {1000, [](std::size_t) { return cost_of(1.0, 1.0); }};
     const Choice found = few.choose({0.1, 200.0, 60.0});
@@ -352,31 +352,33 @@ TEST(Search, EachFateHasItsReason) {
     EXPECT_EQ(found.runner_up->kernel, "as good");
     EXPECT_FALSE(found.tie);
     EXPECT_TRUE(found.relaxed.empty());
-    std::map<std::string, std::pair<Fate, std::string>> fates;
-    for (const choose::Fared& fared : found.kernels) {
-        fates[fared.kernel] = {fared.fate, fared.why};
+    std::map<std::string, std::pair<Standing, std::string>> fates;
+    for (const choose::Outcome& outcome : found.kernels) {
+        fates[outcome.kernel] = {outcome.standing, outcome.why};
     }
-    const std::map<std::string, std::pair<Fate, std::string>> expected = {{"a", {Fate::chosen, ""}},
-                                                                          {"as good", {Fate::runner_up, ""}},
-                                                                          {"beaten", {Fate::dominated, "by a"}},
-                                                                          {"broken", {Fate::wrong, "other bits"}},
-                                                                          {"small", {Fate::dearer, ""}},
-                                                                          {"too dear", {Fate::too_dear, ""}},
-                                                                          {"too large", {Fate::too_large, ""}},
-                                                                          {"vague", {Fate::inaccurate, ""}}};
+    const std::map<std::string, std::pair<Standing, std::string>> expected = {
+        {"a", {Standing::chosen, ""}},
+        {"as good", {Standing::runner_up, ""}},
+        {"beaten", {Standing::dominated, "by a"}},
+        {"broken", {Standing::wrong, "other bits"}},
+        {"small", {Standing::costlier, ""}},
+        {"too costly", {Standing::too_costly, ""}},
+        {"too large", {Standing::too_large, ""}},
+        {"vague", {Standing::inaccurate, ""}}};
     EXPECT_EQ(fates, expected);
     EXPECT_EQ(few.choose({0.1, 201.0, 61.0}).chosen->kernel, "too large");  // exactly at the limits
     // Errors within one percent are the same: who errs less by that is dominated by who costs less.
-    for (const auto& [factor, expected_fate] : {std::pair(1.009, Fate::dominated), std::pair(1.011, Fate::dearer)}) {
+    for (const auto& [factor, expected_standing] :
+         {std::pair(1.009, Standing::dominated), std::pair(1.011, Standing::costlier)}) {
         const Candidate cheap{"cheap", 1, {factor * 1e-3, "step", {}}, cost_of(100.0, 50.0)};
-        const Candidate dear{"dear", 1, {1e-3, "step", {}}, cost_of(120.0, 50.0)};
-        EXPECT_EQ(choose::dominates(cheap, dear), expected_fate == Fate::dominated);
-        EXPECT_FALSE(choose::dominates(dear, cheap));
+        const Candidate costly{"costly", 1, {1e-3, "step", {}}, cost_of(120.0, 50.0)};
+        EXPECT_EQ(choose::dominates(cheap, costly), expected_standing == Standing::dominated);
+        EXPECT_FALSE(choose::dominates(costly, cheap));
     }
     // As good in each and better in none does not dominate.
     few.ones["beaten"] = few.ones["as good"] = few.ones["a"];
-    for (const choose::Fared& fared : few.choose({0.1, 200.0, 60.0}).kernels) {
-        EXPECT_NE(fared.fate, Fate::dominated) << fared.kernel;
+    for (const choose::Outcome& outcome : few.choose({0.1, 200.0, 60.0}).kernels) {
+        EXPECT_NE(outcome.standing, Standing::dominated) << outcome.kernel;
     }
 }
 
@@ -393,7 +395,7 @@ TEST(Search, WithinTheNoiseOfBothItIsATie) {
 // Nothing fits: what each limit alone would have to be, the least relaxation first.
 TEST(Relax, SaysWhatEachLimitAloneWouldHaveToBe) {
     Few few;
-    few.ones["dear"] = {100, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps), 40.0); }};
+    few.ones["costly"] = {100, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps), 40.0); }};
     few.ones["large"] = {50, [](std::size_t taps) { return cost_of(60.0, 2.0 * static_cast<double>(taps)); }};
     const Choice found = few.choose({0.1, 500.0, 50.0});
     ASSERT_FALSE(found.chosen);
@@ -401,7 +403,7 @@ TEST(Relax, SaysWhatEachLimitAloneWouldHaveToBe) {
     EXPECT_EQ(found.relaxed[0].limit, "max_cost");
     EXPECT_EQ(found.relaxed[0].from, 500.0);
     EXPECT_EQ(found.relaxed[0].to, 1000.0);
-    EXPECT_EQ(found.relaxed[0].fits.kernel, "dear");
+    EXPECT_EQ(found.relaxed[0].fits.kernel, "costly");
     EXPECT_EQ(found.relaxed[0].fits.taps, 100U);
     EXPECT_EQ(found.relaxed[1].limit, "max_bytes");
     EXPECT_EQ(found.relaxed[1].to, 100.0);
@@ -418,10 +420,10 @@ TEST(Relax, SaysWhatEachLimitAloneWouldHaveToBe) {
     EXPECT_EQ(none.relaxed[0].to, 1.0);
 }
 
-// A dear kernel that alone would do is measured where it does before a limit is named.
+// A costly kernel that alone would do is measured where it does before a limit is named.
 TEST(Relax, ADearKernelsCostIsThatOfTheLengthItNeeds) {
     Few few;
-    few.ones["dear"] = {300, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }, true};
+    few.ones["costly"] = {300, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }, true};
     const Choice found = few.choose({0.1, 600.0, {}});
     ASSERT_EQ(found.relaxed.size(), 2U);
     EXPECT_EQ(found.relaxed[0].limit, "max_cost");

@@ -24,8 +24,8 @@ for design in '0.5 100' '0.98319 51' '-0.5 62'; do
     expect 0 "the kernel's" generate --order "$1" --kernel '*' --taps "$2" --verify
     [ "$(grep -c "the kernel's" "$folder/said")" -ge 59 ] || fail "expected every kernel's header"
     # In software double GCC 14 saves up to six registers more around the calls of a whole sum.
-    dearer=$(awk "/the kernel's/ && (\$6 > \$5 * (\$1 ~ /64\$/ ? 1.001 : 1) || \$9 > \$8)" "$folder/said")
-    [ -z "$dearer" ] || fail "expected no header of more instructions or cycles than its kernel, found $dearer"
+    costlier=$(awk "/the kernel's/ && (\$6 > \$5 * (\$1 ~ /64\$/ ? 1.001 : 1) || \$9 > \$8)" "$folder/said")
+    [ -z "$costlier" ] || fail "expected no header of more instructions or cycles than its kernel, found $costlier"
 done
 expect 0 "the kernel's" generate --order 0.5 --kernel 'nested_*' --taps 300 --verify
 # Of three taps, where a branch that goes another way weighs most.

@@ -67,7 +67,8 @@ TEST(BlindRecords, AreWhatTheReadmeSays) {
 // At one level: the same one in both records, for what bends the input; a lag at any.
 TEST(BlindRecords, OfWhatIsTheSameHoldOneLevel) {
     for (std::size_t number = 1; number <= 4; ++number) {
-        const auto made = blind::make_case({Class::same, {"supply_sag"}, {blind::Size3::clear}, false}, 43, number);
+        const auto made =
+            blind::make_case({Class::same, {"supply_sag"}, {blind::EffectSize::clear}, false}, 43, number);
         EXPECT_TRUE(blind::has_one_level(made.truth.train) && blind::has_one_level(made.truth.validate));
         EXPECT_NE(made.truth.train, made.truth.validate);
         EXPECT_EQ(highest(drive::parse_log(made.train, "t").input),
@@ -78,24 +79,26 @@ TEST(BlindRecords, OfWhatIsTheSameHoldOneLevel) {
                                                   "supply_sag", "start_up_threshold"));
         EXPECT_TRUE(made.truth.parameters[0].contains("resistance"));
     }
-    const auto gain = blind::make_case({Class::same, {"gain_error"}, {blind::Size3::clear}, false}, 43, 9);
+    const auto gain = blind::make_case({Class::same, {"gain_error"}, {blind::EffectSize::clear}, false}, 43, 9);
     EXPECT_EQ(gain.truth.required, std::vector<std::string>{"gain_error"});
 }
 
 // An event's place is that in the validation record, from its beginning to its end.
 TEST(BlindRecords, SayWhereTheirEventsLie) {
-    const auto blown = blind::make_case({Class::single, {"load_disturbance"}, {blind::Size3::large}, false}, 44, 1);
+    const auto blown =
+        blind::make_case({Class::single, {"load_disturbance"}, {blind::EffectSize::large}, false}, 44, 1);
     EXPECT_EQ(blown.truth.from_s, blown.truth.parameters[0].at("from_s"));
     EXPECT_EQ(blown.truth.to_s, blown.truth.parameters[0].at("to_s"));
     const double until_s = drive::parse_log(blown.validate, "v").time_s.back();
     EXPECT_GE(blown.truth.from_s, 0.149 * until_s);
     EXPECT_LE(blown.truth.to_s, 0.901 * until_s);
-    const auto missed = blind::make_case({Class::single, {"missed_counts"}, {blind::Size3::large}, false}, 44, 2);
+    const auto missed = blind::make_case({Class::single, {"missed_counts"}, {blind::EffectSize::large}, false}, 44, 2);
     EXPECT_EQ(missed.truth.from_s, missed.truth.parameters[0].at("at_s"));
     EXPECT_NEAR(missed.truth.to_s / drive::parse_log(missed.validate, "v").time_s.back(), 1.0, 2e-3);
     // What bends the input is asked at several levels, and not by two of them alone.
     for (std::size_t number = 1; number <= 4; ++number) {
-        const auto bent = blind::make_case({Class::single, {"input_curve"}, {blind::Size3::large}, false}, 45, number);
+        const auto bent =
+            blind::make_case({Class::single, {"input_curve"}, {blind::EffectSize::large}, false}, 45, number);
         for (const std::string& kind : {bent.truth.train, bent.truth.validate}) {
             EXPECT_FALSE(blind::has_one_level(kind));
             EXPECT_NE(kind, "prbs");

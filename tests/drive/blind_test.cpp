@@ -218,7 +218,7 @@ TEST(BlindCases, WithoutAnEffectAreTheirModelAndNoise) {
 }
 
 TEST(BlindCases, AreFixedByTheirSeed) {
-    const blind::Plan plan{Class::single, {"backlash"}, {blind::Size3::clear}, false};
+    const blind::Plan plan{Class::single, {"backlash"}, {blind::EffectSize::clear}, false};
     const blind::Case once = blind::make_case(plan, 3, 7);
     const blind::Case again = blind::make_case(plan, 3, 7);
     EXPECT_EQ(once.train, again.train);
@@ -237,7 +237,7 @@ TEST(BlindCases, ShowTheirEffects) {
     for (const std::string& effect : all) {
         ++number;
         const bool listed = number <= blind::listed_effects().size();
-        const blind::Plan plan{listed ? Class::single : Class::unlisted, {effect}, {blind::Size3::clear}, false};
+        const blind::Plan plan{listed ? Class::single : Class::unlisted, {effect}, {blind::EffectSize::clear}, false};
         const blind::Case made = blind::make_case(plan, 21, number);
         EXPECT_GE(made.truth.train_deviation, 1.0) << effect;
         EXPECT_GE(made.truth.validate_deviation, 1.0) << effect;
@@ -257,7 +257,7 @@ TEST(BlindCases, ShowTheirEffects) {
 }
 
 TEST(BlindCases, ThatAreTheSameAsOthersHoldOneLevel) {
-    const blind::Plan plan{Class::same, {"input_dead_zone"}, {blind::Size3::clear}, false};
+    const blind::Plan plan{Class::same, {"input_dead_zone"}, {blind::EffectSize::clear}, false};
     const blind::Case made = blind::make_case(plan, 5, 1);
     EXPECT_THAT(made.truth.required, testing::UnorderedElementsAre("gain_error", "input_dead_zone"));
     std::map<double, int> levels;
@@ -268,17 +268,18 @@ TEST(BlindCases, ThatAreTheSameAsOthersHoldOneLevel) {
     }
     EXPECT_EQ(levels.size(), 2U);
     for (const char* effect : {"gain_error", "input_saturation", "input_curve", "supply_sag"}) {
-        EXPECT_GE(blind::make_case({Class::same, {effect}, {blind::Size3::clear}, false}, 5, 3).truth.train_deviation,
-                  1.0)
+        EXPECT_GE(
+            blind::make_case({Class::same, {effect}, {blind::EffectSize::clear}, false}, 5, 3).truth.train_deviation,
+            1.0)
             << effect;
     }
-    const blind::Case lag = blind::make_case({Class::same, {"sensor_lag"}, {blind::Size3::large}, false}, 5, 2);
+    const blind::Case lag = blind::make_case({Class::same, {"sensor_lag"}, {blind::EffectSize::large}, false}, 5, 2);
     EXPECT_THAT(lag.truth.required, testing::UnorderedElementsAre("actuator_lag", "sensor_lag"));
 }
 
 TEST(BlindCases, PairsAreSeenEachBesideTheOther) {
     const blind::Plan plan{
-        Class::pair, {"backlash", "input_dead_zone"}, {blind::Size3::clear, blind::Size3::clear}, false};
+        Class::pair, {"backlash", "input_dead_zone"}, {blind::EffectSize::clear, blind::EffectSize::clear}, false};
     const blind::Case made = blind::make_case(plan, 9, 4);
     EXPECT_EQ(made.truth.parameters.size(), 2U);
     EXPECT_TRUE(made.truth.parameters[0].contains("gap"));
@@ -288,8 +289,8 @@ TEST(BlindCases, PairsAreSeenEachBesideTheOther) {
 TEST(BlindCases, AreSealedAsTheyAreOpened) {
     std::vector<blind::Truth> truths{
         blind::make_case({}, 2, 1).truth,
-        blind::make_case({Class::single, {"load_disturbance"}, {blind::Size3::large}, false}, 2, 2).truth,
-        blind::make_case({Class::same, {"gain_error"}, {blind::Size3::large}, false}, 2, 3).truth};
+        blind::make_case({Class::single, {"load_disturbance"}, {blind::EffectSize::large}, false}, 2, 2).truth,
+        blind::make_case({Class::same, {"gain_error"}, {blind::EffectSize::large}, false}, 2, 3).truth};
     const auto opened = blind::parse_sealed(blind::seal(2, truths), "truth.sealed.json");
     ASSERT_EQ(opened.size(), 3U);
     EXPECT_EQ(opened[0].name, "001");

@@ -175,7 +175,7 @@ TEST(Drawn, OvensLieBetweenTheirBounds) {
         outputs.insert(rig->output);
         const auto drawn = [&](const char* effect) {
             Chance same(seed, 6);
-            return rig->draw(effect, blind::Size3::clear, false, same);
+            return rig->draw(effect, blind::EffectSize::clear, false, same);
         };
         const double vary = drawn("dead_time_error").at("extra_s") / (0.15 * rig->tau_s);
         const double rise_k = std::fabs(drawn("sensor_offset").at("offset")) / (0.06 * vary);
@@ -222,7 +222,7 @@ TEST(Drawn, TanksLieBetweenTheirBounds) {
         kinds.insert(rig->plant);
         const auto drawn = [&](const char* effect) {
             Chance same(seed, 6);
-            return rig->draw(effect, blind::Size3::clear, false, same);
+            return rig->draw(effect, blind::EffectSize::clear, false, same);
         };
         const double vary = drawn("dead_time_error").at("extra_s") / (0.15 * rig->tau_s);
         const double full_cm = std::fabs(drawn("sensor_offset").at("offset")) / (0.06 * vary);

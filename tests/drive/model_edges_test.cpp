@@ -301,7 +301,7 @@ TEST(SimulationEdges, DelaysAndRecordsEndWhereTheySay) {
 TEST(SealedTruth, IsWrittenWithEveryField) {
     namespace blind = stand::blind;
     blind::Truth truth;
-    truth.plan = {blind::Class::same, {"input_curve"}, {blind::Size3::clear}, true};
+    truth.plan = {blind::Class::same, {"input_curve"}, {blind::EffectSize::clear}, true};
     truth.parameters = {{{"curvature", 0.5}}};
     truth.required = {"gain_error", "input_curve"};
     truth.allowed = {"gain_error", "input_curve", "supply_sag"};
@@ -347,7 +347,8 @@ TEST(SealedTruth, WithoutAModelIsWrittenWithEveryField) {
     namespace blind = stand::blind;
     blind::OpenTruth truth;
     truth.domain = "thermal";
-    truth.plan = {blind::Class::pair, {"rate_limit", "melting"}, {blind::Size3::small, blind::Size3::large}, false};
+    truth.plan = {
+        blind::Class::pair, {"rate_limit", "melting"}, {blind::EffectSize::small, blind::EffectSize::large}, false};
     truth.parameters = {{{"per_s", 0.5}}, {{"share", 2.0}}};
     truth.plant = "body";
     truth.train = {"ramp", "prbs"};

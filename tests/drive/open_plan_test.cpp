@@ -17,10 +17,10 @@ namespace {
 
 namespace blind = stand::blind;
 using blind::Class;
-using blind::Size3;
+using blind::EffectSize;
 
 // Cards of one deck come as often as another but for once.
-void expect_dealt_evenly(const std::map<std::pair<std::string, Size3>, int>& cards, std::size_t all) {
+void expect_dealt_evenly(const std::map<std::pair<std::string, EffectSize>, int>& cards, std::size_t all) {
     EXPECT_EQ(cards.size(), all);
     int least = 1'000'000;
     int most = 0;
@@ -33,7 +33,7 @@ void expect_dealt_evenly(const std::map<std::pair<std::string, Size3>, int>& car
 
 TEST(Plans, HoldTheirSharesOfNearlyAThousand) {
     std::map<Class, int> kinds;
-    std::map<std::pair<std::string, Size3>, int> singles, unlisted, same;
+    std::map<std::pair<std::string, EffectSize>, int> singles, unlisted, same;
     int new_profiles = 0;
     for (const auto& plan : blind::plan_cases(999, 3)) {
         ++kinds[plan.kind];
@@ -41,8 +41,8 @@ TEST(Plans, HoldTheirSharesOfNearlyAThousand) {
         EXPECT_EQ(plan.effects.size(), plan.sizes.size());
         if (plan.kind == Class::pair) {
             EXPECT_TRUE(blind::pairs_with(plan.effects[0], plan.effects[1]));
-            EXPECT_NE(plan.sizes[0], Size3::small);
-            EXPECT_NE(plan.sizes[1], Size3::small);
+            EXPECT_NE(plan.sizes[0], EffectSize::small);
+            EXPECT_NE(plan.sizes[1], EffectSize::small);
         } else if (plan.kind != Class::none) {
             ++(plan.kind == Class::single     ? singles
                : plan.kind == Class::unlisted ? unlisted
@@ -74,8 +74,8 @@ TEST(OpenPlans, HoldTheirSharesOfNearlyAThousand) {
             EXPECT_TRUE(blind::pairs_with(plan.plan.effects[0], plan.plan.effects[1]));
         }
         if (plan.plan.kind == Class::pair || plan.plan.kind == Class::taken_up) {
-            for (const Size3 size : plan.plan.sizes) {
-                EXPECT_NE(size, Size3::small);
+            for (const EffectSize size : plan.plan.sizes) {
+                EXPECT_NE(size, EffectSize::small);
             }
         }
         EXPECT_FALSE(plan.plan.new_profile);
@@ -124,9 +124,9 @@ TEST(Pairs, AreOfEffectsInDifferentPlaces) {
     EXPECT_FALSE(blind::needs_linear_plant("start_up_time"));
     EXPECT_TRUE(blind::needs_linear_plant("hum"));
     EXPECT_FALSE(blind::needs_linear_plant("backlash"));
-    EXPECT_STREQ(blind::name_of(Size3::small), "small");
-    EXPECT_STREQ(blind::name_of(Size3::clear), "clear");
-    EXPECT_STREQ(blind::name_of(Size3::large), "large");
+    EXPECT_STREQ(blind::name_of(EffectSize::small), "small");
+    EXPECT_STREQ(blind::name_of(EffectSize::clear), "clear");
+    EXPECT_STREQ(blind::name_of(EffectSize::large), "large");
 }
 
 // (b0 + b1 T s) / (T^2 s^2 + 2 zeta T s + 1) e^(-delay s) and an offset, from its exact response.

@@ -10,8 +10,8 @@
 #include "base/failure.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/response.hpp"
-#include "modes/design.hpp"
-#include "modes/merged.hpp"
+#include "glsum/design/merged.hpp"
+#include "glsum/design/modes.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {
@@ -122,7 +122,7 @@ TEST(Simulate, AMergedTableIsTheSumOfTheOrders) {
             ASSERT_NEAR(apart[k], fixed[k], 5e-2) << k;
         }
     }
-    // The nested form takes it too, but not in fixed point, where nothing bounds its sums.
+    // The Horner form takes it too, but not in fixed point, where nothing bounds its sums.
     const auto apart = stepped(undelayed(), {.kernel = "ring_oldest_f64"}, 1.0);
     const auto nested = stepped(undelayed(), {.merged = true, .kernel = "ring_horner_f64"}, 1.0);
     for (std::size_t k = 0; k < apart.size(); ++k) {
@@ -171,12 +171,12 @@ TEST(Simulate, OneTableWithModesIsItsRecursion) {
     const auto found =
         stepped(model, {.taps = 17, .increments = true, .merged = true, .kernel = "modes_plain_f64"}, 2.0);
     const std::size_t count = found.size();
-    const std::size_t wanted = glsum::modes::modes_within(0.5, 16);
+    const std::size_t wanted = glsum::design::modes_within(0.5, 16);
     const std::size_t near_taps = 17 - 2 * wanted;
-    const std::vector<glsum::modes::Term> terms = {{0.18234, 1.9909}, {0.65536, 0.98319}};
-    const auto gl = glsum::modes::Discretisation::grunwald_letnikov;
-    const std::vector<double> weights = glsum::modes::merged_weights(terms, h, gl, near_taps);
-    const auto table = glsum::modes::approximate_merged(terms, h, gl, count, near_taps, wanted);
+    const std::vector<glsum::design::Term> terms = {{0.18234, 1.9909}, {0.65536, 0.98319}};
+    const auto gl = glsum::design::Discretisation::grunwald_letnikov;
+    const std::vector<double> weights = glsum::design::merged_weights(terms, h, gl, near_taps);
+    const auto table = glsum::design::approximate_merged(terms, h, gl, count, near_taps, wanted);
     ASSERT_GT(table.modes.size(), 4U);
     std::vector<double> memories(table.modes.size(), 0.0);
     std::vector<double> moved(count, 0.0);

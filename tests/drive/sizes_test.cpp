@@ -17,8 +17,8 @@
 namespace {
 
 namespace blind = stand::blind;
+using blind::EffectSize;
 using blind::Parameters;
-using blind::Size3;
 using stand::Chance;
 
 /// The least and the largest of what was seen.
@@ -41,7 +41,7 @@ void expect_fills(const Range& range, double low, double high, const std::string
     EXPECT_GE(range.most, high - near_high) << what;
 }
 
-using Draw = std::function<Parameters(const std::string& effect, Size3 size, Chance& chance)>;
+using Draw = std::function<Parameters(const std::string& effect, EffectSize size, Chance& chance)>;
 using Measure = std::function<double(const Parameters& drawn)>;
 
 enum class Sides { one, both };
@@ -63,8 +63,9 @@ struct Spread {
 void expect_sizes(const std::vector<Row>& rows, const Draw& draw) {
     for (const Row& row : rows) {
         Chance chance(5, 17);
-        for (const auto& [size, middle] : {std::pair(Size3::small, row.small), std::pair(Size3::clear, row.clear),
-                                           std::pair(Size3::large, row.large)}) {
+        for (const auto& [size, middle] :
+             {std::pair(EffectSize::small, row.small), std::pair(EffectSize::clear, row.clear),
+              std::pair(EffectSize::large, row.large)}) {
             Range drawn;
             int above = 0;
             constexpr int draws = 800;
@@ -88,7 +89,7 @@ void expect_spreads(const std::vector<Spread>& spreads, const Draw& draw) {
         Chance chance(7, 17);
         Range drawn;
         for (int k = 0; k < 3000; ++k) {
-            drawn.see(spread.of(draw(spread.effect, Size3::clear, chance)));
+            drawn.see(spread.of(draw(spread.effect, EffectSize::clear, chance)));
         }
         expect_fills(drawn, spread.low, spread.high, spread.effect);
     }
@@ -127,7 +128,7 @@ constexpr blind::Scale scale{.full_input = 3.0,
                              .until_s = 40.0,
                              .charge = 60.0};
 
-Parameters of_a_machine(const std::string& effect, Size3 size, Chance& chance) {
+Parameters of_a_machine(const std::string& effect, EffectSize size, Chance& chance) {
     return blind::draw_parameters(effect, size, scale, false, chance);
 }
 
@@ -192,8 +193,8 @@ TEST(EffectSizes, OfAMachineAreInItsOwnUnits) {
     EXPECT_EQ(sized, all);
     const auto angle = number("angle_per_unit", 1.0 / y);
     for (const auto& [size, low, high] :
-         {std::tuple(Size3::small, 0.85 * 0.45, 1.15 * 0.45), std::tuple(Size3::clear, 0.85 * 0.65, 1.15 * 0.65),
-          std::tuple(Size3::large, 0.85 * 0.82, 0.92)}) {
+         {std::tuple(EffectSize::small, 0.85 * 0.45, 1.15 * 0.45),
+          std::tuple(EffectSize::clear, 0.85 * 0.65, 1.15 * 0.65), std::tuple(EffectSize::large, 0.85 * 0.82, 0.92)}) {
         Chance chance(5, 17);
         Range drawn;
         for (int k = 0; k < 1500; ++k) {
@@ -212,24 +213,24 @@ TEST(EffectSizes, OfAMachineAreInItsOwnUnits) {
 }
 
 TEST(EffectSizes, AtOneLevelBendWhereTheLevelIsNot) {
-    const auto at_one_level = [](const std::string& effect, Size3 size, Chance& chance) {
+    const auto at_one_level = [](const std::string& effect, EffectSize size, Chance& chance) {
         return blind::draw_parameters(effect, size, scale, true, chance);
     };
     expect_sizes({{"supply_sag", 0.05, 0.12, 0.25, Sides::one, number("resistance", 1.0 / scale.full_input)}},
                  at_one_level);
     Chance chance(1, 1);
-    EXPECT_DOUBLE_EQ(at_one_level("input_curve", Size3::clear, chance).at("reference"), 1.6 * scale.full_input);
-    EXPECT_EQ(of_a_machine("input_curve", Size3::clear, chance).at("reference"), scale.full_input);
-    EXPECT_EQ(of_a_machine("output_curve", Size3::clear, chance).at("reference"), scale.full_output);
+    EXPECT_DOUBLE_EQ(at_one_level("input_curve", EffectSize::clear, chance).at("reference"), 1.6 * scale.full_input);
+    EXPECT_EQ(of_a_machine("input_curve", EffectSize::clear, chance).at("reference"), scale.full_input);
+    EXPECT_EQ(of_a_machine("output_curve", EffectSize::clear, chance).at("reference"), scale.full_output);
     // A resonance that a sampled record could not show is slower: a fifth of the samples at most.
     blind::Scale quick = scale;
     quick.tau_s = 0.01;
-    EXPECT_EQ(blind::draw_parameters("structural_resonance", Size3::clear, quick, false, chance).at("hz"),
+    EXPECT_EQ(blind::draw_parameters("structural_resonance", EffectSize::clear, quick, false, chance).at("hz"),
               0.2 / scale.interval_s);
 }
 
 TEST(EffectSizes, EventsLieWithinTheirRecord) {
-    const auto event = [](const std::string& effect, Size3, Chance& chance) {
+    const auto event = [](const std::string& effect, EffectSize, Chance& chance) {
         Parameters drawn;
         blind::draw_event(effect, drawn, scale, chance);
         return drawn;
@@ -240,7 +241,7 @@ TEST(EffectSizes, EventsLieWithinTheirRecord) {
                     {"missed_counts", 0.15, 0.75, number("at_s", scale.until_s)}},
                    event);
     Chance chance(1, 1);
-    EXPECT_TRUE(event("backlash", Size3::clear, chance).empty());
+    EXPECT_TRUE(event("backlash", EffectSize::clear, chance).empty());
 }
 
 TEST(EffectSizes, GoToTheirPlace) {
@@ -283,14 +284,16 @@ Shown shown_by(const blind::Rig& rig) {
     const double top = rig.read({}, full, {}, 1).back();
     // As small as a thousandth of the clear size, so that nothing is empty.
     Chance chance(1, 1);
-    const double size = 0.001 * rig.draw("load_disturbance", Size3::clear, false, chance).at("size");
+    const double size = 0.001 * rig.draw("load_disturbance", EffectSize::clear, false, chance).at("size");
     const blind::Fault disturbed{"load_disturbance", {{"size", size}, {"from_s", 0.0}, {"to_s", until_s}}};
     const double less = rig.read(std::vector{disturbed}, full, {}, 1).back();
     return {rest, top - rest, (top - less) / (top - rest) / size};
 }
 
 Draw drawn_by(const blind::Rig& rig) {
-    return [&](const std::string& effect, Size3 size, Chance& chance) { return rig.draw(effect, size, false, chance); };
+    return [&](const std::string& effect, EffectSize size, Chance& chance) {
+        return rig.draw(effect, size, false, chance);
+    };
 }
 
 std::vector<Row> common_rows(const blind::Rig& rig, const Shown& shown) {
@@ -372,8 +375,9 @@ TEST(EffectSizes, OfAnOvenAreInItsOwnUnits) {
                         {"mains_swing", 2.0, 6.0, number("period_s", tau_s)}},
                        drawn_by(*rig));
         Chance once(1, 1);
-        EXPECT_DOUBLE_EQ(rig->draw("input_curve", Size3::clear, true, once).at("reference"), 1.6 * rig->full_input);
-        EXPECT_EQ(rig->draw("input_curve", Size3::clear, false, once).at("reference"), rig->full_input);
+        EXPECT_DOUBLE_EQ(rig->draw("input_curve", EffectSize::clear, true, once).at("reference"),
+                         1.6 * rig->full_input);
+        EXPECT_EQ(rig->draw("input_curve", EffectSize::clear, false, once).at("reference"), rig->full_input);
     }
     EXPECT_TRUE(radiated && bent);
 }
@@ -404,8 +408,8 @@ TEST(EffectSizes, OfTanksAreInTheirOwnUnits) {
     expect_every_effect_is_sized(blind::hydraulic_family(), rows);
     Range small, large;
     for (int k = 0; k < 1500; ++k) {
-        small.see(rig->draw("output_curve", Size3::small, false, chance).at("root_share"));
-        large.see(rig->draw("output_curve", Size3::large, false, chance).at("root_share"));
+        small.see(rig->draw("output_curve", EffectSize::small, false, chance).at("root_share"));
+        large.see(rig->draw("output_curve", EffectSize::large, false, chance).at("root_share"));
     }
     expect_fills(small, 0.85 * 0.4, 1.15 * 0.4, "output_curve");
     expect_fills(large, 0.85 * 0.95, 1.0, "output_curve");
@@ -417,9 +421,9 @@ TEST(EffectSizes, OfTanksAreInTheirOwnUnits) {
                     {"pulsing_inflow", 3.0, 9.0, number("period_s", tau_s)},
                     {"bubbles", 0.8, 2.5, number("for_s", tau_s)}},
                    drawn_by(*rig));
-    EXPECT_DOUBLE_EQ(rig->draw("input_curve", Size3::clear, true, chance).at("reference"), 1.6 * u);
-    EXPECT_EQ(rig->draw("input_curve", Size3::clear, false, chance).at("reference"), u);
-    const Parameters stiction = rig->draw("valve_stiction", Size3::clear, false, chance);
+    EXPECT_DOUBLE_EQ(rig->draw("input_curve", EffectSize::clear, true, chance).at("reference"), 1.6 * u);
+    EXPECT_EQ(rig->draw("input_curve", EffectSize::clear, false, chance).at("reference"), u);
+    const Parameters stiction = rig->draw("valve_stiction", EffectSize::clear, false, chance);
     EXPECT_EQ(stiction.at("jump"), stiction.at("band"));  // it moves all the way
 }
 

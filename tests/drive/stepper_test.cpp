@@ -8,8 +8,8 @@
 #include <random>
 #include <vector>
 
-#include "model/controller.hpp"
-#include "model/stepper.hpp"
+#include "glsum/model/controller.hpp"
+#include "glsum/model/stepper.hpp"
 
 namespace {
 

@@ -332,7 +332,7 @@ TEST(Families, KnowTheirEffects) {
                     stand::Chance chance(seed, 9);
                     const auto rig = family->draw({effect}, chance);
                     rig->clock.until_s /= 4.0;
-                    blind::Fault fault{effect, rig->draw(effect, blind::Size3::large, false, chance)};
+                    blind::Fault fault{effect, rig->draw(effect, blind::EffectSize::large, false, chance)};
                     if (effect == "load_disturbance") {
                         fault.parameters["from_s"] = 0.2 * rig->clock.until_s;
                         fault.parameters["to_s"] = 0.5 * rig->clock.until_s;
@@ -354,7 +354,7 @@ TEST(Families, KnowTheirEffects) {
 }
 
 blind::OpenPlan plan_of(const blind::Family& family, Class kind, std::vector<std::string> effects = {}) {
-    const std::vector<blind::Size3> sizes(effects.size(), blind::Size3::clear);
+    const std::vector<blind::EffectSize> sizes(effects.size(), blind::EffectSize::clear);
     return {&family, {kind, std::move(effects), sizes, false}};
 }
 
@@ -408,7 +408,7 @@ TEST(OpenCases, ShowTheirEffectsAndNameNone) {
 TEST(OpenCases, AreDrawnAgainWhereLittleShows) {
     for (std::size_t number = 1; number <= 12; ++number) {
         blind::OpenPlan plan = plan_of(blind::thermal_family(), Class::single, {"dropped_samples"});
-        plan.plan.sizes = {blind::Size3::small};
+        plan.plan.sizes = {blind::EffectSize::small};
         const auto made = blind::make_open_case(plan, 31, number);
         EXPECT_GE(made.truth.left_on_validation, blind::least_left_on_validation) << number;
         EXPECT_GE(made.truth.left_in_training, blind::least_left_in_training) << number;

@@ -16,9 +16,9 @@
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
+#include "glsum/design/blocks.hpp"
+#include "glsum/design/modes.hpp"
 #include "glsum/registry.hpp"
-#include "modes/blocks.hpp"
-#include "modes/design.hpp"
 
 namespace {
 
@@ -98,7 +98,7 @@ TEST(Header, DesignsSayTheirErrorOverTheHorizon) {
     const std::string words = "of that sum against full memory (5000 samples from rest): ";
     const auto of_modes = [](const char* kernel, double order, std::size_t taps, double of_weights) {
         const std::size_t modes = bench::length_of(kernel, order, taps, horizon).modes.value();
-        return glsum::modes::approximate({of_weights, horizon}, taps - 2 * modes, modes).error;
+        return glsum::design::approximate({of_weights, horizon}, taps - 2 * modes, modes).error;
     };
     // Three digits, rounded up.
     EXPECT_NEAR(number_behind(header("modes_plain_f32", 0.5, 16), words) / of_modes("modes_plain_f32", 0.5, 16, 0.5),
@@ -107,7 +107,7 @@ TEST(Header, DesignsSayTheirErrorOverTheHorizon) {
                     (2.0 * of_modes("modesdelta_plain_f32", 0.5, 16, -0.5)),
                 1.0, 0.01);
     EXPECT_NEAR(number_behind(header("nested_plain_f32", 0.5, 16), words) /
-                    glsum::modes::design_blocks({0.5, horizon}, 16).error,
+                    glsum::design::design_blocks({0.5, horizon}, 16).error,
                 1.0, 0.01);
     EXPECT_THAT(header("modes_plain_f32", 0.5, 16), HasSubstr("of these taps and modes, as designed in double"));
     EXPECT_THAT(header("nested_plain_f32", 0.5, 16), HasSubstr("of these taps and blocks"));

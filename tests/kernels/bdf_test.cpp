@@ -1,5 +1,5 @@
 // Weights of higher order: published values, closed forms, and an oracle that makes them another way.
-#include "modes/bdf.hpp"
+#include "glsum/design/bdf.hpp"
 
 #include <gtest/gtest.h>
 
@@ -14,9 +14,9 @@
 
 namespace {
 
-using glsum::modes::bdf_first_weight;
-using glsum::modes::bdf_increment_weights;
-using glsum::modes::bdf_weights;
+using glsum::design::bdf_first_weight;
+using glsum::design::bdf_increment_weights;
+using glsum::design::bdf_weights;
 using reference::Real;
 
 // w_j of order 1: the formulas themselves, as in every table of them.

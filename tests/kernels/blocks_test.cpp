@@ -1,5 +1,5 @@
 // Which layout of near taps and blocks is the best, and how good it is.
-#include "modes/blocks.hpp"
+#include "glsum/design/blocks.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 using glsum::Blocks;
 
 TEST(Blocks, AreLaidOutForTheLeastError) {
-    const auto of_step = [](const glsum::modes::BlockDesign& found) {
+    const auto of_step = [](const glsum::design::BlockDesign& found) {
         constexpr std::size_t samples = 5000;
         const glsum::Design design = glsum::Design{0.5, found.near_taps + found.blocks.count, {}, {}, found.blocks};
         const auto full = reference::weights(reference::Real(0.5), samples);
@@ -36,7 +36,7 @@ TEST(Blocks, AreLaidOutForTheLeastError) {
                  {32, 11, 21, 2, 1.77e-2, 9.75e-4},
                  {128, 55, 73, 9, 1.55e-3, 2.79e-5}};
     for (const auto& one : known) {
-        const auto found = glsum::modes::design_blocks({0.5, 5000}, one.taps);
+        const auto found = glsum::design::design_blocks({0.5, 5000}, one.taps);
         EXPECT_EQ(found.near_taps, one.near_taps) << one.taps;
         EXPECT_EQ(found.blocks, (Blocks{one.blocks, one.per_level})) << one.taps;
         EXPECT_NEAR(found.error, one.error, 0.005 * one.error);
@@ -46,9 +46,9 @@ TEST(Blocks, AreLaidOutForTheLeastError) {
     EXPECT_NEAR(of_step({4, {12, 1}, 0.0}), 6.3e-3, 0.1e-3);
     EXPECT_NEAR(of_step({12, {12, 1}, 0.0}), 2.3e-3, 0.1e-3);
     // Nothing is left to gain where the weights end, and no block where the window holds all of them.
-    EXPECT_EQ(glsum::modes::design_blocks({2.0, 5000}, 8).blocks.count, 0U);
-    EXPECT_EQ(glsum::modes::design_blocks({0.5, 50}, 51).error, 0.0);
-    EXPECT_EQ(glsum::modes::design_blocks({0.5, 50}, 60).near_taps, 60U);
+    EXPECT_EQ(glsum::design::design_blocks({2.0, 5000}, 8).blocks.count, 0U);
+    EXPECT_EQ(glsum::design::design_blocks({0.5, 50}, 51).error, 0.0);
+    EXPECT_EQ(glsum::design::design_blocks({0.5, 50}, 60).near_taps, 60U);
 }
 
 // Against every layout that there is: the rule's few candidates lose next to nothing.
@@ -61,16 +61,16 @@ TEST(Blocks, TheLayoutsThatAreTriedHoldTheBest) {
             weights.push_back(walk.weight());
         }
         for (const std::size_t taps : {3U, 6U, 10U, 14U, 20U}) {
-            double best = glsum::modes::error_of(weights, taps, {}, horizon);
+            double best = glsum::design::error_of(weights, taps, {}, horizon);
             for (std::size_t count = 1; count < taps; ++count) {
                 for (std::size_t per_level = 1; per_level <= count; ++per_level) {
                     const Blocks blocks{count, per_level};
                     if (glsum::reach_of(taps - count, blocks) < weights.size()) {
-                        best = std::min(best, glsum::modes::error_of(weights, taps - count, blocks, horizon));
+                        best = std::min(best, glsum::design::error_of(weights, taps - count, blocks, horizon));
                     }
                 }
             }
-            EXPECT_LE(glsum::modes::design_blocks({order, horizon}, taps).error, 1.05 * best) << order << " " << taps;
+            EXPECT_LE(glsum::design::design_blocks({order, horizon}, taps).error, 1.05 * best) << order << " " << taps;
         }
     }
 }

@@ -290,7 +290,7 @@ TEST(Roundings, AreThoseOfTheOrderOfTheSum) {
         EXPECT_EQ(HornerFma::sum_roundings<F32>(j, taps), j + 1) << j;
         EXPECT_EQ(HornerSplit::sum_roundings<F32>(j, taps), 2 * (j / 4 + 1) + 4) << j;
         EXPECT_EQ(Compensated::sum_roundings<F32>(j, taps), 3U) << j;  // whatever the length, up to thousands
-        // Coefficients that are its factors: one, or of the nested forms each on its way.
+        // Coefficients that are its factors: one, or of the Horner forms each on its way.
         EXPECT_EQ(Plain::coefficient_roundings(j), product);
         EXPECT_EQ(Horner::coefficient_roundings(j), j);
         EXPECT_EQ(HornerSplit::coefficient_roundings(j), j == 0 ? 0 : (j + 3) / 4);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "bench/sweep/signals.hpp"
-#include "modes/bdf.hpp"
+#include "glsum/design/bdf.hpp"
 #include "reference/bdf.hpp"
 
 namespace test {
@@ -86,22 +86,23 @@ std::vector<HigherOrderReference> higher_order_references(const std::filesystem:
     constexpr std::size_t samples = 300;
     for (unsigned steps = 2; steps <= 4; ++steps) {
         for (const double order : {0.2, 0.5, 0.98319, 1.5, 1.9909, -0.5}) {
-            auto named = increments ? glsum::modes::bdf_increment_weights(steps, order, samples)
-                                    : glsum::modes::bdf_weights(steps, order, samples);
+            auto named = increments ? glsum::design::bdf_increment_weights(steps, order, samples)
+                                    : glsum::design::bdf_weights(steps, order, samples);
             named.erase(named.begin());
             const auto weights = writes ? reference::bdf_weights(steps, Real(order), samples) : std::vector<Real>();
             for (const std::size_t taps : {7U, 50U, 150U}) {
                 for (const std::string_view signal : {"step", "sine50", "noise"}) {
                     const auto record = bench::make_signal(signal, samples, 1);
                     made.push_back({steps, order, taps, named, record, store.sums(samples, [&] {
-                        // Of increments the differences of the weights' sums, which end with the taps.
-                        std::vector<Real> near(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(taps));
-                        if (increments) {
-                            near.push_back(-std::accumulate(near.begin(), near.end(), Real(0)));
-                        }
-                        const std::size_t reach[] = {near.size()};
-                        return reference::sums(near, record, reach).front();
-                    })});
+                                        // Of increments the differences of the weights' sums, which end with the taps.
+                                        std::vector<Real> near(weights.begin(),
+                                                               weights.begin() + static_cast<std::ptrdiff_t>(taps));
+                                        if (increments) {
+                                            near.push_back(-std::accumulate(near.begin(), near.end(), Real(0)));
+                                        }
+                                        const std::size_t reach[] = {near.size()};
+                                        return reference::sums(near, record, reach).front();
+                                    })});
                 }
             }
         }

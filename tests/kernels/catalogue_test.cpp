@@ -70,7 +70,7 @@ TEST(Catalogue, SaysWhatIsKeptAndWhatIsForgotten) {
     EXPECT_EQ(histories_of(Forgotten::increments), (Words{"mirrordelta", "modesdelta"}));
     EXPECT_EQ(histories_of(Forgotten::held), Words{"mirrorhold"});
     EXPECT_EQ(histories_of(Forgotten::line), Words{"mirrorlinear"});
-    EXPECT_EQ(histories_of([](const CatalogueEntry& entry) { return entry.running_sum; }), Words{"modessum"});
+    EXPECT_EQ(histories_of([](const CatalogueEntry& entry) { return entry.integrator; }), Words{"modessum"});
 }
 
 TEST(Catalogue, SaysWhichNumbersAKernelComputesIn) {

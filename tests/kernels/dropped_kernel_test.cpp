@@ -5,7 +5,7 @@
 
 #include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 #include "reference/dropped.hpp"
 #include "tests/kernels/registered.hpp"
 
@@ -69,12 +69,12 @@ template <class K>
 std::vector<Design> designs(double order) {
     std::vector<Design> all = {{order, 1}, {order, 2}, {order, 7}, {order, 50}};
     if constexpr (glsum::keeps_modes<typename K::HistoryPart>) {
-        static std::vector<glsum::modes::Approximation> made;  // one at a time: a test takes its designs in turn
+        static std::vector<glsum::design::Approximation> made;  // one at a time: a test takes its designs in turn
         made.clear();
         made.reserve(3);
         for (const double error : {1e-2, 1e-4, 1e-6}) {
-            if (glsum::modes::has_tail(order - 1.0)) {
-                made.push_back(*glsum::modes::design({order - 1.0, 1000}, error));
+            if (glsum::design::has_tail(order - 1.0)) {
+                made.push_back(*glsum::design::design_modes({order - 1.0, 1000}, error));
                 all.push_back({order, made.back().length(), made.back().modes});
             }
         }

@@ -1,5 +1,5 @@
 // Modes for weights of higher order: the certificate, and what an error costs.
-#include "modes/fitted.hpp"
+#include "glsum/design/fitted.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,22 +8,22 @@
 #include <set>
 #include <vector>
 
-#include "modes/bdf.hpp"
-#include "modes/design.hpp"
+#include "glsum/design/bdf.hpp"
+#include "glsum/design/modes.hpp"
 
 namespace {
 
-using glsum::modes::approximate_fitted;
-using glsum::modes::bdf_increment_weights;
-using glsum::modes::bdf_weights;
-using glsum::modes::design_fitted;
+using glsum::design::approximate_fitted;
+using glsum::design::bdf_increment_weights;
+using glsum::design::bdf_weights;
+using glsum::design::design_fitted;
 
 TEST(FittedModes, KeepTheErrorThatTheyAreDesignedFor) {
     for (unsigned steps = 2; steps <= 4; ++steps) {
         for (const double order : {0.2, 0.5, 0.98319, 1.5, 1.9909, -0.5}) {
             for (const bool increments : {false, true}) {
                 const double of_weights = increments ? order - 1.0 : order;
-                if (!glsum::modes::has_tail(of_weights)) {
+                if (!glsum::design::has_tail(of_weights)) {
                     continue;
                 }
                 const auto weights =
@@ -62,7 +62,7 @@ TEST(FittedModes, OfFirstOrderCostNoMoreThanAFewMore) {
     // The poles are those of the tail; least squares on each decade alike can only spoil the sum of magnitudes a
     // little.
     const auto half = bdf_weights(2, 0.5, 5001);
-    const auto own = glsum::modes::design({0.5, 5000}, 1e-4);
+    const auto own = glsum::design::design_modes({0.5, 5000}, 1e-4);
     const auto found = design_fitted(half, 0.5, 1e-4);
     ASSERT_TRUE(own && found);
     EXPECT_LE(found->length(), own->length() + 6);
@@ -78,9 +78,9 @@ TEST(FittedModes, AreTheCheapestOfTheirLadder) {
         for (const double order : {0.1, 0.5, 0.9, 1.5, 1.9, -0.5}) {
             const auto weights = bdf_weights(steps, order, 401);
             for (const double wanted : {1e-1, 1e-2, 1e-3, 1e-4, 1e-6, 1e-8, 1e-10}) {
-                std::optional<glsum::modes::Approximation> best;
+                std::optional<glsum::design::Approximation> best;
                 for (const std::size_t near_taps : {4U, 6U, 8U, 12U, 16U, 24U, 32U}) {
-                    for (std::size_t modes = 1; modes <= glsum::modes::most_modes; ++modes) {
+                    for (std::size_t modes = 1; modes <= glsum::design::most_modes; ++modes) {
                         if (best && near_taps + 2 * modes > best->length()) {
                             break;
                         }

@@ -30,7 +30,7 @@ Integer shift_rounded(const Integer& value, int shift) {
 }
 
 // What a kernel of these formats computes, in integers without limit: the table with its rule of rounding, then the
-// sum, exact or nested, then halves up and saturation to 32 bits.
+// sum, exact or in Horner form, then halves up and saturation to 32 bits.
 class Oracle {
 public:
     Oracle(const glsum::Design& design, std::string_view technique, int coefficient_bits, int sample_bits,

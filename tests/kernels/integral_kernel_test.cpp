@@ -8,13 +8,13 @@
 #include <vector>
 
 #include "glsum/bound.hpp"
+#include "glsum/design/integral.hpp"
 #include "glsum/registry.hpp"
-#include "modes/integral.hpp"
 
 namespace {
 
 using glsum::Mode;
-using glsum::modes::weights_to;
+using glsum::design::weights_to;
 
 template <class K>
 struct Line {
@@ -85,8 +85,8 @@ double worst_error(const glsum::Design& asked, std::size_t near_taps, double mea
 
 TYPED_TEST(IntegralTest, StaysWithinItsBoundOverARecordOfAnyMean) {
     constexpr std::size_t samples = 100'000;
-    const glsum::modes::Approximation design =
-        glsum::modes::approximate_integral(weights_to(-0.5, samples), -0.5, 3, 8);
+    const glsum::design::Approximation design =
+        glsum::design::approximate_integral(weights_to(-0.5, samples), -0.5, 3, 8);
     ASSERT_EQ(design.modes.front().decay, 0.0);
     const std::vector<Mode> alone{{0.0, 1.0}};
     const glsum::Design half{-0.5, design.length(), design.modes};
@@ -107,7 +107,7 @@ TYPED_TEST(IntegralTest, StaysWithinItsBoundOverARecordOfAnyMean) {
 TYPED_TEST(IntegralTest, IsItsModesAndANeumaierSumBitForBit) {
     using Sample = typename TypeParam::Sample;
     for (const std::size_t near_taps : {1U, 2U, 4U}) {
-        const auto design = glsum::modes::approximate_integral(weights_to(-0.5, 1000), -0.5, near_taps, 5);
+        const auto design = glsum::design::approximate_integral(weights_to(-0.5, 1000), -0.5, near_taps, 5);
         const glsum::Design asked{-0.5, design.length(), design.modes};
         Line<TypeParam> line(asked);
         Line<typename TypeParam::Inner> modes(TypeParam::inner_design(asked));
@@ -136,7 +136,7 @@ TYPED_TEST(IntegralTest, IsItsModesAndANeumaierSumBitForBit) {
 
 TYPED_TEST(IntegralTest, AddsALevelUpForEver) {
     constexpr std::size_t horizon = 600;
-    const auto design = glsum::modes::approximate_integral(weights_to(-0.5, horizon), -0.5, 1, 6);
+    const auto design = glsum::design::approximate_integral(weights_to(-0.5, horizon), -0.5, 1, 6);
     Line<TypeParam> line({-0.5, design.length(), design.modes});
     ASSERT_EQ(line.status, glsum::Status::ok);
     const auto grown = [&](std::size_t count) {

@@ -1,6 +1,6 @@
 // Designs with a running sum: their certificate by definition, their cost, and the weight that a level is added up
 // with.
-#include "modes/integral.hpp"
+#include "glsum/design/integral.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,19 +8,19 @@
 #include <cstddef>
 #include <vector>
 
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 
 namespace {
 
 using glsum::Mode;
-using glsum::modes::weights_to;
+using glsum::design::weights_to;
 
 TEST(IntegralDesignTest, KeepsTheErrorItIsAskedFor) {
     for (const double order : {-0.2, -0.5, -0.8, -1.0}) {
         for (const std::size_t horizon : {600U, 5000U}) {
             const std::vector<double> weights = weights_to(order, horizon);
             for (const double error : {1e-1, 1e-3}) {
-                const auto found = glsum::modes::design_integral(weights, order, error);
+                const auto found = glsum::design::design_integral(weights, order, error);
                 ASSERT_TRUE(found.has_value()) << order << " " << horizon;
                 EXPECT_LE(found->error, error);
                 // By the definition, in long double.
@@ -42,7 +42,7 @@ TEST(IntegralDesignTest, KeepsTheErrorItIsAskedFor) {
                     EXPECT_GT(found->modes.front().weight, 0.2 * weights.back());
                     EXPECT_LT(found->modes.front().weight, 2.0 * weights.back());
                     // A running sum for the slowest mode costs a mode more at most, here and there beside a tap.
-                    const auto decaying = glsum::modes::design({order, horizon}, error);
+                    const auto decaying = glsum::design::design_modes({order, horizon}, error);
                     ASSERT_TRUE(decaying.has_value());
                     EXPECT_LE(found->length(), decaying->length() + 3) << order << " " << horizon << " " << error;
                 } else {
@@ -61,7 +61,7 @@ TEST(IntegralDesignTest, OfOrderMinusOneTakesTheTapsThatHigherOrdersNeed) {
     }
     ASSERT_DOUBLE_EQ(weights.front(), 1.0);
     for (const double error : {1e-1, 1e-3, 1e-6}) {
-        const auto found = glsum::modes::design_integral(weights, -1.0, error);
+        const auto found = glsum::design::design_integral(weights, -1.0, error);
         ASSERT_TRUE(found.has_value());
         EXPECT_LE(found->error, error);
         EXPECT_GT(3.0 * found->error, 0.99 * error);  // no tap too many
@@ -73,19 +73,19 @@ TEST(IntegralDesignTest, OfOrderMinusOneTakesTheTapsThatHigherOrdersNeed) {
 TEST(IntegralDesignTest, OfWeightsThatTheTapsReachIsALevel) {
     const std::vector<double> weights = weights_to(-0.5, 4);
     ASSERT_EQ(weights.size(), 5U);
-    const auto three = glsum::modes::approximate_integral(weights, -0.5, 3, 6);
+    const auto three = glsum::design::approximate_integral(weights, -0.5, 3, 6);
     EXPECT_EQ(three.near_taps, 3U);
     ASSERT_EQ(three.modes.size(), 1U);
     EXPECT_EQ(three.modes[0].decay, 0.0);
     EXPECT_EQ(three.modes[0].weight, weights[4]);
     EXPECT_DOUBLE_EQ(three.error, std::fabs(weights[3] - weights[4]));
     // No tap beyond the last weight but one.
-    const auto ten = glsum::modes::approximate_integral(weights, -0.5, 10, 6);
+    const auto ten = glsum::design::approximate_integral(weights, -0.5, 10, 6);
     EXPECT_EQ(ten.near_taps, 4U);
     EXPECT_EQ(ten.error, 0.0);
     // Of order -1, whatever the length, and of others beyond it modes as asked.
-    EXPECT_EQ(glsum::modes::approximate_integral(weights_to(-1.0, 600), -1.0, 2, 6).modes.size(), 1U);
-    EXPECT_EQ(glsum::modes::approximate_integral(weights_to(-0.5, 600), -0.5, 2, 6).modes.size(), 6U);
+    EXPECT_EQ(glsum::design::approximate_integral(weights_to(-1.0, 600), -1.0, 2, 6).modes.size(), 1U);
+    EXPECT_EQ(glsum::design::approximate_integral(weights_to(-0.5, 600), -0.5, 2, 6).modes.size(), 6U);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Lengths are counted in 32 bits, and bytes of a table too: what is longer is refused, however large the table is said to
-// be. Nothing of the buffers is touched, so none has to be there.
+// Lengths are counted in 32 bits, and bytes of a table too: what is longer is refused, however large the table is said
+// to be. Nothing of the buffers is touched, so none has to be there.
 #include <gtest/gtest.h>
 
 #include <cstdint>

@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "modes/merged.hpp"
+#include "glsum/design/merged.hpp"
 
 namespace {
 
-using glsum::modes::approximate_merged;
-using glsum::modes::Approximation;
-using glsum::modes::Discretisation;
-using glsum::modes::Term;
+using glsum::design::approximate_merged;
+using glsum::design::Approximation;
+using glsum::design::Discretisation;
+using glsum::design::Term;
 
 // 0.18234 D^1.9909 y + 0.65536 D^0.98319 y + 0.9992 y = u
 constexpr Term terms[] = {{0.18234, 1.9909}, {0.65536, 0.98319}};

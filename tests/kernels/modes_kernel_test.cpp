@@ -6,7 +6,7 @@
 
 #include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 #include "reference/modes.hpp"
 #include "tests/kernels/registered.hpp"
 
@@ -14,7 +14,7 @@ namespace {
 
 using glsum::Design;
 using glsum::Mode;
-using glsum::modes::Approximation;
+using glsum::design::Approximation;
 
 template <class K>
 using HasModes = std::is_same<typename K::HistoryPart, glsum::Modes>;
@@ -131,7 +131,7 @@ private:
 TYPED_TEST(ModesKernelTest, EqualsTheStatedOrderBitForBit) {
     for (const double order : {0.2, 0.5, 0.98319, 1.9909, -0.5}) {
         for (const double error : {1e-2, 1e-4, 1e-6}) {
-            const auto found = glsum::modes::design({order, 1000}, error);
+            const auto found = glsum::design::design_modes({order, 1000}, error);
             ASSERT_TRUE(found);
             const Design design = design_of(order, *found);
             test::Line<TypeParam> line(design);
@@ -154,7 +154,7 @@ TYPED_TEST(ModesKernelTest, KeepsItsBoundOnEverySignalOrderAndDesign) {
     double largest_share = 0.0;
     for (const double order : {-0.9, -0.5, 0.2, 0.5, 0.9, 0.98319, 1.5, 1.9909}) {
         for (const double error : {1e-2, 1e-5, 1e-8}) {
-            const auto found = glsum::modes::design({order, samples}, error);
+            const auto found = glsum::design::design_modes({order, samples}, error);
             ASSERT_TRUE(found) << order << " " << error;
             const Design design = design_of(order, *found);
             for (const std::string_view signal : bench::signal_names) {
@@ -180,7 +180,7 @@ TYPED_TEST(ModesKernelTest, IsAsFarFromFullMemoryAsTheCertificateSays) {
     constexpr std::size_t samples = 800;
     for (const double order : {-0.5, 0.5, 0.9, 1.5}) {
         for (const double error : {1e-1, 1e-3}) {
-            const auto found = glsum::modes::design({order, samples - 1}, error);
+            const auto found = glsum::design::design_modes({order, samples - 1}, error);
             ASSERT_TRUE(found);
             const Design design = design_of(order, *found);
             const auto full = reference::weights(reference::Real(order), samples);
@@ -274,7 +274,7 @@ TYPED_TEST(ModesKernelTest, RefusesModesThatDoNotDecayAndBuffersThatAreTooSmall)
 }
 
 TYPED_TEST(ModesKernelTest, ResetForgetsTheAveragesToo) {
-    const auto found = glsum::modes::design({-0.5, 5000}, 1e-3);
+    const auto found = glsum::design::design_modes({-0.5, 5000}, 1e-3);
     test::Line<TypeParam> line(design_of(-0.5, *found));
     std::vector<typename TypeParam::Output> first;
     for (int round = 0; round < 2; ++round) {

@@ -5,34 +5,34 @@
 #include <cmath>
 #include <vector>
 
+#include "glsum/design/bdf.hpp"
+#include "glsum/design/blocks.hpp"
+#include "glsum/design/fitted.hpp"
+#include "glsum/design/integral.hpp"
+#include "glsum/design/modes.hpp"
+#include "glsum/design/projection.hpp"
 #include "glsum/logmemory/nested.hpp"
-#include "modes/bdf.hpp"
-#include "modes/blocks.hpp"
-#include "modes/design.hpp"
-#include "modes/fitted.hpp"
-#include "modes/integral.hpp"
-#include "modes/projection.hpp"
 
 namespace {
 
 using glsum::Blocks;
 using glsum::Mode;
-using glsum::modes::Approximation;
-using glsum::modes::BlockDesign;
-using glsum::modes::Node;
-using glsum::modes::Projection;
-using glsum::modes::weights_to;
+using glsum::design::Approximation;
+using glsum::design::BlockDesign;
+using glsum::design::Node;
+using glsum::design::Projection;
+using glsum::design::weights_to;
 
 // |a_j| as a mixture of exponentials: the sum over j of what it misses stays below what it was made for.
 TEST(TailNodes, AreTheWeightsWithinTheErrorThatIsAskedFor) {
     for (const double order : {-0.9, -0.5, -0.1, 0.2, 0.5, 0.75, 0.76, 0.98319, 1.5, 1.74, 1.9909}) {
-        const std::size_t least = glsum::modes::least_near_taps(order);
+        const std::size_t least = glsum::design::least_near_taps(order);
         for (const std::size_t near_taps : {least, least + 1, least + 7}) {
             for (const std::size_t horizon : {20U, 600U, 1500U}) {
                 const std::vector<double> weights = weights_to(order, horizon);
                 for (const double error : {1e-3, 1e-6, order < -0.5 ? 1e-6 : 1e-9}) {
                     double missed = 0.0;
-                    const std::vector<Node> nodes = glsum::modes::tail_nodes(order, near_taps, horizon, error);
+                    const std::vector<Node> nodes = glsum::design::tail_nodes(order, near_taps, horizon, error);
                     std::vector<double> terms;
                     for (const Node& node : nodes) {
                         EXPECT_GT(node.rate, 0.0);
@@ -55,7 +55,7 @@ TEST(TailNodes, AreTheWeightsWithinTheErrorThatIsAskedFor) {
 
 // A tap more than the order, by a quarter at least.
 TEST(TailNodes, BeginAQuarterBehindTheOrder) {
-    using glsum::modes::least_near_taps;
+    using glsum::design::least_near_taps;
     EXPECT_EQ(least_near_taps(-0.9), 1U);
     EXPECT_EQ(least_near_taps(-0.1), 1U);
     EXPECT_EQ(least_near_taps(0.5), 1U);
@@ -64,27 +64,27 @@ TEST(TailNodes, BeginAQuarterBehindTheOrder) {
     EXPECT_EQ(least_near_taps(1.2), 2U);
     EXPECT_EQ(least_near_taps(1.75), 2U);
     EXPECT_EQ(least_near_taps(1.7501), 3U);
-    EXPECT_EQ(glsum::modes::most_taps(0.5), 1 + 1 + 2 * glsum::modes::most_modes);
-    EXPECT_TRUE(glsum::modes::has_tail(-0.999));
-    EXPECT_FALSE(glsum::modes::has_tail(-1.0));
-    EXPECT_FALSE(glsum::modes::has_tail(1.0));
+    EXPECT_EQ(glsum::design::most_taps(0.5), 1 + 1 + 2 * glsum::design::most_modes);
+    EXPECT_TRUE(glsum::design::has_tail(-0.999));
+    EXPECT_FALSE(glsum::design::has_tail(-1.0));
+    EXPECT_FALSE(glsum::design::has_tail(1.0));
 }
 
 // What a projection drops is about its error: a third of it at least, and not many times less.
 TEST(ProjectionOf, SaysAboutWhatItsModesMiss) {
     for (const double order : {-0.5, 0.5, 0.9, 1.5}) {
         constexpr std::size_t horizon = 2000;
-        const std::size_t near_taps = glsum::modes::least_near_taps(order);
+        const std::size_t near_taps = glsum::design::least_near_taps(order);
         std::vector<double> weights = weights_to(order, horizon);
         for (double& weight : weights) {
             weight = std::fabs(weight);
         }
-        const Projection projection(glsum::modes::tail_nodes(order, near_taps, horizon, 1e-10), horizon);
+        const Projection projection(glsum::design::tail_nodes(order, near_taps, horizon, 1e-10), horizon);
         double before = INFINITY;
         for (std::size_t count = 0; count <= 9; ++count) {
             const auto modes = projection.modes(count);
             EXPECT_EQ(modes.size(), count);
-            const double error = glsum::modes::error_of(weights, near_taps, modes, INFINITY);
+            const double error = glsum::design::error_of(weights, near_taps, modes, INFINITY);
             const double dropped = projection.dropped(count);
             EXPECT_LT(dropped, before);
             before = dropped;
@@ -103,11 +103,11 @@ TEST(ProjectionOf, SaysAboutWhatItsModesMiss) {
 TEST(Modes, AreAsFewAsKeepTheError) {
     for (const double order : {-0.5, 0.5, 0.98319, 1.5}) {
         for (const double error : {1e-2, 1e-4, 1e-7}) {
-            const auto found = glsum::modes::design({order, 800}, error);
+            const auto found = glsum::design::design_modes({order, 800}, error);
             ASSERT_TRUE(found);
             for (std::size_t taps = 1; taps < found->length(); ++taps) {
-                const std::size_t modes = glsum::modes::modes_within(order, taps);
-                EXPECT_GT(glsum::modes::approximate({order, 800}, taps - 2 * modes, modes).error, error)
+                const std::size_t modes = glsum::design::modes_within(order, taps);
+                EXPECT_GT(glsum::design::approximate({order, 800}, taps - 2 * modes, modes).error, error)
                     << order << ' ' << taps;
             }
         }
@@ -116,20 +116,20 @@ TEST(Modes, AreAsFewAsKeepTheError) {
 
 TEST(Modes, ErrorsAreSummedUpToEnough) {
     const std::vector<double> ones(11, 1.0);
-    EXPECT_EQ(glsum::modes::error_of(ones, 0, {}, INFINITY), 11.0);
-    EXPECT_EQ(glsum::modes::error_of(ones, 4, {}, INFINITY), 7.0);
-    EXPECT_EQ(glsum::modes::error_of(ones, 0, {}, 2.5), 3.0);  // enough is enough
-    EXPECT_EQ(glsum::modes::error_of(ones, 0, {}, 3.0), 4.0);
+    EXPECT_EQ(glsum::design::error_of(ones, 0, {}, INFINITY), 11.0);
+    EXPECT_EQ(glsum::design::error_of(ones, 4, {}, INFINITY), 7.0);
+    EXPECT_EQ(glsum::design::error_of(ones, 0, {}, 2.5), 3.0);  // enough is enough
+    EXPECT_EQ(glsum::design::error_of(ones, 0, {}, 3.0), 4.0);
     // One that halves from 1 on: misses 0, 1/2, 3/4, ...
-    EXPECT_EQ(glsum::modes::error_of(ones, 8, {{0.5, 1.0}}, INFINITY), 0.5 + 0.75);
+    EXPECT_EQ(glsum::design::error_of(ones, 8, {{0.5, 1.0}}, INFINITY), 0.5 + 0.75);
     EXPECT_EQ(weights_to(1.0, 3), (std::vector<double>{1.0, -1.0, 0.0, 0.0}));
     EXPECT_EQ(weights_to(0.5, 0), std::vector<double>{1.0});
 }
 
 // A level takes 3 taps; orders between -1 and 0 what their modes take; others have none.
 TEST(IntegralModes, AreThoseOfTheirOrder) {
-    using glsum::modes::integral_modes_within;
-    using glsum::modes::is_integral;
+    using glsum::design::integral_modes_within;
+    using glsum::design::is_integral;
     EXPECT_TRUE(is_integral(-1.0));
     EXPECT_TRUE(is_integral(-1e-9));
     EXPECT_FALSE(is_integral(0.0));
@@ -141,7 +141,7 @@ TEST(IntegralModes, AreThoseOfTheirOrder) {
         EXPECT_EQ(integral_modes_within(-1.0, taps), 1U);
     }
     for (const std::size_t taps : {1U, 2U, 3U, 4U, 16U, 33U, 400U}) {
-        EXPECT_EQ(integral_modes_within(-0.5, taps), glsum::modes::modes_within(-0.5, taps));
+        EXPECT_EQ(integral_modes_within(-0.5, taps), glsum::design::modes_within(-0.5, taps));
         EXPECT_EQ(integral_modes_within(0.5, taps), 0U);
         EXPECT_EQ(integral_modes_within(-1.5, taps), 0U);
         EXPECT_EQ(integral_modes_within(0.0, taps), 0U);
@@ -149,22 +149,22 @@ TEST(IntegralModes, AreThoseOfTheirOrder) {
 }
 
 TEST(IntegralModes, AreRefusedWhereNoneKeepTheError) {
-    EXPECT_FALSE(glsum::modes::design_integral(weights_to(-0.5, 600), -0.5, 1e-15));
+    EXPECT_FALSE(glsum::design::design_integral(weights_to(-0.5, 600), -0.5, 1e-15));
     // Of order -1 weights that end higher than they stand: every tap but the last is needed.
     const std::vector<double> steps = {1.0, 2.0, 3.0, 4.0};
-    const auto found = glsum::modes::design_integral(steps, -1.0, 0.5);
+    const auto found = glsum::design::design_integral(steps, -1.0, 0.5);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->near_taps, 3U);
     EXPECT_EQ(found->modes.front().weight, 4.0);
-    EXPECT_FALSE(glsum::modes::design_integral(steps, -1.0, -1.0));
+    EXPECT_FALSE(glsum::design::design_integral(steps, -1.0, -1.0));
     // A little error is cheap: as few modes as keep it.
     const auto weights = weights_to(-0.5, 600);
     for (const double error : {1e-1, 1e-3}) {
-        const auto design = glsum::modes::design_integral(weights, -0.5, error);
+        const auto design = glsum::design::design_integral(weights, -0.5, error);
         ASSERT_TRUE(design);
         if (design->modes.size() > 1) {
             EXPECT_GT(
-                glsum::modes::approximate_integral(weights, -0.5, design->near_taps, design->modes.size() - 1).error,
+                glsum::design::approximate_integral(weights, -0.5, design->near_taps, design->modes.size() - 1).error,
                 error);
         }
     }
@@ -224,7 +224,7 @@ TEST(Blocks, AreFoundByTheRule) {
     for (const double order : {0.5, 1.5, -0.5}) {
         for (const std::size_t horizon : {1U, 2U, 9U, 60U, 700U}) {
             for (const std::size_t taps : {1U, 2U, 3U, 5U, 8U, 20U, 33U, 90U, 150U}) {
-                const BlockDesign found = glsum::modes::design_blocks({order, horizon}, taps);
+                const BlockDesign found = glsum::design::design_blocks({order, horizon}, taps);
                 const BlockDesign expected = by_the_rule(order, horizon, taps);
                 EXPECT_NEAR(found.error, expected.error, 1e-12) << order << ' ' << horizon << ' ' << taps;
                 EXPECT_EQ(found.near_taps, expected.near_taps) << order << ' ' << horizon << ' ' << taps;
@@ -239,15 +239,15 @@ TEST(FittedModes, CostNextToWhatFirstOrderDoes) {
     constexpr double errors[] = {1e-2, 1e-4, 1e-6};
     constexpr std::size_t most[3][3] = {{14, 24, 34}, {14, 24, 36}, {14, 26, 44}};
     for (unsigned steps = 2; steps <= 4; ++steps) {
-        const auto weights = glsum::modes::bdf_weights(steps, 0.5, 2001);
+        const auto weights = glsum::design::bdf_weights(steps, 0.5, 2001);
         for (std::size_t i = 0; i < 3; ++i) {
             const double error = errors[i];
-            const auto found = glsum::modes::design_fitted(weights, 0.5, error);
+            const auto found = glsum::design::design_fitted(weights, 0.5, error);
             ASSERT_TRUE(found);
             EXPECT_LE(found->length(), most[steps - 2][i]) << steps << ' ' << errors[i];
             for (const std::size_t near_taps : {4U, 6U, 8U, 12U, 16U, 24U, 32U}) {
                 for (std::size_t modes = 1; near_taps + 2 * modes < found->length(); ++modes) {
-                    EXPECT_GT(glsum::modes::approximate_fitted(weights, 0.5, near_taps, modes).error, error)
+                    EXPECT_GT(glsum::design::approximate_fitted(weights, 0.5, near_taps, modes).error, error)
                         << steps << ' ' << near_taps << ' ' << modes;
                 }
             }

@@ -3,14 +3,14 @@
 
 #include <cmath>
 
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 #include "reference/sums.hpp"
 
 namespace {
 
-using glsum::modes::Approximation;
-using glsum::modes::design;
-using glsum::modes::Tail;
+using glsum::design::Approximation;
+using glsum::design::design_modes;
+using glsum::design::Tail;
 
 // sum_{j=K..N} |a_j - approximation| in 50 digits, from the definition.
 double error_by_definition(const Tail& target, const Approximation& found) {
@@ -34,7 +34,7 @@ double error_by_definition(const Tail& target, const Approximation& found) {
 TEST(Modes, PolesAreRealAndStableAndTheTailHasOneSign) {
     for (const double order :
          {-0.99, -0.9, -0.5, -0.1, 0.001, 0.2, 0.5, 0.9, 0.98319, 0.999, 1.001, 1.5, 1.9909, 1.999}) {
-        const auto found = design({order, 5000}, 1e-5);
+        const auto found = design_modes({order, 5000}, 1e-5);
         ASSERT_TRUE(found) << order;
         for (const auto& mode : found->modes) {
             EXPECT_GT(mode.decay, 0.0) << order;
@@ -48,7 +48,7 @@ TEST(Modes, TheCertificateIsTheErrorByDefinition) {
     for (const double order : {-0.5, 0.2, 0.5, 0.98319, 1.5, 1.9909}) {
         for (const double error : {1e-3, 1e-6, 1e-8}) {
             const Tail target{order, 1000};
-            const auto found = design(target, error);
+            const auto found = design_modes(target, error);
             ASSERT_TRUE(found) << order << " " << error;
             EXPECT_LE(found->error, error);
             EXPECT_NEAR(found->error, error_by_definition(target, *found), 1e-3 * error + 1e-13)
@@ -73,7 +73,7 @@ TEST(Modes, CostNoMoreThanPublished) {
           Row{0.9, 1'000'000, {12, 18, 34, 49}}, Row{1.5, 1'000'000, {10, 15, 26, 41}}}) {
         const double errors[] = {1e-3, 1e-4, 1e-6, 1e-8};
         for (std::size_t i = 0; i < 4; ++i) {
-            const auto found = design({row.order, row.horizon}, errors[i]);
+            const auto found = design_modes({row.order, row.horizon}, errors[i]);
             ASSERT_TRUE(found) << row.order << " " << row.horizon << " " << errors[i];
             EXPECT_LE(found->length(), row.cost[i]) << row.order << " " << row.horizon << " " << errors[i];
         }
@@ -81,32 +81,32 @@ TEST(Modes, CostNoMoreThanPublished) {
 }
 
 TEST(Modes, ALengthHasTheModesThatLeaveTheFewestTapsOrOneMore) {
-    using glsum::modes::modes_within;
+    using glsum::design::modes_within;
     EXPECT_EQ(modes_within(0.5, 1), 0U);
     EXPECT_EQ(modes_within(0.5, 2), 0U);
     EXPECT_EQ(modes_within(0.5, 3), 1U);
     EXPECT_EQ(modes_within(0.5, 16), 7U);
     EXPECT_EQ(modes_within(1.9909, 16), 6U);  // three taps at least
-    EXPECT_EQ(modes_within(0.5, 1000), glsum::modes::most_modes);
+    EXPECT_EQ(modes_within(0.5, 1000), glsum::design::most_modes);
     for (const double whole : {-1.0, 0.0, 1.0, 2.0, -1.5}) {
         EXPECT_EQ(modes_within(whole, 50), 0U);
     }
     // As many as a length has are there, whatever the horizon.
     for (const std::size_t horizon : {2U, 40U, 5000U}) {
-        EXPECT_EQ(glsum::modes::approximate({0.5, horizon}, 1, glsum::modes::most_modes).modes.size(),
-                  glsum::modes::most_modes);
+        EXPECT_EQ(glsum::design::approximate({0.5, horizon}, 1, glsum::design::most_modes).modes.size(),
+                  glsum::design::most_modes);
     }
 }
 
 TEST(Modes, WholeOrdersNeedTheTapsThatTheyHave) {
-    EXPECT_EQ(design({1.0, 5000}, 1e-12)->length(), 2U);
-    EXPECT_EQ(design({1.0, 5000}, 1e-12)->multiplications(), 1U);  // a_0 = 1 needs none
-    EXPECT_EQ(design({2.0, 5000}, 1e-12)->length(), 3U);
-    EXPECT_FALSE(design({-1.5, 5000}, 1e-3));
+    EXPECT_EQ(design_modes({1.0, 5000}, 1e-12)->length(), 2U);
+    EXPECT_EQ(design_modes({1.0, 5000}, 1e-12)->multiplications(), 1U);  // a_0 = 1 needs none
+    EXPECT_EQ(design_modes({2.0, 5000}, 1e-12)->length(), 3U);
+    EXPECT_FALSE(design_modes({-1.5, 5000}, 1e-3));
 }
 
 TEST(Modes, AHorizonThatTheNearTapsReachNeedsNoModes) {
-    const auto found = design({0.5, 1}, 1e-6);
+    const auto found = design_modes({0.5, 1}, 1e-6);
     ASSERT_TRUE(found);
     EXPECT_TRUE(found->modes.empty());
     EXPECT_EQ(found->error, 0.0);

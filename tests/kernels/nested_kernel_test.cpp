@@ -5,7 +5,7 @@
 
 #include "bench/sweep/signals.hpp"
 #include "glsum/bound.hpp"
-#include "modes/blocks.hpp"
+#include "glsum/design/blocks.hpp"
 #include "reference/blocks.hpp"
 #include "tests/kernels/registered.hpp"
 
@@ -134,7 +134,7 @@ TYPED_TEST(NestedKernelTest, KeepsItsBoundOnEverySignalOrderAndDesign) {
     double largest_share = 0.0;
     for (const double order : {-1.5, -0.5, 0.2, 0.5, 0.98319, 1.0, 1.5, 1.9909}) {
         for (const std::size_t taps : {8U, 16U, 24U, 100U}) {
-            const auto found = glsum::modes::design_blocks({order, samples}, taps);
+            const auto found = glsum::design::design_blocks({order, samples}, taps);
             const Design design = design_of(order, found.near_taps, found.blocks);
             for (const std::string_view signal : bench::signal_names) {
                 const auto record = bench::make_signal(signal, samples, 1);
@@ -181,7 +181,7 @@ TYPED_TEST(NestedKernelTest, IsAsFarFromFullMemoryAsTheDesignSays) {
     constexpr std::size_t samples = 800;
     for (const double order : {-0.5, 0.5, 0.9, 1.5}) {
         for (const std::size_t taps : {6U, 12U, 30U}) {
-            const auto found = glsum::modes::design_blocks({order, samples - 1}, taps);
+            const auto found = glsum::design::design_blocks({order, samples - 1}, taps);
             const Design design = design_of(order, found.near_taps, found.blocks);
             const auto full = reference::weights(reference::Real(order), samples);
             const auto kept = reference::weights_of(design, samples);

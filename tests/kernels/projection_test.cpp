@@ -1,6 +1,6 @@
 // The nodes of the tail's integral, their projection, and how fits and merged tables choose poles by them: each against
 // the formula that its header names.
-#include "modes/projection.hpp"
+#include "glsum/design/projection.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,16 +9,16 @@
 #include <numbers>
 #include <vector>
 
-#include "modes/bdf.hpp"
-#include "modes/fitted.hpp"
-#include "modes/merged.hpp"
+#include "glsum/design/bdf.hpp"
+#include "glsum/design/fitted.hpp"
+#include "glsum/design/merged.hpp"
 
 namespace {
 
 using glsum::Mode;
-using glsum::modes::Node;
-using glsum::modes::Projection;
-using glsum::modes::tail_nodes;
+using glsum::design::Node;
+using glsum::design::Projection;
+using glsum::design::tail_nodes;
 
 // The trapezoid's step: pi^2 / log(10^4 / error), 0.3 to 0.6.
 double step_of(const std::vector<Node>& nodes) { return std::log(nodes[2].rate / nodes[1].rate); }
@@ -61,13 +61,13 @@ TEST(TailNodes, LieEvenlyInTheLogarithmOfTheirRates) {
 }
 
 TEST(TailNodes, NeedTapsBeyondTheOrder) {
-    EXPECT_EQ(glsum::modes::least_near_taps(0.5), 1U);
-    EXPECT_EQ(glsum::modes::least_near_taps(0.75), 1U);  // a quarter above
-    EXPECT_EQ(glsum::modes::least_near_taps(0.76), 2U);
-    EXPECT_EQ(glsum::modes::least_near_taps(1.75), 2U);
-    EXPECT_EQ(glsum::modes::least_near_taps(1.76), 3U);
-    EXPECT_EQ(glsum::modes::least_near_taps(-0.5), 1U);
-    EXPECT_EQ(glsum::modes::least_near_taps(-0.9), 1U);
+    EXPECT_EQ(glsum::design::least_near_taps(0.5), 1U);
+    EXPECT_EQ(glsum::design::least_near_taps(0.75), 1U);  // a quarter above
+    EXPECT_EQ(glsum::design::least_near_taps(0.76), 2U);
+    EXPECT_EQ(glsum::design::least_near_taps(1.75), 2U);
+    EXPECT_EQ(glsum::design::least_near_taps(1.76), 3U);
+    EXPECT_EQ(glsum::design::least_near_taps(-0.5), 1U);
+    EXPECT_EQ(glsum::design::least_near_taps(-0.9), 1U);
 }
 
 // Two exponentials: the eigenvalues of two by two.
@@ -132,10 +132,10 @@ std::vector<double> least_squares(const std::vector<Mode>& modes, const std::vec
 }
 
 TEST(FittedModes, WeightsAreLeastSquaresThatSeeEachDecadeAlike) {
-    const std::vector<double> weights = glsum::modes::bdf_weights(2, 0.5, 1200);
+    const std::vector<double> weights = glsum::design::bdf_weights(2, 0.5, 1200);
     for (const std::size_t near_taps : {1U, 4U, 12U, 40U}) {
         std::vector<Mode> modes{{0.004, 0.0}, {0.15, 0.0}};
-        glsum::modes::fit_weights(modes, weights, near_taps);
+        glsum::design::fit_weights(modes, weights, near_taps);
         const std::vector<double> expected = least_squares(modes, weights, near_taps);
         EXPECT_NEAR(modes[0].weight / expected[0], 1.0, 1e-9) << near_taps;
         EXPECT_NEAR(modes[1].weight / expected[1], 1.0, 1e-9) << near_taps;
@@ -143,7 +143,7 @@ TEST(FittedModes, WeightsAreLeastSquaresThatSeeEachDecadeAlike) {
     }
     // A single index is met as it is.
     std::vector<Mode> one{{0.5, 0.0}};
-    glsum::modes::fit_weights(one, {1.0, -0.5, 0.125}, 2);
+    glsum::design::fit_weights(one, {1.0, -0.5, 0.125}, 2);
     EXPECT_NEAR(one[0].weight, 0.125, 1e-15);
 }
 
@@ -157,23 +157,23 @@ void expect_poles(const std::vector<Mode>& found, const std::vector<Mode>& expec
 // Poles are those of the order's own tail, from two taps before, where it has one.
 TEST(FittedModes, HaveThePolesOfTheOrdersTail) {
     for (const double order : {0.5, 0.9, 1.9}) {
-        const std::vector<double> weights = glsum::modes::bdf_weights(2, order, 801);
+        const std::vector<double> weights = glsum::design::bdf_weights(2, order, 801);
         for (const std::size_t near_taps : {1U, 2U, 3U, 4U, 9U}) {
-            const std::size_t least = glsum::modes::least_near_taps(order);
+            const std::size_t least = glsum::design::least_near_taps(order);
             if (near_taps < least) {
                 continue;
             }
             const std::size_t from = near_taps < least + 2 ? least : near_taps - 2;
             const Projection projection(tail_nodes(order, from, weights.size() - 1, 1e-10), weights.size() - 1);
-            expect_poles(glsum::modes::approximate_fitted(weights, order, near_taps, 6).modes, projection.modes(6));
+            expect_poles(glsum::design::approximate_fitted(weights, order, near_taps, 6).modes, projection.modes(6));
         }
     }
 }
 
 // Of a merged table: those of all its terms' tails together, each weighed by the root of what it counts.
 TEST(MergedModes, HaveThePolesOfAllTheirTails) {
-    using glsum::modes::Discretisation;
-    const glsum::modes::Term terms[] = {{-0.2, 1.9}, {0.7, 0.6}, {3.0, 1.0}};
+    using glsum::design::Discretisation;
+    const glsum::design::Term terms[] = {{-0.2, 1.9}, {0.7, 0.6}, {3.0, 1.0}};
     for (const auto& [scheme, near_taps, from] :
          {std::tuple(Discretisation::grunwald_letnikov, 2U, 2U), std::tuple(Discretisation::grunwald_letnikov, 7U, 7U),
           std::tuple(Discretisation::bdf2, 2U, 2U), std::tuple(Discretisation::bdf2, 4U, 2U),
@@ -186,13 +186,13 @@ TEST(MergedModes, HaveThePolesOfAllTheirTails) {
             }
         }
         const Projection projection(nodes, 3000);
-        const auto found = glsum::modes::approximate_merged(terms, 0.01, scheme, 3000, near_taps, 5);
+        const auto found = glsum::design::approximate_merged(terms, 0.01, scheme, 3000, near_taps, 5);
         EXPECT_EQ(found.near_taps, near_taps);
         expect_poles(found.modes, projection.modes(5));
         // Their weights are the least squares of the merged table, and the error what is left.
         std::vector<Mode> again = found.modes;
-        const auto weights = glsum::modes::merged_weights(terms, 0.01, scheme, 3000);
-        glsum::modes::fit_weights(again, weights, near_taps);
+        const auto weights = glsum::design::merged_weights(terms, 0.01, scheme, 3000);
+        glsum::design::fit_weights(again, weights, near_taps);
         double error = 0.0;
         for (std::size_t j = near_taps; j <= 3000; ++j) {
             double sum = 0.0;

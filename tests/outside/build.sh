@@ -34,11 +34,15 @@ quietly cmake --install "$build" --prefix "$prefix"
 project host-package -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="$flags"
 says host-package "$folder/host-package/outside"
 cat "$folder/first"
+"$folder/host-package/designed"
 export PKG_CONFIG_LIBDIR="$prefix/lib/pkgconfig"
-quietly c++ $flags -std=c++20 $(pkg-config --cflags glsum) -o "$folder/by-pkg-config" "$here/outside.cpp" "$here/say.cpp" $(pkg-config --libs glsum)
+quietly c++ $flags -std=c++20 $(pkg-config --cflags glsum-model) -o "$folder/by-pkg-config" "$here/outside.cpp" "$here/say.cpp" $(pkg-config --libs glsum-model)
 says host-pkg-config "$folder/by-pkg-config"
+quietly c++ $flags -std=c++20 $(pkg-config --cflags glsum-design) -o "$folder/designed" "$here/designed.cpp" $(pkg-config --libs glsum-design)
+"$folder/designed"
 project host-folder -DGLSUM_SOURCE="$source" -DCMAKE_CXX_FLAGS="$flags"
 says host-folder "$folder/host-folder/outside"
+"$folder/host-folder/designed"
 
 # A combination without a body is refused by the compiler, and in one line.
 if c++ -std=c++20 $(pkg-config --cflags glsum) -fsyntax-only "$here/unregistered.cpp" 2>"$folder/refused"; then
@@ -62,8 +66,8 @@ emulate=$source/targets/mps2-an500/emulate
 project target-package "$arm" -DFPU="$single" -DCMAKE_PREFIX_PATH="$prefix"
 says target-package "$emulate" "$folder/target-package/outside"
 export PKG_CONFIG_LIBDIR="$prefix/lib/arm-none-eabi/cortex-m7-single/pkgconfig"
-quietly arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb $single -std=c++20 -O2 -Wno-psabi -fno-exceptions -fno-rtti $(pkg-config --cflags glsum) -nostartfiles \
-    -Wl,-T,"$here/board.ld" -o "$folder/by-pkg-config.elf" "$here/outside.cpp" "$here/start.cpp" $(pkg-config --libs glsum)
+quietly arm-none-eabi-g++ -mcpu=cortex-m7 -mthumb $single -std=c++20 -O2 -Wno-psabi -fno-exceptions -fno-rtti $(pkg-config --cflags glsum-model) -nostartfiles \
+    -Wl,-T,"$here/board.ld" -o "$folder/by-pkg-config.elf" "$here/outside.cpp" "$here/start.cpp" $(pkg-config --libs glsum-model)
 says target-pkg-config "$emulate" "$folder/by-pkg-config.elf"
 project target-folder-soft "$arm" -DFPU=-mfloat-abi=soft -DGLSUM_SOURCE="$source"
 says target-folder-soft "$emulate" "$folder/target-folder-soft/outside"

@@ -1,4 +1,5 @@
-// What starts a stranger's program on the emulated board: vectors, the FPU, and by semihosting what it says, and its end.
+// What starts a stranger's program on the emulated board: vectors, the FPU, and by semihosting what it says, and its
+// end.
 #include <cstdint>
 
 int main();

@@ -33,8 +33,8 @@ done
 # The library that a file belongs to, and the tests that are to notice.
 library_of() {
     case $1 in
-        kernels/modes/*) echo kernels/modes/libglsum_modes.a ;;
-        kernels/model/*) echo kernels/model/libglsum_model.a ;;
+        kernels/glsum/design/*) echo kernels/glsum/design/libglsum_design.a ;;
+        kernels/glsum/model/*) echo kernels/glsum/model/libglsum_model.a ;;
         kernels/*) echo kernels/libglsum.a ;;
         base/*) echo base/libglsum_base.a ;;
         reference/*) echo reference/libglsum_reference.a ;;
@@ -65,8 +65,8 @@ library_of() {
 }
 tests_of() {
     case $1 in
-        kernels/modes/*) echo modes_tests ;;
-        kernels/model/*) echo drive_tests ;;
+        kernels/glsum/design/*) echo modes_tests ;;
+        kernels/glsum/model/*) echo drive_tests ;;
         kernels/*) echo kernel_tests bench_tests ;;
         base/*) echo base_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;

@@ -57,7 +57,7 @@ private:
         }
         const auto index = static_cast<std::uint32_t>(blocks_.size());
         const std::pair place(pending_.front().address, pending_.size());
-        counter_.executes_block(blocks_.try_emplace(place, qemu::Block{pending_, index}).first->second);
+        counter_.executes_block(blocks_.try_emplace(place, qemu::TranslationBlock{pending_, index}).first->second);
         counter_.totals().loads += std::exchange(accesses_.loads, 0);
         counter_.totals().stores += std::exchange(accesses_.stores, 0);
         pending_.clear();
@@ -66,7 +66,7 @@ private:
     std::size_t longest_block_;
     qemu::CallCounter counter_{{entry}};
     std::map<std::uint32_t, qemu::Instruction> instructions_;
-    std::map<std::pair<std::uint32_t, std::size_t>, qemu::Block> blocks_;
+    std::map<std::pair<std::uint32_t, std::size_t>, qemu::TranslationBlock> blocks_;
     std::vector<qemu::Instruction> pending_;
     qemu::AccessTotals accesses_;
 };

@@ -54,9 +54,9 @@ TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) {
             }
         }
         if (bench::has_modes(kernel)) {
-            const std::string designed = bench::adds_up(kernel) ? kernel : "modes_plain_f32";
+            const std::string designed = bench::has_integrator(kernel) ? kernel : "modes_plain_f32";
             for (const double order : {0.5, 1.9909, -0.5}) {
-                if (bench::adds_up(kernel) && order > 0.0) {
+                if (bench::has_integrator(kernel) && order > 0.0) {
                     continue;
                 }
                 for (const std::size_t taps : {3U, 16U, 31U}) {

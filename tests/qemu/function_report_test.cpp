@@ -44,7 +44,7 @@ TEST(FunctionTime, CountsEachCallOfARun) {
     EXPECT_EQ(time.lost[load_use].median, 3);
     EXPECT_EQ(time.lost[load_use].max, 7);
     EXPECT_EQ(time.in_double.max, 0);
-    // The dearest first, of equals the one that comes first.
+    // The costliest first, of equals the one that comes first.
     EXPECT_THAT(time.hot, ElementsAre(std::pair(0x108U, 40), std::pair(0x100U, 10), std::pair(0x104U, 10)));
     EXPECT_EQ(time.unknown.at(0x10c), 3U);
     EXPECT_TRUE(time.recursive);

@@ -91,7 +91,7 @@ TEST(TimedCalls, HoldFirstSteadyAndTheTurnsEnd) {
             EXPECT_EQ(steady, timed.steady()) << taps;
             EXPECT_TRUE(timed.contains(0));
             EXPECT_TRUE(timed.contains(calls - 1)) << taps;  // the ring wraps
-            // The call before the steady ones settles what they meet; where it is dear they meet what the first left.
+            // The call before the steady ones settles what they meet; where it is costly they meet what the first left.
             EXPECT_TRUE(software_double || timed.contains(taps)) << taps;
             EXPECT_FALSE(timed.is_steady(taps));
             EXPECT_TRUE(timed.is_steady(taps + 1));

@@ -40,12 +40,12 @@ std::vector<Plan> plan_cases(std::size_t count, std::uint64_t seed) {
             alone.push_back(effect);
         }
     }
-    Deck singles(alone, {Size3::small, Size3::clear, Size3::large}, chance);
-    Deck of_pairs(alone, {Size3::clear, Size3::large}, chance);
-    Deck others(unlisted_effects(), {Size3::small, Size3::clear, Size3::large}, chance);
+    Deck singles(alone, {EffectSize::small, EffectSize::clear, EffectSize::large}, chance);
+    Deck of_pairs(alone, {EffectSize::clear, EffectSize::large}, chance);
+    Deck others(unlisted_effects(), {EffectSize::small, EffectSize::clear, EffectSize::large}, chance);
     Deck same({"actuator_lag", "sensor_lag", "gain_error", "input_dead_zone", "input_saturation", "input_curve",
                "supply_sag"},
-              {Size3::clear, Size3::large}, chance);
+              {EffectSize::clear, EffectSize::large}, chance);
     const auto part = [&](double share) {
         return static_cast<std::size_t>(std::ceil(share * static_cast<double>(count) - 1e-9));
     };

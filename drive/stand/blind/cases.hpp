@@ -26,7 +26,7 @@ enum class Class {
 struct Plan {
     Class kind = Class::none;
     std::vector<std::string> effects;
-    std::vector<Size3> sizes;
+    std::vector<EffectSize> sizes;
     bool new_profile = false;  ///< validation goes where training never was
 };
 

@@ -13,14 +13,14 @@ namespace stand::blind {
 /// Effects and sizes dealt like cards: every card once, then all again in another order.
 class Deck {
 public:
-    Deck(std::vector<std::string> effects, std::vector<Size3> sizes, Chance& chance) : chance_(chance) {
+    Deck(std::vector<std::string> effects, std::vector<EffectSize> sizes, Chance& chance) : chance_(chance) {
         for (const std::string& effect : effects) {
-            for (const Size3 size : sizes) {
+            for (const EffectSize size : sizes) {
                 all_.emplace_back(effect, size);
             }
         }
     }
-    [[nodiscard]] std::pair<std::string, Size3> deal() {
+    [[nodiscard]] std::pair<std::string, EffectSize> deal() {
         if (left_.empty()) {
             left_ = all_;
             chance_.shuffle(left_);
@@ -32,8 +32,8 @@ public:
 
 private:
     Chance& chance_;
-    std::vector<std::pair<std::string, Size3>> all_;
-    std::vector<std::pair<std::string, Size3>> left_;
+    std::vector<std::pair<std::string, EffectSize>> all_;
+    std::vector<std::pair<std::string, EffectSize>> left_;
 };
 
 /// Two that could stand for one another, or of which one hides the other, make no pair.

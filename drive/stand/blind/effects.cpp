@@ -35,7 +35,9 @@ double* find_unlisted(const std::string& name, Unlisted& unlisted) {
 
 }  // namespace
 
-const char* name_of(Size3 size) { return size == Size3::small ? "small" : size == Size3::clear ? "clear" : "large"; }
+const char* name_of(EffectSize size) {
+    return size == EffectSize::small ? "small" : size == EffectSize::clear ? "clear" : "large";
+}
 
 const std::vector<std::string>& listed_effects() {
     static const std::vector<std::string> names{"gain_error",
@@ -91,10 +93,11 @@ bool bends_the_input(const std::string& effect) {
                      {"input_saturation", "input_dead_zone", "start_up_threshold", "input_curve", "supply_sag"});
 }
 
-Parameters draw_parameters(const std::string& effect, Size3 size, const Scale& scale, bool one_level, Chance& chance) {
+Parameters draw_parameters(const std::string& effect, EffectSize size, const Scale& scale, bool one_level,
+                           Chance& chance) {
     const double vary = chance.between(0.85, 1.15);
     const auto pick = [&](double small, double clear, double large) {
-        return vary * (size == Size3::small ? small : size == Size3::clear ? clear : large);
+        return vary * (size == EffectSize::small ? small : size == EffectSize::clear ? clear : large);
     };
     const double sign = chance.happens(0.5) ? 1.0 : -1.0;
     const double u = scale.full_input;

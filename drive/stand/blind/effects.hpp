@@ -31,8 +31,8 @@ struct Setup {
     double missed_size = 0.0;
 };
 
-enum class Size3 { small, clear, large };
-[[nodiscard]] const char* name_of(Size3 size);
+enum class EffectSize { small, clear, large };
+[[nodiscard]] const char* name_of(EffectSize size);
 
 using Parameters = std::map<std::string, double>;
 
@@ -50,7 +50,7 @@ using Parameters = std::map<std::string, double>;
 
 /// Parameters by the table's names. \param one_level  that the input alone has: supply_sag by its resistance, which is
 /// memoryless, and input_curve with another reference
-[[nodiscard]] Parameters draw_parameters(const std::string& effect, Size3 size, const Scale& scale, bool one_level,
+[[nodiscard]] Parameters draw_parameters(const std::string& effect, EffectSize size, const Scale& scale, bool one_level,
                                          Chance& chance);
 /// Of an effect that is an event: where in this record. Others stay as they are.
 void draw_event(const std::string& effect, Parameters& parameters, const Scale& scale, Chance& chance);

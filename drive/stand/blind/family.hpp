@@ -32,7 +32,7 @@ public:
 
     /// Numbers of an effect of the family's lists; of an event without its place. \param one_level  as
     /// `draw_parameters`
-    [[nodiscard]] virtual Parameters draw(const std::string& effect, Size3 size, bool one_level,
+    [[nodiscard]] virtual Parameters draw(const std::string& effect, EffectSize size, bool one_level,
                                           Chance& chance) const = 0;
 
     /// What the logger reads at the stamps. \param noise  added before what the sensor does to values; empty: none

@@ -95,8 +95,8 @@ Case make_case(const Plan& asked, std::uint64_t seed, std::size_t number) {
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
         Plan plan = asked;
         // What hardly shows becomes larger, rather than the plant chosen to suit it.
-        for (Size3& size : plan.sizes) {
-            size = static_cast<Size3>(std::min(2, static_cast<int>(size) + attempt / 10));
+        for (EffectSize& size : plan.sizes) {
+            size = static_cast<EffectSize>(std::min(2, static_cast<int>(size) + attempt / 10));
         }
         bool linear = false;
         for (const std::string& effect : plan.effects) {

@@ -25,7 +25,7 @@ public:
         }
     }
 
-    [[nodiscard]] Parameters draw(const std::string& effect, Size3 size, bool one_level,
+    [[nodiscard]] Parameters draw(const std::string& effect, EffectSize size, bool one_level,
                                   Chance& chance) const override {
         const Plant& own = base_.setup.plant;
         const Scale scale{full_input,       own.full_output, own.gain * full_input,           tau_s,

@@ -217,8 +217,8 @@ std::vector<std::vector<Fault>> place_faults(const std::vector<Fault>& faults, c
 std::optional<OpenCase> attempt_case(const OpenPlan& asked, std::uint64_t own, int attempt) {
     OpenPlan plan = asked;
     // What hardly shows becomes larger, rather than the plant chosen to suit it.
-    for (Size3& size : plan.plan.sizes) {
-        size = static_cast<Size3>(std::min(2, static_cast<int>(size) + attempt / 8));
+    for (EffectSize& size : plan.plan.sizes) {
+        size = static_cast<EffectSize>(std::min(2, static_cast<int>(size) + attempt / 8));
     }
     const std::uint64_t seed = own + 0x9E3779B9U * static_cast<std::uint64_t>(attempt);
     Chance rigs(seed, rig_stream);
@@ -319,8 +319,8 @@ std::vector<OpenPlan> plan_open_cases(std::size_t count, std::uint64_t seed) {
         throw glsum::Failure(glsum::Exit::bad_input, fmt::format("--blind: expected 1 to 999 cases, found {}", count));
     }
     Chance chance(seed, 100);
-    const std::vector<Size3> any_size{Size3::small, Size3::clear, Size3::large};
-    const std::vector<Size3> not_small{Size3::clear, Size3::large};
+    const std::vector<EffectSize> any_size{EffectSize::small, EffectSize::clear, EffectSize::large};
+    const std::vector<EffectSize> not_small{EffectSize::clear, EffectSize::large};
     struct Decks {
         Deck singles;
         Deck pairs;

@@ -250,7 +250,7 @@ TEST(BlockReplay, EqualsTheComputationStepByStep) {
                 of_blocks.meet(block.lines, accesses, next, events);
                 replay.execute(block, events, counted);
                 for (std::uint32_t nth = 0; nth < block.lines.size(); ++nth) {
-                    const timing::CodeBlock::Line& line = block.lines[nth];
+                    const timing::CodeBlock::Instruction& line = block.lines[nth];
                     const std::uint32_t behind = nth + 1 < block.lines.size() ? block.lines[nth + 1].address : next;
                     const std::int32_t before = direct[0]->state.position;
                     const timing::Event& event =

@@ -120,7 +120,7 @@ TEST(MeasuredCycles, AtTheirBoundsRowsAreRead) {
 }
 
 TEST(MeasuredCycles, TheLineGoesThroughPointsThatLieOnOne) {
-    const qemu::Line line = qemu::fit_line({5, 10, 128}, {59, 104, 1166});
+    const qemu::FittedLine line = qemu::fit_line({5, 10, 128}, {59, 104, 1166});
     EXPECT_NEAR(line.slope, 9.0, 1e-12);
     EXPECT_NEAR(line.constant, 14.0, 1e-9);
 }

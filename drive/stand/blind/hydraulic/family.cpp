@@ -13,9 +13,9 @@
 namespace stand::hydraulic {
 namespace {
 
+using blind::EffectSize;
 using blind::Fault;
 using blind::Parameters;
-using blind::Size3;
 
 // The gauge and what sends its values.
 struct Transmitter {
@@ -29,7 +29,8 @@ struct Transmitter {
 class TankRig final : public blind::Rig {
 public:
     explicit TankRig(Chance& chance);
-    [[nodiscard]] Parameters draw(const std::string& effect, Size3 size, bool one_level, Chance& chance) const override;
+    [[nodiscard]] Parameters draw(const std::string& effect, EffectSize size, bool one_level,
+                                  Chance& chance) const override;
     [[nodiscard]] std::vector<double> read(std::span<const Fault> faults, const blind::Held& held,
                                            const std::vector<double>& noise, std::uint64_t seed) const override;
 
@@ -59,10 +60,10 @@ TankRig::TankRig(Chance& chance) {
     clock.until_s = clock.interval_s * 250.0 * std::round(chance.between(6.0, 12.0));
 }
 
-Parameters TankRig::draw(const std::string& effect, Size3 size, bool one_level, Chance& chance) const {
+Parameters TankRig::draw(const std::string& effect, EffectSize size, bool one_level, Chance& chance) const {
     const double some = chance.between(0.85, 1.15);
     const auto of = [&](double small, double clear, double large) {
-        return some * (size == Size3::small ? small : size == Size3::clear ? clear : large);
+        return some * (size == EffectSize::small ? small : size == EffectSize::clear ? clear : large);
     };
     const double either = chance.happens(0.5) ? 1.0 : -1.0;
     const double full_cm = tanks_.reference_cm;

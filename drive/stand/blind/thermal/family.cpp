@@ -13,9 +13,9 @@
 namespace stand::thermal {
 namespace {
 
+using blind::EffectSize;
 using blind::Fault;
 using blind::Parameters;
-using blind::Size3;
 
 struct Reading {
     double offset_k = 0.0;
@@ -29,7 +29,8 @@ struct Reading {
 class OvenRig final : public blind::Rig {
 public:
     explicit OvenRig(Chance& chance);
-    [[nodiscard]] Parameters draw(const std::string& effect, Size3 size, bool one_level, Chance& chance) const override;
+    [[nodiscard]] Parameters draw(const std::string& effect, EffectSize size, bool one_level,
+                                  Chance& chance) const override;
     [[nodiscard]] std::vector<double> read(std::span<const Fault> faults, const blind::Held& held,
                                            const std::vector<double>& noise, std::uint64_t seed) const override;
 
@@ -72,10 +73,10 @@ OvenRig::OvenRig(Chance& chance) {
     clock.until_s = clock.interval_s * 250.0 * std::round(chance.between(6.0, 12.0));
 }
 
-Parameters OvenRig::draw(const std::string& effect, Size3 size, bool one_level, Chance& chance) const {
+Parameters OvenRig::draw(const std::string& effect, EffectSize size, bool one_level, Chance& chance) const {
     const double vary = chance.between(0.85, 1.15);
     const auto pick = [&](double small, double clear, double large) {
-        return vary * (size == Size3::small ? small : size == Size3::clear ? clear : large);
+        return vary * (size == EffectSize::small ? small : size == EffectSize::clear ? clear : large);
     };
     const double sign = chance.happens(0.5) ? 1.0 : -1.0;
     const double full_w = loss_w_per_k_ * rise_k_;

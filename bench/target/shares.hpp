@@ -1,4 +1,4 @@
-// Dealing pieces of work of unequal cost to workers that each start once and take a whole share.
+// Pieces of work of unequal cost in balanced shares, for workers that each start once and take a whole one.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +7,9 @@
 
 namespace bench {
 
-/// Deals the pieces 0, 1, ... to `shares` shares of about equal cost: the dearest first, each to the share that has
+/// The pieces 0, 1, ... in `shares` shares of about equal cost: the costliest first, each to the share that has
 /// least so far. Each share's pieces rise; shares without a piece are left out.
-[[nodiscard]] std::vector<std::vector<std::size_t>> deal(std::span<const double> costs, std::size_t shares);
+[[nodiscard]] std::vector<std::vector<std::size_t>> balanced_shares(std::span<const double> costs, std::size_t shares);
 
 /// What a share names, in the share's order.
 template <class T>

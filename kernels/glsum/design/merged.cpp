@@ -1,14 +1,14 @@
-#include "modes/merged.hpp"
+#include "glsum/design/merged.hpp"
 
 #include <algorithm>
 #include <cmath>
 
+#include "glsum/design/bdf.hpp"
+#include "glsum/design/fitted.hpp"
+#include "glsum/design/projection.hpp"
 #include "glsum/weights.hpp"
-#include "modes/bdf.hpp"
-#include "modes/fitted.hpp"
-#include "modes/projection.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 namespace {
 
 // (1 - z)^(v-1): the weights of D^v on increments.
@@ -69,4 +69,4 @@ Approximation approximate_merged(std::span<const Term> terms, double step_s, Dis
     return found;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

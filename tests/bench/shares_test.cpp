@@ -1,5 +1,5 @@
 // Dealing by cost.
-#include "bench/target/deal.hpp"
+#include "bench/target/shares.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,13 +10,13 @@ namespace {
 using Shares = std::vector<std::vector<std::size_t>>;
 
 TEST(Deal, BalancesWhatTurnsWouldNot) {
-    EXPECT_EQ(bench::deal(std::vector{9.0, 1.0, 8.0, 1.0, 7.0, 10.0}, 2), (Shares{{1, 4, 5}, {0, 2, 3}}));
+    EXPECT_EQ(bench::balanced_shares(std::vector{9.0, 1.0, 8.0, 1.0, 7.0, 10.0}, 2), (Shares{{1, 4, 5}, {0, 2, 3}}));
 }
 
 TEST(Deal, LeavesNoPieceOutAndNoShareEmpty) {
-    EXPECT_EQ(bench::deal(std::vector{0.0, 0.0, 5.0}, 2), (Shares{{2}, {0, 1}}));
-    EXPECT_EQ(bench::deal(std::vector{2.0, 1.0}, 5), (Shares{{0}, {1}}));
-    EXPECT_TRUE(bench::deal({}, 3).empty());
+    EXPECT_EQ(bench::balanced_shares(std::vector{0.0, 0.0, 5.0}, 2), (Shares{{2}, {0, 1}}));
+    EXPECT_EQ(bench::balanced_shares(std::vector{2.0, 1.0}, 5), (Shares{{0}, {1}}));
+    EXPECT_TRUE(bench::balanced_shares({}, 3).empty());
 }
 
 TEST(Deal, PicksInTheSharesOrder) {

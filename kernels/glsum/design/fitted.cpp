@@ -1,13 +1,13 @@
-#include "modes/fitted.hpp"
+#include "glsum/design/fitted.hpp"
 
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 
-#include "modes/design.hpp"
-#include "modes/projection.hpp"
+#include "glsum/design/modes.hpp"
+#include "glsum/design/projection.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 namespace {
 
 // Indices from K to N: each up to 25, then 4 % apart.
@@ -87,4 +87,4 @@ std::optional<Approximation> design_fitted(const std::vector<double>& weights, d
     return best;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

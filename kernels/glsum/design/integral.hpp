@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "modes/mode.hpp"
+#include "glsum/design/mode.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 /// Whether the order is that of an integral whose weights do not grow: -1 <= v < 0.
 [[nodiscard]] bool is_integral(double order);
@@ -30,4 +30,4 @@ namespace glsum::modes {
 [[nodiscard]] std::optional<Approximation> design_integral(const std::vector<double>& weights, double order,
                                                            double error);
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

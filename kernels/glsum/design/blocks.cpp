@@ -1,4 +1,4 @@
-#include "modes/blocks.hpp"
+#include "glsum/design/blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include "glsum/logmemory/nested.hpp"
 #include "glsum/weights.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 namespace {
 
 // The fewest blocks with which `taps` reach index `horizon`; `taps` if all of them are too few.
@@ -75,4 +75,4 @@ BlockDesign design_blocks(const Tail& tail, std::size_t taps) {
     return best;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

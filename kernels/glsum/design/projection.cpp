@@ -1,11 +1,11 @@
-#include "modes/projection.hpp"
+#include "glsum/design/projection.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-namespace glsum::modes {
+namespace glsum::design {
 namespace {
 
 // Double-exponential decay at the right: beyond this exponent e^-x is below every double's last bit.
@@ -56,22 +56,26 @@ Projection::Projection(std::vector<Node> nodes, std::size_t horizon) : nodes_(st
         }
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(gramian);
-    vectors_ = solver.eigenvectors().rowwise().reverse();
-    values_ = solver.eigenvalues().reverse();
+    vectors_.resize(nodes_.size() * nodes_.size());
+    values_.resize(nodes_.size());
+    Eigen::Map<Eigen::MatrixXd>(vectors_.data(), count, count) = solver.eigenvectors().rowwise().reverse();
+    Eigen::Map<Eigen::VectorXd>(values_.data(), count) = solver.eigenvalues().reverse();
 }
 
 double Projection::dropped(std::size_t count) const {
-    return 2.0 * values_.tail(values_.size() - static_cast<Eigen::Index>(count)).cwiseMax(0.0).sum();
+    const Eigen::Map<const Eigen::VectorXd> values(values_.data(), static_cast<Eigen::Index>(values_.size()));
+    return 2.0 * values.tail(values.size() - static_cast<Eigen::Index>(count)).cwiseMax(0.0).sum();
 }
 
 std::vector<Mode> Projection::modes(std::size_t count) const {
     if (count == 0) {
         return {};
     }
-    const auto kept = vectors_.leftCols(static_cast<Eigen::Index>(count));
-    Eigen::VectorXd decays(vectors_.rows());
-    Eigen::VectorXd roots(vectors_.rows());
-    for (Eigen::Index i = 0; i < vectors_.rows(); ++i) {
+    const auto all = static_cast<Eigen::Index>(nodes_.size());
+    const auto kept = Eigen::Map<const Eigen::MatrixXd>(vectors_.data(), all, static_cast<Eigen::Index>(count));
+    Eigen::VectorXd decays(all);
+    Eigen::VectorXd roots(all);
+    for (Eigen::Index i = 0; i < all; ++i) {
         decays(i) = -std::expm1(-nodes_[static_cast<std::size_t>(i)].rate);
         roots(i) = nodes_[static_cast<std::size_t>(i)].root;
     }
@@ -85,4 +89,4 @@ std::vector<Mode> Projection::modes(std::size_t count) const {
     return found;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

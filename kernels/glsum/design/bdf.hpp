@@ -11,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace glsum::modes {
+namespace glsum::design {
 
 inline constexpr unsigned fewest_bdf_steps = 2;
 inline constexpr unsigned most_bdf_steps = 4;
@@ -29,4 +29,4 @@ inline constexpr unsigned most_bdf_steps = 4;
 /// The same for increments x_k - x_(k-1): b_j = a_0 + ... + a_j, of P(z)^v / (1 - z); b_0 = 1.
 [[nodiscard]] std::vector<double> bdf_increment_weights(unsigned steps, double order, std::size_t count);
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

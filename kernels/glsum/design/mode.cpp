@@ -1,10 +1,10 @@
-#include "modes/mode.hpp"
+#include "glsum/design/mode.hpp"
 
 #include <cmath>
 
 #include "glsum/weights.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 std::vector<double> weights_to(double order, std::size_t last) {
     std::vector<double> weights = {1.0};
@@ -34,4 +34,4 @@ double error_of(const std::vector<double>& weights, std::size_t near_taps, const
     return error;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "modes/mode.hpp"
+#include "glsum/design/mode.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 /// Sets the weights of given poles by least squares on weights[j] j sqrt(d log j), j >= K, which sees each decade
 /// alike: at each index up to 25, then at those 4 % apart. \param near_taps  K >= 1
@@ -25,4 +25,4 @@ void fit_weights(std::vector<Mode>& modes, const std::vector<double>& weights, s
 [[nodiscard]] std::optional<Approximation> design_fitted(const std::vector<double>& weights, double order,
                                                          double error);
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

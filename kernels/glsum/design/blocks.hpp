@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <vector>
 
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 /// The first K weights are exact; behind them every block has the mean of its own, and what it does not reach has 0.
 struct BlockDesign {
@@ -25,4 +25,4 @@ struct BlockDesign {
 /// same design. \pre taps >= 1
 [[nodiscard]] BlockDesign design_blocks(const Tail& tail, std::size_t taps);
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

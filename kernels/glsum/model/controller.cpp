@@ -1,4 +1,4 @@
-#include "model/controller.hpp"
+#include "glsum/model/controller.hpp"
 
 namespace glsum {
 

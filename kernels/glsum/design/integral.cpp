@@ -1,13 +1,13 @@
-#include "modes/integral.hpp"
+#include "glsum/design/integral.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "modes/design.hpp"
-#include "modes/fitted.hpp"
-#include "modes/projection.hpp"
+#include "glsum/design/fitted.hpp"
+#include "glsum/design/modes.hpp"
+#include "glsum/design/projection.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 namespace {
 
 // What the poles are chosen by: below every error that is designed for.
@@ -70,4 +70,4 @@ std::optional<Approximation> design_integral(const std::vector<double>& weights,
     return std::nullopt;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <optional>
 
-#include "modes/mode.hpp"
+#include "glsum/design/mode.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 /// What is approximated.
 struct Tail {
@@ -33,6 +33,6 @@ inline constexpr std::size_t most_modes = 40;
 
 /// The smallest L whose `modes_within` keep sum_{j=K..N} |a_j - approximation| (the error of the output, for |x| <= 1,
 /// before h^-v) within `error`; empty if none does.
-[[nodiscard]] std::optional<Approximation> design(const Tail& tail, double error);
+[[nodiscard]] std::optional<Approximation> design_modes(const Tail& tail, double error);
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

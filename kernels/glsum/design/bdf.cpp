@@ -1,4 +1,4 @@
-#include "modes/bdf.hpp"
+#include "glsum/design/bdf.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 
 #include "glsum/double_double.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 namespace {
 
 // P(z), times what makes its coefficients whole.
@@ -99,4 +99,4 @@ std::vector<double> bdf_increment_weights(unsigned steps, double order, std::siz
     return weights;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

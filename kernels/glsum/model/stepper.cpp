@@ -1,4 +1,4 @@
-#include "model/stepper.hpp"
+#include "glsum/model/stepper.hpp"
 
 namespace glsum {
 namespace {

@@ -1,4 +1,4 @@
-// How a kernel fared in the search.
+// What became of a kernel in the search.
 #pragma once
 
 #include <optional>
@@ -8,25 +8,25 @@
 
 namespace choose {
 
-enum class Fate {
+enum class Standing {
     chosen,
     runner_up,
     dominated,   ///< fits, but another kernel is at least as good in error, cost and bytes
-    dearer,      ///< fits, and costs more
-    too_dear,    ///< beyond the cost limit
+    costlier,    ///< fits, and costs more
+    too_costly,  ///< beyond the cost limit
     too_large,   ///< beyond the bytes limit
     inaccurate,  ///< no length meets the error
     wrong,       ///< its answer is wrong or missing
 };
-[[nodiscard]] std::string to_text(Fate fate);
+[[nodiscard]] std::string to_text(Standing standing);
 
-/// How one kernel fared.
-struct Fared {
+/// What became of one kernel.
+struct Outcome {
     std::string kernel;
-    Fate fate = Fate::wrong;
+    Standing standing = Standing::wrong;
     std::optional<Candidate> best;      ///< its shortest, cheapest length that meets the error
     std::optional<Candidate> short_of;  ///< `inaccurate`: its most accurate length of those that were measured
-    std::optional<Candidate> already;   ///< too dear at this length already, which is shorter than it needs
+    std::optional<Candidate> already;   ///< too costly at this length already, which is shorter than it needs
     std::string why;
 };
 

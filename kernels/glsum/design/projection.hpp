@@ -10,13 +10,12 @@
 // dropped: the projection of a symmetric matrix keeps its eigenvalues between the old ones. No optimizer is needed.
 #pragma once
 
-#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
-#include "modes/mode.hpp"
+#include "glsum/design/mode.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 /// An exponential of the mixture: b^2 e^(-s (j-K)).
 struct Node {
@@ -47,8 +46,8 @@ public:
 
 private:
     std::vector<Node> nodes_;
-    Eigen::MatrixXd vectors_;  // the dominant ones first
-    Eigen::VectorXd values_;
+    std::vector<double> vectors_;  // one after the other, the dominant ones first
+    std::vector<double> values_;
 };
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

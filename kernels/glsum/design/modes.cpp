@@ -1,13 +1,13 @@
-#include "modes/design.hpp"
+#include "glsum/design/modes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
 
-#include "modes/projection.hpp"
+#include "glsum/design/projection.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 namespace {
 
 // How fine the trapezoid is, below every error that is designed for. It then has more than `most_modes` nodes, whatever
@@ -50,7 +50,7 @@ Approximation approximate(const Tail& tail, std::size_t near_taps, std::size_t m
     return {near_taps, std::move(found), error};
 }
 
-std::optional<Approximation> design(const Tail& tail, double error) {
+std::optional<Approximation> design_modes(const Tail& tail, double error) {
     const std::vector<double> weights = weights_to(tail.order, tail.horizon);
     std::map<std::size_t, Projection> projections;  // by near taps: two at most
     for (std::size_t taps = 1; taps <= most_taps(tail.order); ++taps) {
@@ -77,4 +77,4 @@ std::optional<Approximation> design(const Tail& tail, double error) {
     return std::nullopt;
 }
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

@@ -6,7 +6,7 @@
 
 #include "glsum/kernel.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 using glsum::Mode;
 
@@ -29,4 +29,4 @@ struct Approximation {
 [[nodiscard]] double error_of(const std::vector<double>& weights, std::size_t near_taps, const std::vector<Mode>& modes,
                               double enough);
 
-}  // namespace glsum::modes
+}  // namespace glsum::design

@@ -12,9 +12,9 @@
 #include <span>
 #include <vector>
 
-#include "modes/mode.hpp"
+#include "glsum/design/mode.hpp"
 
-namespace glsum::modes {
+namespace glsum::design {
 
 /// c D^v, with v in (0, 2]; 0 < v: a term without a derivative is no part of this table.
 struct Term {
@@ -43,4 +43,4 @@ enum class Discretisation {
                                                Discretisation discretisation, std::size_t horizon,
                                                std::size_t near_taps, std::size_t modes);
 
-}  // namespace glsum::modes
+}  // namespace glsum::design
