@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "glsum/catalogue.hpp"
 #include "glsum/registry.hpp"
 
 namespace test {
@@ -77,6 +78,7 @@ AnyKernel describe() {
     return {.name = K::name(),
             .technique = K::TechniquePart::word,
             .dropped = reference::dropped_by<typename K::HistoryPart>(),
+            .of_window = glsum::catalogue_entry<K>().family == glsum::Family::window,
             .fixed_point = Format::fixed_point,
             .smallest_sample = Format::fixed_point
                                    ? 0x1p-31

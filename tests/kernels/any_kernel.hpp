@@ -42,6 +42,7 @@ struct AnyKernel {
     std::string_view name;
     std::string_view technique;
     reference::Dropped dropped;  ///< what its history takes for what leaves the window
+    bool of_window;  ///< its family
     bool fixed_point;
     double smallest_sample;  ///< above 0
     bool (*order_in_range)(double order);
@@ -56,7 +57,7 @@ struct AnyKernel {
         return dropped == reference::Dropped::held || dropped == reference::Dropped::line;
     }
     /// Nested from the oldest sample: no weight may follow a zero.
-    [[nodiscard]] bool nested() const { return technique.starts_with("horner"); }
+    [[nodiscard]] bool horner() const { return technique.starts_with("horner"); }
     /// The exact sums of what a design stands for.
     [[nodiscard]] reference::Sums exact_sums(const glsum::Design& design, std::span<const double> record) const {
         return reference::sums_of(dropped, design, record);

@@ -135,7 +135,7 @@ TEST_P(KernelTest, TakesNamedWeightsInPlaceOfThoseOfItsOrder) {
         EXPECT_EQ(prepare({}), Status::ok);
         return;
     }
-    const bool refuses = kernel.nested() && kernel.fixed_point;
+    const bool refuses = kernel.horner() && kernel.fixed_point;
     for (const std::size_t taps : {2U, 3U, 6U, 10U}) {
         const glsum::Design design{0.5, taps, {}, weights};
         const auto line = kernel.line(design);
@@ -161,10 +161,29 @@ TEST_P(KernelTest, TakesNamedWeightsInPlaceOfThoseOfItsOrder) {
     }
     std::vector<double> gap = weights;
     gap[3] = 0.0;
-    EXPECT_EQ(prepare(gap), kernel.nested() ? Status::weights_out_of_range : Status::ok);
+    EXPECT_EQ(prepare(gap), kernel.horner() ? Status::weights_out_of_range : Status::ok);
     gap.assign(9, 0.0);
-    gap[0] = 0.5;  // nothing behind the last: that can be nested
+    gap[0] = 0.5;  // nothing behind the last: that has a Horner form
     EXPECT_EQ(prepare(gap), refuses ? Status::weights_out_of_range : Status::ok);
+}
+
+// As the formats promise. A coefficient of 0 for a sample that has left would not do: it makes NaN of infinity.
+TEST_P(KernelTest, KeepsWhatIsNotFiniteForTheLengthOfTheMemory) {
+    if (kernel.fixed_point || !kernel.of_window || !kernel.takes_zero()) {
+        return;
+    }
+    for (const std::size_t taps : {2U, 5U, 17U, 18U, 33U, 40U, 50U}) {
+        for (const double none : {static_cast<double>(INFINITY), std::nan("")}) {
+            const auto line = kernel.line({0.5, taps});
+            for (int k = 0; k < 3; ++k) {
+                line->step(0.25);
+            }
+            for (std::size_t k = 0; k < 3 * taps; ++k) {
+                EXPECT_EQ(std::isfinite(line->step(k == 0 ? none : 0.25)), k >= taps)
+                    << taps << ' ' << none << ' ' << k;
+            }
+        }
+    }
 }
 
 TEST_P(KernelTest, IsLinear) {

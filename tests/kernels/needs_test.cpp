@@ -9,13 +9,13 @@
 #include <string>
 
 #include "bench/sweep/host_line.hpp"
-#include "glsum/logmemory/block_weights.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/computes_in_double.hpp"
 #include "glsum/double_double.hpp"
-#include "glsum/window/dsp.hpp"
 #include "glsum/gain.hpp"
+#include "glsum/logmemory/block_weights.hpp"
 #include "glsum/registry.hpp"
+#include "glsum/window/dsp.hpp"
 #include "reference/real.hpp"
 
 namespace {
@@ -143,10 +143,11 @@ TEST(Needs, OfVectorsAreWholeOnes) {
     using Dot = Sum<Mirror, Simd, F32>;
     for (const auto& [taps, table] :
          {std::pair(2U, 16U), std::pair(17U, 16U), std::pair(18U, 32U), std::pair(601U, 608U)}) {
-        expect_needs<Dot>({0.5, taps}, {table, 2 * (taps - 1) + 15, taps - 1});
+        // A table and, beside the mirror, a block, both where the next 64 bytes begin.
+        expect_needs<Dot>({0.5, taps}, {table + 15, 2 * table + 16 + 15, taps - 1});
     }
     expect_needs<Dot>({0.5, 1}, {0, 0, 0});
-    EXPECT_EQ((Sum<Mirror, Simd, F64>::table_count(10)), 16U);
+    EXPECT_EQ((Sum<Mirror, Simd, F64>::table_count(10)), 16U + 7U);
     // Eight outputs at once: 32 words for what enters (7 of them and two vectors, in whole ones), then a table for each
     // output while all fit 32 KB, else one and eight words; a ring in eights, twice, between two vectors.
     using Eight = Sum<HostBlock, Simd, F32>;

@@ -19,8 +19,9 @@ int wrong_sums() {
             a[i] = static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5);
             x[i] = static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5);
         }
-        wrong += glsum::simd_dot(a.data(), x.data(), blocks) != test::in_the_stated_order<false>(a, x) ? 1 : 0;
-        wrong += glsum::simd_dot_fused(a.data(), x.data(), blocks) != test::in_the_stated_order<true>(a, x) ? 1 : 0;
+        wrong +=
+            glsum::simd_dot<T, false>(a.data(), x.data(), blocks) != test::in_the_stated_order<false>(a, x) ? 1 : 0;
+        wrong += glsum::simd_dot<T, true>(a.data(), x.data(), blocks) != test::in_the_stated_order<true>(a, x) ? 1 : 0;
     }
     return wrong;
 }

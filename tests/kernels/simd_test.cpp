@@ -4,11 +4,12 @@
 #include "glsum/registry.hpp"
 
 #if defined(GLSUM_SIMD)
+#include <algorithm>
 #include <random>
 #include <vector>
 
-#include "glsum/window/simd_architectures.hpp"
 #include "glsum/lookahead/simd_block_arch.hpp"
+#include "glsum/window/simd_architectures.hpp"
 #include "glsum/window/simd_dot_arch.hpp"
 #include "tests/kernels/stated_simd_order.hpp"
 
@@ -51,14 +52,54 @@ void check() {
         }
         check_each<T, false>(glsum::SimdArchitectures{}, a, x, test::in_the_stated_order<false>(a, x));
         check_each<T, true>(glsum::SimdArchitectures{}, a, x, test::in_the_stated_order<true>(a, x));
-        EXPECT_EQ(glsum::simd_dot(a.data(), x.data(), blocks), test::in_the_stated_order<false>(a, x));
-        EXPECT_EQ(glsum::simd_dot_fused(a.data(), x.data(), blocks), test::in_the_stated_order<true>(a, x));
+        EXPECT_EQ((glsum::simd_dot<T, false>(a.data(), x.data(), blocks)), test::in_the_stated_order<false>(a, x));
+        EXPECT_EQ((glsum::simd_dot<T, true>(a.data(), x.data(), blocks)), test::in_the_stated_order<true>(a, x));
     }
 }
 
 TEST(Simd, AddsInTheStatedOrderOnEveryInstructionSet) {
     check<float>();
     check<double>();
+}
+
+// A window that slides over a record: its newest block is kept beside it.
+template <class T, bool fused, class... Architectures>
+void check_slides_on_each(xsimd::arch_list<Architectures...>, std::size_t blocks) {
+    constexpr std::size_t block = 64 / sizeof(T);
+    const auto check = [&]<class Architecture>(Architecture) {
+        if (!is_here<Architecture>()) {
+            return;
+        }
+        std::mt19937 generator(6);
+        const auto draw = [&] { return static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5); };
+        std::vector<T> a(blocks * block);
+        std::generate(a.begin(), a.end(), draw);
+        std::vector<T> window(a.size());  // newest first
+        std::vector<T> without_newest(a.size());
+        alignas(64) T recent[block] = {};
+        for (std::size_t k = 0; k < 3 * block; ++k) {
+            // What lies in the window's first block is not read.
+            without_newest = window;
+            std::fill(without_newest.begin(), without_newest.begin() + block, T(1e30));
+            const T newest = draw();
+            const T found =
+                glsum::simd_slide_on<T, fused, Architecture>(a.data(), without_newest.data(), recent, blocks, newest);
+            ASSERT_EQ(found, (test::in_the_stated_order<fused>(a, window)))
+                << Architecture::name() << ' ' << blocks << ' ' << k;
+            window.insert(window.begin(), newest);
+            window.pop_back();
+        }
+    };
+    (check(Architectures{}), ...);
+}
+
+TEST(Simd, SlidesInTheStatedOrderOnEveryInstructionSet) {
+    for (std::size_t blocks = 1; blocks < 14; ++blocks) {
+        check_slides_on_each<float, false>(glsum::SimdArchitectures{}, blocks);
+        check_slides_on_each<float, true>(glsum::SimdArchitectures{}, blocks);
+        check_slides_on_each<double, false>(glsum::SimdArchitectures{}, blocks);
+        check_slides_on_each<double, true>(glsum::SimdArchitectures{}, blocks);
+    }
 }
 
 // A whole record through each instruction set's own body, on a state that the kernel prepared.

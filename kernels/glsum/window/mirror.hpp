@@ -30,6 +30,17 @@ struct Mirror {
         samples[head] = newest;
         samples[head + past] = newest;
     }
+
+    /// Of `past` samples held the oldest, from `kept` on, meet zeros: what is not finite must not.
+    template <class T>
+    static void forget(T* samples, std::size_t past, std::uint32_t head, std::size_t kept) {
+        if (kept == past || samples[head + kept] - samples[head + kept] == T(0)) {
+            return;
+        }
+        const std::size_t at = (head + kept) % past;
+        samples[at] = 0;
+        samples[at + past] = 0;
+    }
 };
 
 }  // namespace glsum

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <string_view>
 
 #include "glsum/window/technique.hpp"
@@ -14,11 +15,14 @@
 namespace glsum {
 
 /// sum of a[i] x[i] over blocks of 64 bytes, in the order above, on the best instruction set of this machine.
-[[nodiscard]] float simd_dot(const float* a, const float* x, std::size_t blocks);
-[[nodiscard]] double simd_dot(const double* a, const double* x, std::size_t blocks);
-/// The same with each product and its addition rounded once.
-[[nodiscard]] float simd_dot_fused(const float* a, const float* x, std::size_t blocks);
-[[nodiscard]] double simd_dot_fused(const double* a, const double* x, std::size_t blocks);
+/// \tparam fused  each product and its addition rounded once
+template <class T, bool fused>
+[[nodiscard]] T simd_dot(const T* a, const T* x, std::size_t blocks);
+/// The same, but that the first block of samples is taken from `recent`, into which `newest` moves afterwards. The
+/// samples stored by the last calls could be loaded as a vector only once all of these stores are done; `recent` is
+/// stored as it is loaded. \param recent  64 bytes, aligned to as many
+template <class T, bool fused>
+[[nodiscard]] T simd_slide(const T* a, const T* x, T* recent, std::size_t blocks, T newest);
 /// The name of that instruction set, as xsimd has it: "avx512f", "avx2", "sse2", "arm64+neon".
 [[nodiscard]] std::string_view simd_instruction_set();
 
@@ -31,28 +35,41 @@ struct Simd : WeightTable {
     template <class Format>
     static constexpr std::size_t block = 64 / sizeof(typename Format::Sample);
 
+    /// Whole blocks. With a window of `past` samples the last block would reach into the mirror's other copy, and be
+    /// loaded only once the newest samples are stored there.
     template <class Format>
-    static constexpr std::size_t table_count(std::size_t past) {
+    static constexpr std::size_t held(std::size_t past) {
         return (past + block<Format> - 1) / block<Format> * block<Format>;
     }
     template <class Format>
-    static constexpr std::size_t overread = block<Format> - 1;
+    static constexpr std::size_t table_count(std::size_t past) {
+        return past == 0 ? 0 : held<Format>(past) + block<Format> - 1;
+    }
+    /// At the next multiple of 64 bytes: a vector across two of the processor's lines takes two loads.
+    template <class T>
+    static T* placed(T* memory) {
+        constexpr std::size_t count = 64 / sizeof(T);
+        return memory + (count - reinterpret_cast<std::uintptr_t>(memory) / sizeof(T) % count) % count;
+    }
+    /// A block, where it is placed.
+    template <class Format>
+    static constexpr std::size_t beside = 2 * block<Format> - 1;
 
     /// a_1 ... a_past, then zeros up to a whole block.
     template <class Format>
     static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
                      const typename Format::Scale& scale) {
         WeightTable::fill<Format>(table, past, design, scale);
-        for (std::size_t i = past; i < table_count<Format>(past); ++i) {
+        for (std::size_t i = past; i < held<Format>(past); ++i) {
             table[i] = 0;
         }
     }
 
     template <class Format>
-    static typename Format::Accumulator sum(const typename Format::Coefficient* table,
-                                            const Window<typename Format::Sample>& window,
-                                            typename Format::Sample newest, const typename Format::Scale&) {
-        return newest + simd_dot(table, window.newer, table_count<Format>(window.newer_count) / block<Format>);
+    static typename Format::Accumulator sum_beside(const typename Format::Coefficient* table,
+                                                   const Window<typename Format::Sample>& window,
+                                                   typename Format::Sample newest, typename Format::Sample* beside) {
+        return slid<Format, false>(table, window, newest, beside);
     }
 
     /// The product; the additions within a lane, of the accumulators, of the lanes, and of x_k.
@@ -65,16 +82,30 @@ struct Simd : WeightTable {
         }
         return j == 0 ? 1 : 1 + (taps - 1) / lanes + tree + 1;
     }
+
+protected:
+    // Where one block holds the window, samples that have left it would stay beside it: x = infinity for too long.
+    template <class Format, bool fused>
+    [[gnu::always_inline]] static inline typename Format::Accumulator slid(
+        const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
+        typename Format::Sample newest, typename Format::Sample* beside) {
+        using Sample = typename Format::Sample;
+        const std::size_t blocks = window.newer_count / block<Format>;
+        if (blocks <= 1) {
+            return newest + simd_dot<Sample, fused>(table, window.newer, blocks);
+        }
+        return newest + simd_slide<Sample, fused>(table, window.newer, placed(beside), blocks, newest);
+    }
 };
 
 struct SimdFma : Simd {
     static constexpr std::string_view word = "simdfma";
 
     template <class Format>
-    static typename Format::Accumulator sum(const typename Format::Coefficient* table,
-                                            const Window<typename Format::Sample>& window,
-                                            typename Format::Sample newest, const typename Format::Scale&) {
-        return newest + simd_dot_fused(table, window.newer, table_count<Format>(window.newer_count) / block<Format>);
+    static typename Format::Accumulator sum_beside(const typename Format::Coefficient* table,
+                                                   const Window<typename Format::Sample>& window,
+                                                   typename Format::Sample newest, typename Format::Sample* beside) {
+        return slid<Format, true>(table, window, newest, beside);
     }
 };
 

@@ -1,58 +1,166 @@
 // Compiled once for each instruction set, with GLSUM_SIMD_ARCHITECTURE naming it.
 #include "glsum/window/simd_dot_arch.hpp"
 
+#include <utility>
+
 #include "glsum/window/simd_product.hpp"
 
 namespace glsum {
+namespace {
+
+template <class Batch>
+using Register = typename Batch::register_type;
+
+// Lane i + half in lane i, the first lanes behind the last.
+template <std::size_t half, class Batch, std::size_t... lane>
+[[gnu::always_inline]] inline Batch turned(const Batch& values, std::index_sequence<lane...>) {
+    const auto lanes = static_cast<Register<Batch>>(values);
+    return Batch(__builtin_shufflevector(lanes, lanes, int((lane + half) % sizeof...(lane))...));
+}
+
+// Lane i in lane i + 1, and the last lane of `before` in lane 0.
+template <class Batch, std::size_t... lane>
+[[gnu::always_inline]] inline Batch moved_up(const Batch& values, const Batch& before, std::index_sequence<lane...>) {
+    return Batch(__builtin_shufflevector(static_cast<Register<Batch>>(values), static_cast<Register<Batch>>(before),
+                                         int(2 * sizeof...(lane) + 1), int(lane)...));
+}
+
+// Pairwise: the upper half of the lanes is added to the lower, until one is left. In registers, since what has just
+// been stored in other portions than it is loaded in has to wait for its store.
+template <std::size_t half, class Batch>
+[[gnu::always_inline]] inline auto joined(const Batch& lanes) {
+    if constexpr (half == 0) {
+        return static_cast<Register<Batch>>(lanes)[0];
+    } else {
+        return joined<half / 2>(lanes + turned<half>(lanes, std::make_index_sequence<Batch::size>{}));
+    }
+}
+
+// Sums of 64 bytes, or of half where sixteen registers would not hold four of them. Indices are constants throughout:
+// by others, and by loops, GCC would keep the sums in memory.
+template <class T, class Architecture>
+struct Accumulator {
+    using Batch = xsimd::batch<T, Architecture>;
+    static constexpr std::size_t block = 64 / sizeof(T);
+    static constexpr std::size_t passes = block / Batch::size == 4 ? 2 : 1;
+    static constexpr std::size_t parts = block / passes / Batch::size;
+    static_assert(parts <= 2);
+    Batch sums[parts];
+
+    Accumulator() {
+        each([&](auto part) { sums[part] = Batch(T(0)); });
+    }
+    template <bool fused>
+    void add(const T* a, const T* x) {
+        each([&](auto part) {
+            sums[part] = add_product<fused>(sums[part], Batch::load_unaligned(a + part * Batch::size),
+                                            Batch::load_unaligned(x + part * Batch::size));
+        });
+    }
+    void add(const Accumulator& other) {
+        each([&](auto part) { sums[part] = sums[part] + other.sums[part]; });
+    }
+    [[nodiscard]] T joined() const {
+        return glsum::joined<Batch::size / 2>(parts == 2 ? sums[0] + sums[parts - 1] : sums[0]);
+    }
+
+private:
+    template <class Body>
+    [[gnu::always_inline]] static inline void each(const Body& body) {
+        body(std::integral_constant<std::size_t, 0>{});
+        if constexpr (parts == 2) {
+            body(std::integral_constant<std::size_t, 1>{});
+        }
+    }
+};
+
+// The first block of samples lies at `first`, the others behind x + 64 bytes.
+template <bool fused, class T, class Architecture>
+[[gnu::always_inline]] inline Accumulator<T, Architecture> pass(const T* a, const T* first, const T* x,
+                                                                std::size_t blocks) {
+    constexpr std::size_t block = 64 / sizeof(T);
+    static_assert(Simd::accumulators == 4);
+    // With AVX-512 that is four chains of additions, which hides an addition's latency of up to four cycles at one
+    // block a cycle, the most that two loads a cycle can feed.
+    Accumulator<T, Architecture> s0;
+    Accumulator<T, Architecture> s1;
+    Accumulator<T, Architecture> s2;
+    Accumulator<T, Architecture> s3;
+    const T* const end = a + blocks * block;
+    const auto add_others = [&] {
+        if (a + block < end) {
+            s1.template add<fused>(a + block, x + block);
+        }
+        if (a + 2 * block < end) {
+            s2.template add<fused>(a + 2 * block, x + 2 * block);
+        }
+        if (a + 3 * block < end) {
+            s3.template add<fused>(a + 3 * block, x + 3 * block);
+        }
+    };
+    if (a < end) {
+        s0.template add<fused>(a, first);
+    }
+    add_others();
+    a += 4 * block;
+    x += 4 * block;
+    for (; a + 3 * block < end; a += 4 * block, x += 4 * block) {
+        s0.template add<fused>(a, x);
+        s1.template add<fused>(a + block, x + block);
+        s2.template add<fused>(a + 2 * block, x + 2 * block);
+        s3.template add<fused>(a + 3 * block, x + 3 * block);
+    }
+    if (a < end) {
+        s0.template add<fused>(a, x);
+    }
+    add_others();
+    s0.add(s1);
+    s2.add(s3);
+    s0.add(s2);
+    return s0;
+}
+
+template <class T, bool fused, class Architecture>
+[[gnu::always_inline]] inline T sum_of(const T* a, const T* first, const T* x, std::size_t blocks) {
+    using Sums = Accumulator<T, Architecture>;
+    Sums sums = pass<fused, T, Architecture>(a, first, x, blocks);
+    if constexpr (Sums::passes == 2) {
+        constexpr std::size_t half = Sums::block / 2;
+        sums.add(pass<fused, T, Architecture>(a + half, first + half, x + half, blocks));
+    }
+    return sums.joined();
+}
+
+}  // namespace
 
 template <class T, bool fused, class Architecture>
 T simd_dot_on(const T* a, const T* x, std::size_t blocks) {
-    using Batch = xsimd::batch<T, Architecture>;
-    constexpr std::size_t block = 64 / sizeof(T);
-    constexpr std::size_t parts = block / Batch::size;
-    constexpr std::size_t accumulators = Simd::accumulators;
+    return sum_of<T, fused, Architecture>(a, x, x, blocks);
+}
 
-    // Four of 64 bytes: with AVX-512 that is four chains of additions, which hides an addition's latency of up to
-    // four cycles at one block a cycle, the most that two loads a cycle can feed.
-    Batch sum[accumulators][parts];
-    for (auto& accumulator : sum) {
-        for (auto& part : accumulator) {
-            part = Batch(T(0));
-        }
-    }
-    const auto add_block = [&](Batch(&accumulator)[parts], std::size_t first) {
-        for (std::size_t part = 0; part < parts; ++part) {
-            const std::size_t i = first + part * Batch::size;
-            accumulator[part] =
-                add_product<fused>(accumulator[part], Batch::load_unaligned(a + i), Batch::load_unaligned(x + i));
-        }
-    };
-    std::size_t done = 0;
-    for (; done + accumulators <= blocks; done += accumulators) {
-        for (std::size_t k = 0; k < accumulators; ++k) {
-            add_block(sum[k], (done + k) * block);
-        }
-    }
-    for (std::size_t k = 0; done < blocks; ++done, ++k) {
-        add_block(sum[k], done * block);
-    }
-    alignas(64) T lanes[block];
+template <class T, bool fused, class Architecture>
+T simd_slide_on(const T* a, const T* x, T* recent, std::size_t blocks, T newest) {
+    using Batch = xsimd::batch<T, Architecture>;
+    constexpr std::size_t parts = 64 / sizeof(T) / Batch::size;
+    const T sum = sum_of<T, fused, Architecture>(a, recent, x, blocks);
+    Batch before(newest);
     for (std::size_t part = 0; part < parts; ++part) {
-        const Batch total = (sum[0][part] + sum[1][part]) + (sum[2][part] + sum[3][part]);
-        total.store_aligned(lanes + part * Batch::size);
+        const Batch values = Batch::load_aligned(recent + part * Batch::size);
+        moved_up(values, before, std::make_index_sequence<Batch::size - 1>{})
+            .store_aligned(recent + part * Batch::size);
+        before = values;
     }
-    for (std::size_t half = block / 2; half > 0; half /= 2) {
-        for (std::size_t i = 0; i < half; ++i) {
-            lanes[i] += lanes[i + half];
-        }
-    }
-    return lanes[0];
+    return sum;
 }
 
 using Here = GLSUM_SIMD_ARCHITECTURE;
-template float simd_dot_on<float, false, Here>(const float*, const float*, std::size_t);
-template float simd_dot_on<float, true, Here>(const float*, const float*, std::size_t);
-template double simd_dot_on<double, false, Here>(const double*, const double*, std::size_t);
-template double simd_dot_on<double, true, Here>(const double*, const double*, std::size_t);
+#define GLSUM_SIMD_BODIES(type, fused)                                                   \
+    template type simd_dot_on<type, fused, Here>(const type*, const type*, std::size_t); \
+    template type simd_slide_on<type, fused, Here>(const type*, const type*, type*, std::size_t, type);
+GLSUM_SIMD_BODIES(float, false)
+GLSUM_SIMD_BODIES(float, true)
+GLSUM_SIMD_BODIES(double, false)
+GLSUM_SIMD_BODIES(double, true)
+#undef GLSUM_SIMD_BODIES
 
 }  // namespace glsum

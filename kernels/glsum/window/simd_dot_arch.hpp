@@ -1,4 +1,5 @@
-// The vector loop behind `simd_dot`, once for each instruction set; simd_dot_arch.cpp is compiled for each of them.
+// The vector loops behind `simd_dot` and `simd_slide`, once for each instruction set; simd_dot_arch.cpp is compiled for
+// each of them.
 #pragma once
 
 #include "glsum/window/simd.hpp"
@@ -8,5 +9,7 @@ namespace glsum {
 
 template <class T, bool fused, class Architecture>
 T simd_dot_on(const T* a, const T* x, std::size_t blocks);
+template <class T, bool fused, class Architecture>
+T simd_slide_on(const T* a, const T* x, T* recent, std::size_t blocks, T newest);
 
 }  // namespace glsum

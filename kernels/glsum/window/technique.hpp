@@ -5,11 +5,14 @@
 //   contiguous_only                   whether it needs a history that gives one contiguous piece
 //   nests                             whether its coefficients are factors, each of all that is older
 //   table_count<Format>(past)         coefficients it keeps for `past` past samples
-//   overread<Format>                  samples beyond the window that it may load (and multiply by zero)
+//   held<Format>(past)                samples that the history holds for it; those beyond `past` meet zeros
+//   beside<Format>                    samples that it keeps beside the window
+//   placed(memory)                    where its table begins in the memory that it is given
 //   fill<Format>(table, past, design, scale)
 //   choose_scale<Format>(design, scale)
 //   sum<Format>(table, window, x_k, scale)            -> the accumulator, or, where it also keeps the past,
 //   sum_and_push<Format>(table, samples, past, x_k, scale)
+//   sum_beside<Format>(table, window, x_k, samples)      and where it keeps some beside the window
 //   coefficient_roundings(j)          how many rounded coefficients are factors of the term of a_j
 //   sum_roundings<Format>(j, taps)    in floating point: how many rounded operations that term passes
 //
@@ -37,7 +40,15 @@ struct WeightTable {
         return past;
     }
     template <class Format>
-    static constexpr std::size_t overread = 0;
+    static constexpr std::size_t held(std::size_t past) {
+        return past;
+    }
+    template <class Format>
+    static constexpr std::size_t beside = 0;
+    template <class T>
+    static T* placed(T* memory) {
+        return memory;
+    }
 
     template <class Format>
     static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,

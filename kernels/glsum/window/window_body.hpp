@@ -31,8 +31,9 @@ Status Sum<History, Technique, Format>::prepare(State& state, const Design& desi
         return status;
     }
     const std::size_t past_samples = design.taps - 1;
-    Technique::template fill<Format>(table.data(), past_samples, design, scale);
-    state = {table.data(), past.data(), static_cast<std::uint32_t>(past_samples), 0, scale};
+    Coefficient* const placed = Technique::placed(table.data());
+    Technique::template fill<Format>(placed, past_samples, design, scale);
+    state = {placed, past.data(), static_cast<std::uint32_t>(past_samples), 0, scale};
     reset(state);
     return Status::ok;
 }
@@ -57,9 +58,19 @@ auto Sum<History, Technique, Format>::step(State& state, Sample newest) -> Outpu
             Technique::template sum_and_push<Format>(state.table, state.past, state.past_samples, newest, state.scale),
             state.scale);
     } else {
-        const auto window = History::template window<Sample>(state.past, state.past_samples, state.head);
-        const auto sum = Technique::template sum<Format>(state.table, window, newest, state.scale);
-        History::template push<Sample>(state.past, state.past_samples, state.head, newest);
+        const std::size_t held = Technique::template held<Format>(state.past_samples);
+        const auto window = History::template window<Sample>(state.past, held, state.head);
+        typename Format::Accumulator sum;
+        if constexpr (Technique::template beside<Format> != 0) {
+            sum = Technique::template sum_beside<Format>(state.table, window, newest,
+                                                         state.past + History::past_count(held));
+        } else {
+            sum = Technique::template sum<Format>(state.table, window, newest, state.scale);
+        }
+        History::template push<Sample>(state.past, held, state.head, newest);
+        if constexpr (Technique::template beside<Format> != 0) {
+            History::template forget<Sample>(state.past, held, state.head, state.past_samples);
+        }
         return Format::finish(sum, state.scale);
     }
 }

@@ -24,7 +24,9 @@ struct Sum : SumOf<History, Technique, Format> {
         return Technique::template table_count<Format>(taps - 1);
     }
     static constexpr std::size_t past_count(std::size_t taps) {
-        return taps == 1 ? 0 : History::past_count(taps - 1) + Technique::template overread<Format>;
+        return taps == 1 ? 0
+                         : History::past_count(Technique::template held<Format>(taps - 1)) +
+                               Technique::template beside<Format>;
     }
 
     /// Multiplications for one output.
