@@ -67,7 +67,7 @@ bool model_is_right() {
         return false;
     }
     float output = 0.0F;
-    for (int k = 1; k <= 50; ++k) {
+    for (int k = 0; k <= 50; ++k) {  // what comes acts from the next sample on
         output = Model::step(state, 1.0F);
     }
     say_bits("model", std::bit_cast<std::uint32_t>(output));

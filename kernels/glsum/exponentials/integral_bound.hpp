@@ -10,23 +10,26 @@
 #include <cstddef>
 #include <limits>
 
+#include "glsum/error_bound.hpp"
 #include "glsum/exponentials/integral_sum.hpp"
 #include "glsum/wrap/delta_bound.hpp"
 
 namespace glsum {
 
-/// `error_bound` (bound.hpp) of a kernel with a running sum. \param inner_bound  of the inner sum, by its design
-template <class K, class InnerBound>
-[[nodiscard]] double integral_error_bound(const Design& design, double peak, std::size_t samples,
-                                          const InnerBound& inner_bound) {
-    constexpr double u = K::FormatPart::data_roundoff;
-    const Design inner = K::inner_design(design);
-    const double weight = design.modes.empty() ? 0.0 : std::fabs(design.modes.front().weight);
-    const auto count = static_cast<double>(samples);
-    const double once = std::expm1(5.0 * std::log1p(u)) + (count * u) * (count * u);
-    constexpr double denormal = std::numeric_limits<typename K::Sample>::denorm_min();
-    return (1.0 + u) * inner_bound(inner) + u * peak * absolute_sum_with_modes(inner) +
-           weight * count * (peak * once + denormal);
-}
+template <class Technique, class Format>
+struct ErrorBound<Sum<Integral, Technique, Format>> {
+    using K = Sum<Integral, Technique, Format>;
+
+    static double of(const Design& design, const typename K::State& state, double peak, std::size_t samples) {
+        constexpr double u = Format::data_roundoff;
+        const Design inner = K::inner_design(design);
+        const double weight = design.modes.empty() ? 0.0 : std::fabs(design.modes.front().weight);
+        const auto count = static_cast<double>(samples);
+        const double once = std::expm1(5.0 * std::log1p(u)) + (count * u) * (count * u);
+        constexpr double denormal = std::numeric_limits<typename K::Sample>::denorm_min();
+        return (1.0 + u) * error_bound<typename K::Inner>(inner, state, peak, samples) +
+               u * peak * absolute_sum_with_modes(inner) + weight * count * (peak * once + denormal);
+    }
+};
 
 }  // namespace glsum

@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "glsum/error_bound.hpp"
 #include "glsum/exponentials/modes_sum.hpp"
 #include "glsum/weights.hpp"
 
@@ -34,48 +35,51 @@ template <class K>
     }
 }
 
-/// `error_bound` (bound.hpp) of a kernel with modes.
-template <class K>
-[[nodiscard]] double modes_error_bound(const Design& design, const typename K::State& state, double peak) {
-    using Format = typename K::FormatPart;
-    const std::size_t near_taps = design.taps - 2 * design.modes.size();
-    const std::size_t terms = near_taps + design.modes.size();  // of the sum, x_k included
-    Weights weights(design);
-    if constexpr (Format::fixed_point) {
-        const double coefficient = std::ldexp(1.0, state.scale.table_exponent - Format::coefficient_bits - 1);
-        double absolute = 1.0;
-        double averages = 0.0;
-        for (std::size_t j = 1; j < near_taps; ++j) {
-            weights.next();
-            absolute += std::fabs(weights.weight());
+template <class Technique, class Format>
+struct ErrorBound<Sum<Modes, Technique, Format>> {
+    using K = Sum<Modes, Technique, Format>;
+
+    static double of(const Design& design, const typename K::State& state, double peak, std::size_t) {
+        const std::size_t near_taps = design.taps - 2 * design.modes.size();
+        const std::size_t terms = near_taps + design.modes.size();  // of the sum, x_k included
+        Weights weights(design);
+        if constexpr (Format::fixed_point) {
+            const double coefficient = std::ldexp(1.0, state.scale.table_exponent - Format::coefficient_bits - 1);
+            double absolute = 1.0;
+            double averages = 0.0;
+            for (std::size_t j = 1; j < near_taps; ++j) {
+                weights.next();
+                absolute += std::fabs(weights.weight());
+            }
+            for (const Mode& mode : design.modes) {
+                const double gain = std::fabs(mode.weight / mode.decay);
+                absolute += gain;
+                averages += (gain + coefficient) * average_error<K>(mode.decay, peak);
+            }
+            return peak * (averages + static_cast<double>(terms - 1) * coefficient) +
+                   std::ldexp(absolute, -Format::sample_bits - 1) + std::ldexp(1.0, state.scale.output_exponent - 32);
+        } else {
+            // Of term t, x_k being 0: input, its coefficient, product and the additions from its own on.
+            const auto growth = [&](std::size_t t, double average) {
+                const double data = t == 0 ? 1.0 : 2.0;
+                const auto sum = static_cast<double>(t == 0 ? terms - 1 : terms - t + 1);
+                return std::expm1(data * std::log1p(Format::data_roundoff) + sum * std::log1p(Format::sum_roundoff) +
+                                  std::log1p(average));
+            };
+            double bound = growth(0, 0.0);
+            for (std::size_t j = 1; j < near_taps; ++j) {
+                weights.next();
+                bound += growth(j, 0.0) * std::fabs(weights.weight());
+            }
+            for (std::size_t m = 0; m < design.modes.size(); ++m) {
+                const Mode& mode = design.modes[m];  // the slowest is summed last
+                bound +=
+                    growth(terms - 1 - m, average_error<K>(mode.decay, peak)) * std::fabs(mode.weight / mode.decay);
+            }
+            constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
+            return peak * bound + static_cast<double>(terms) * denormal;
         }
-        for (const Mode& mode : design.modes) {
-            const double gain = std::fabs(mode.weight / mode.decay);
-            absolute += gain;
-            averages += (gain + coefficient) * average_error<K>(mode.decay, peak);
-        }
-        return peak * (averages + static_cast<double>(terms - 1) * coefficient) +
-               std::ldexp(absolute, -Format::sample_bits - 1) + std::ldexp(1.0, state.scale.output_exponent - 32);
-    } else {
-        // Of term t, x_k being 0: input, its coefficient, product and the additions from its own on.
-        const auto growth = [&](std::size_t t, double average) {
-            const double data = t == 0 ? 1.0 : 2.0;
-            const auto sum = static_cast<double>(t == 0 ? terms - 1 : terms - t + 1);
-            return std::expm1(data * std::log1p(Format::data_roundoff) + sum * std::log1p(Format::sum_roundoff) +
-                              std::log1p(average));
-        };
-        double bound = growth(0, 0.0);
-        for (std::size_t j = 1; j < near_taps; ++j) {
-            weights.next();
-            bound += growth(j, 0.0) * std::fabs(weights.weight());
-        }
-        for (std::size_t m = 0; m < design.modes.size(); ++m) {
-            const Mode& mode = design.modes[m];  // the slowest is summed last
-            bound += growth(terms - 1 - m, average_error<K>(mode.decay, peak)) * std::fabs(mode.weight / mode.decay);
-        }
-        constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
-        return peak * bound + static_cast<double>(terms) * denormal;
     }
-}
+};
 
 }  // namespace glsum

@@ -57,20 +57,18 @@ auto Sum<History, Technique, Format>::step(State& state, Sample newest) -> Outpu
         return Format::finish(
             Technique::template sum_and_push<Format>(state.table, state.past, state.past_samples, newest, state.scale),
             state.scale);
-    } else {
+    } else if constexpr (Technique::template beside<Format> != 0) {
         const std::size_t held = Technique::template held<Format>(state.past_samples);
         const auto window = History::template window<Sample>(state.past, held, state.head);
-        typename Format::Accumulator sum;
-        if constexpr (Technique::template beside<Format> != 0) {
-            sum = Technique::template sum_beside<Format>(state.table, window, newest,
-                                                         state.past + History::past_count(held));
-        } else {
-            sum = Technique::template sum<Format>(state.table, window, newest, state.scale);
-        }
+        const auto sum =
+            Technique::template sum_beside<Format>(state.table, window, newest, state.past + History::past_count(held));
         History::template push<Sample>(state.past, held, state.head, newest);
-        if constexpr (Technique::template beside<Format> != 0) {
-            History::template forget<Sample>(state.past, held, state.head, state.past_samples);
-        }
+        History::template forget<Sample>(state.past, held, state.head, state.past_samples);
+        return Format::finish(sum, state.scale);
+    } else {
+        const auto window = History::template window<Sample>(state.past, state.past_samples, state.head);
+        const auto sum = Technique::template sum<Format>(state.table, window, newest, state.scale);
+        History::template push<Sample>(state.past, state.past_samples, state.head, newest);
         return Format::finish(sum, state.scale);
     }
 }

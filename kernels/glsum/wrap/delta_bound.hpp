@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "glsum/error_bound.hpp"
 #include "glsum/weights.hpp"
 #include "glsum/wrap/delta_sum.hpp"
 
@@ -24,23 +25,28 @@ namespace glsum {
     return sum;
 }
 
-/// `error_bound` (bound.hpp) of a kernel of increments. \param inner_bound  of the inner sum, by its design and peak
-template <class K, class InnerBound>
-[[nodiscard]] double delta_error_bound(const Design& design, double peak, const InnerBound& inner_bound) {
-    using Format = typename K::FormatPart;
-    const Design inner = K::inner_design(design);
-    const double absolute = absolute_sum_with_modes(inner);
-    const double of_order =
-        design.order < 0.5 ? 0x1p-53 * (1.0 + std::log(static_cast<double>(design.taps))) * absolute : 0.0;
-    if constexpr (Format::fixed_point) {
-        const double unit = std::ldexp(1.0, -Format::sample_bits);
-        return 2.0 * (inner_bound(inner, peak + unit) + unit * absolute + of_order * peak);
-    } else {
-        constexpr double u = Format::data_roundoff;
-        constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
-        const double increment = 2.0 * peak * (1.0 + 4.0 * u);
-        return inner_bound(inner, increment) + (2.0 * u * increment + denormal) * absolute + of_order * increment;
+template <class Kept, class Technique, class Format>
+struct ErrorBound<Sum<Delta<Kept>, Technique, Format>> {
+    using K = Sum<Delta<Kept>, Technique, Format>;
+
+    static double of(const Design& design, const typename K::State& state, double peak, std::size_t samples) {
+        const Design inner = K::inner_design(design);
+        const double absolute = absolute_sum_with_modes(inner);
+        const double of_order =
+            design.order < 0.5 ? 0x1p-53 * (1.0 + std::log(static_cast<double>(design.taps))) * absolute : 0.0;
+        const auto of_inner = [&](double largest) {
+            return error_bound<typename K::Inner>(inner, state, largest, samples);
+        };
+        if constexpr (Format::fixed_point) {
+            const double unit = std::ldexp(1.0, -Format::sample_bits);
+            return 2.0 * (of_inner(peak + unit) + unit * absolute + of_order * peak);
+        } else {
+            constexpr double u = Format::data_roundoff;
+            constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
+            const double increment = 2.0 * peak * (1.0 + 4.0 * u);
+            return of_inner(increment) + (2.0 * u * increment + denormal) * absolute + of_order * increment;
+        }
     }
-}
+};
 
 }  // namespace glsum

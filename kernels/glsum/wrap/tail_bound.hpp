@@ -11,8 +11,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
+#include "glsum/error_bound.hpp"
 #include "glsum/weights.hpp"
+#include "glsum/window/window_bound.hpp"
 #include "glsum/wrap/tail_sum.hpp"
 
 namespace glsum {
@@ -58,5 +61,16 @@ template <class K>
     }
     return 1.001 * largest;  // products of errors
 }
+
+template <bool to_first, class Technique, class Format>
+struct ErrorBound<Sum<Guess<to_first>, Technique, Format>> {
+    using K = Sum<Guess<to_first>, Technique, Format>;
+
+    static double of(const Design& design, const typename K::State&, double peak, std::size_t samples) {
+        constexpr double denormal = std::numeric_limits<typename Format::Sample>::denorm_min();
+        return window_error_bound<K>(design, peak, to_first ? 2 : 1) + peak * tail_error<K>(design, samples) +
+               8.0 * denormal;
+    }
+};
 
 }  // namespace glsum
