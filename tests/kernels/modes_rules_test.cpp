@@ -25,12 +25,12 @@ using glsum::design::weights_to;
 
 // |a_j| as a mixture of exponentials: the sum over j of what it misses stays below what it was made for.
 TEST(TailNodes, AreTheWeightsWithinTheErrorThatIsAskedFor) {
-    for (const double order : {-0.9, -0.5, -0.1, 0.2, 0.5, 0.75, 0.76, 0.98319, 1.5, 1.74, 1.9909}) {
+    for (const double order : {-0.99, -0.95, -0.9, -0.6, -0.5, -0.1, 0.2, 0.5, 0.75, 0.76, 0.98319, 1.5, 1.74, 1.9909}) {
         const std::size_t least = glsum::design::least_near_taps(order);
         for (const std::size_t near_taps : {least, least + 1, least + 7}) {
             for (const std::size_t horizon : {20U, 600U, 1500U}) {
                 const std::vector<double> weights = weights_to(order, horizon);
-                for (const double error : {1e-3, 1e-6, order < -0.5 ? 1e-6 : 1e-9}) {
+                for (const double error : {1e-3, 1e-6, 1e-9}) {
                     double missed = 0.0;
                     const std::vector<Node> nodes = glsum::design::tail_nodes(order, near_taps, horizon, error);
                     std::vector<double> terms;

@@ -26,10 +26,11 @@ std::vector<Node> tail_nodes(double order, std::size_t near_taps, std::size_t ho
     const double first = -std::log(static_cast<double>(horizon)) + 0.5 * std::log(error * 1e-4);
     const double last = std::log(largest_exponent / room);
     std::vector<Node> nodes;
-    // All nodes left of the first act like one slow mode; their geometric series are summed exactly.
+    // All nodes left of the first act like one slow mode; their geometric series are summed exactly, to the second power
+    // of s: s e^(-s room) (1 - e^(-s))^v = s^(1+v) (1 - (room + v/2) s + ...).
     const double s0 = std::exp(first);
-    const double total = density * std::pow(s0, 1.0 + v) / std::expm1((1.0 + v) * step);
     const double moment = density * std::pow(s0, 2.0 + v) / std::expm1((2.0 + v) * step);
+    const double total = density * std::pow(s0, 1.0 + v) / std::expm1((1.0 + v) * step) - (room + 0.5 * v) * moment;
     nodes.push_back({moment / total, std::sqrt(total)});
     for (double u = first; u < last; u += step) {
         const double s = std::exp(u);
