@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
 #include <cmath>
+#include <iterator>
 #include <random>
 #include <stdexcept>
 
@@ -90,6 +91,25 @@ std::vector<double> drive(std::size_t samples, double h_s) {
 }
 
 }  // namespace
+
+std::string_view meaning_of_signal(std::string_view name) {
+    // In the order of the names.
+    constexpr std::string_view meanings[] = {
+        "0.9 from the first sample on",
+        "from 0 to 0.9 at the last sample",
+        "a sine of 1 Hz, 0.9 high",
+        "a sine of 5 Hz, 0.9 high",
+        "a sine of 50 Hz, 0.9 high",
+        "white noise, uniform on [-0.9, 0.9), the same on every machine",
+        "the step response of the seed paper's drive, as its encoder counts it",
+    };
+    static_assert(std::size(meanings) == std::size(signal_names));
+    const auto found = std::find(std::begin(signal_names), std::end(signal_names), name);
+    if (found == std::end(signal_names)) {
+        throw std::out_of_range("no signal is called " + std::string(name));
+    }
+    return meanings[found - std::begin(signal_names)];
+}
 
 std::optional<double> sine_hz(std::string_view name) {
     if (name == "sine1") {

@@ -14,6 +14,9 @@ inline constexpr double step_s = 1e-3;      ///< h of every record
 inline constexpr double signal_peak = 0.9;  ///< of full scale
 inline constexpr std::string_view signal_names[] = {"step", "ramp", "sine1", "sine5", "sine50", "noise", "drive"};
 
+/// In a sentence, of one of these. \throws std::out_of_range for another name.
+[[nodiscard]] std::string_view meaning_of_signal(std::string_view name);
+
 /// The frequency of the signals `sine<f>`, in Hz; nothing for all others.
 [[nodiscard]] std::optional<double> sine_hz(std::string_view name);
 

@@ -69,6 +69,8 @@ enum class Place {
     deployed,  ///< in the simulation that ran
 };
 
+[[nodiscard]] const char* name_of(Place place);
+
 /// What a plant is.
 enum class Domain { mechanical, thermal, hydraulic, electric };
 

@@ -18,6 +18,26 @@ const std::set<Domain>& all_domains() {
     return all;
 }
 
+const char* name_of(Place place) {
+    switch (place) {
+        case Place::command:
+            return "command";
+        case Place::actuator:
+            return "actuator";
+        case Place::plant:
+            return "plant";
+        case Place::output:
+            return "output";
+        case Place::sensor:
+            return "sensor";
+        case Place::logger:
+            return "logger";
+        case Place::deployed:
+            return "deployed";
+    }
+    return "plant";
+}
+
 const char* name_of(Domain domain) {
     switch (domain) {
         case Domain::mechanical:
