@@ -419,6 +419,17 @@ TEST(ModelsStudy, ErrorsAreThoseOfTheSteppedModel) {
     }
 }
 
+TEST(ModelsStudy, HasTheDocumentedDefaults) {
+    const bench::Models wanted;
+    EXPECT_EQ(wanted.kernels, std::vector<std::string>{"*"});
+    EXPECT_TRUE(wanted.lengths.empty());
+    EXPECT_EQ(wanted.targets, (std::vector<std::string>{"host", "m7"}));
+    EXPECT_TRUE(wanted.cores.empty());
+    EXPECT_FALSE(wanted.quick);
+    EXPECT_EQ(wanted.long_records, (std::vector<std::size_t>{5000, 100000, 1000000}));
+    EXPECT_EQ(wanted.jobs, 1U);
+}
+
 TEST(ModelsStudy, RefusesKernelsThatStepNoModel) {
     try {
         (void)measured(host_only({"shift_plain_f32"}));

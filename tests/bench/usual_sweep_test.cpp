@@ -27,8 +27,9 @@ std::vector<std::string> texts_of(const std::vector<bench::Length>& lengths) {
 TEST(UsualSweep, IsLongOrQuick) {
     const bench::Sweep whole = bench::usual_sweep(false);
     EXPECT_EQ(whole.samples, 5000U);
-    EXPECT_EQ(whole.orders.size(), 9U);
-    EXPECT_EQ(whole.lengths.size(), 12U);
+    EXPECT_EQ(whole.orders, (std::vector{0.2, 0.3, 0.5, 0.7, 0.9, 0.98319, 1.5, 1.9909, -0.5}));
+    EXPECT_EQ(texts_of(whole.lengths), (std::vector<std::string>{"50", "75", "100", "150", "200", "300", "400", "500",
+                                                                 "600", "800", "1000", "full"}));
     EXPECT_EQ(whole.lengths.back().taps, 5000U);
     EXPECT_EQ(whole.design_errors.size(), 4U);
     EXPECT_EQ(whole.signals.size(), std::size(bench::signal_names));

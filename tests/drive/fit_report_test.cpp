@@ -24,6 +24,7 @@ drive::Fit made_fit() {
                       {"offset", 0.0, 0.0, 0.0, 0.0, true}};
     fit.free_names = {"gain", "time_constant_s"};
     fit.correlation = Eigen::MatrixXd{{1.0, -0.25}, {-0.25, 1.0}};
+    fit.offset = 0.375;
     fit.sum_of_squares = 0.125;
     fit.noise_deviation = 0.01;
     fit.noise_model = {0.5, 0.25};
@@ -65,6 +66,9 @@ TEST(FitReport, IsATableOfTheEstimates) {
 TEST(FitReport, AsAFileHasAllThatWasFound) {
     const auto json = nlohmann::json::parse(drive::to_json(made_fit(), "a.csv", made_indices()));
     EXPECT_TRUE(json["model"].is_object());
+    EXPECT_EQ(json["offset"], 0.375);
+    EXPECT_EQ(json["sum_of_squares"], 0.125);
+    EXPECT_EQ(json["noise_deviation"], 0.01);
     ASSERT_EQ(json["parameters"].size(), 4U);
     EXPECT_EQ(json["parameters"][0]["interval"], nlohmann::json({1.5, 2.5}));
     EXPECT_EQ(json["parameters"][0]["deviation"], 0.25);

@@ -42,6 +42,23 @@ TEST(ExactStepResponse, MatchesTheKnownValuesToTwelveDigits) {
     }
 }
 
+// The digits in which two runs agree, as many as were asked for at least, and no others.
+TEST(ExactStepResponse, SaysTheDigitsThatAgree) {
+    Model model = plants::niopdt();
+    model.delay_s = 0.0;
+    for (const int wanted : {1, 18, 30, 40}) {
+        const drive::ExactValue found = drive::exact_step_response(model, 0.5, wanted);
+        EXPECT_GE(found.agreed_digits, wanted);
+        EXPECT_LE(found.agreed_digits, 40);
+        EXPECT_EQ(found.digits.size(), 2U + static_cast<std::size_t>(found.agreed_digits)) << found.digits;
+        EXPECT_NEAR(std::stod(found.digits), 0.375940553423532329, 1e-15);
+    }
+    const drive::ExactValue before = drive::exact_step_response(plants::niopdt(), 0.5);
+    EXPECT_EQ(before.digits, "0");
+    EXPECT_EQ(before.agreed_digits, 40);
+    EXPECT_THROW((void)drive::exact_step_response(model, std::nan("")), glsum::Failure);
+}
+
 TEST(ExactStepResponse, WaitsForTheDeadTime) {
     EXPECT_EQ(drive::exact_step_response(plants::niopdt(), 1.0).value, 0.0);
     EXPECT_NEAR(drive::exact_step_response(plants::niopdt(), 1.5).value, 0.375940553423532329, 1e-15);

@@ -26,7 +26,8 @@ timing::TimedRun run_of(std::uint64_t calls, std::uint64_t instructions, std::ve
 
 TEST(FunctionTime, CountsEachCallOfARun) {
     timing::TimingLog log;
-    log.runs = {run_of(1, 10, {30, 28, 34}, 7), run_of(2, 12, {20, 18, 26}, 3), run_of(1, 11, {90, 80, 100}, 5)};
+    log.runs = {run_of(1, 10, {30, 28, 34}, 7, 4), run_of(2, 12, {20, 18, 26}, 3, 2),
+                run_of(1, 11, {90, 80, 100}, 5, 6)};
     log.hot = {{{0x104, 10}, {0x100, 10}, {0x108, 40}}};
     log.unknown = {{0x10c, 3}};
     log.recursive = true;
@@ -43,7 +44,9 @@ TEST(FunctionTime, CountsEachCallOfARun) {
     EXPECT_EQ(time.lost[load_use].min, 3);
     EXPECT_EQ(time.lost[load_use].median, 3);
     EXPECT_EQ(time.lost[load_use].max, 7);
-    EXPECT_EQ(time.in_double.max, 0);
+    EXPECT_EQ(time.in_double.min, 2);
+    EXPECT_EQ(time.in_double.median, 2);
+    EXPECT_EQ(time.in_double.max, 6);
     // The costliest first, of equals the one that comes first.
     EXPECT_THAT(time.hot, ElementsAre(std::pair(0x108U, 40), std::pair(0x100U, 10), std::pair(0x104U, 10)));
     EXPECT_EQ(time.unknown.at(0x10c), 3U);

@@ -21,6 +21,7 @@
 #include "qemu/emulate/watched.hpp"
 #include "targets/shared/output_hash.hpp"
 #include "tests/qemu/made_elf.hpp"
+#include "tests/qemu/made_emulator.hpp"
 #include "tests/qemu/made_program.hpp"
 
 namespace {
@@ -241,24 +242,19 @@ protected:
         program().write(folder_.file("measure.elf"));
         say("row 0 0 ab 12 34 56\nrow 1 0 cd 13 35 57\nrow 2 5\nrow 3 0 ef 14 36 58\nend 4\n");
         log(check_calls() + rows_of_log + reached);
-        script_ =
-            "of() { echo \"$GLSUM_QEMU_PLUGIN\" | tr , '\\n' | sed -n \"s/^$1=//p\"; }\n"
-            "cd '" +
-            folder_.file("").string() +
-            "'\necho \"$GLSUM_QEMU_PLUGIN\" >plugin\n"
+        emulator_ = test::made_emulator(
+            folder_,
+            "echo \"$GLSUM_QEMU_PLUGIN\" >plugin\n"
             "cp log \"$(of out)\"; cp \"$(of watch)\" watch\n"
             "if [ -n \"$(of timing)\" ]; then cp times \"$(of times)\"; cp \"$(of marks)\" marks; cp \"$(of timing)\" "
             "request; fi\n"
-            "cat said\n";
-        std::ofstream(folder_.file("emulate")) << "#!/bin/sh\n" << script_;
-        std::filesystem::permissions(folder_.file("emulate"), std::filesystem::perms::owner_all);
+            "cat said\n");
     }
     void say(const std::string& text) { std::ofstream(folder_.file("said")) << text; }
     void log(const std::string& text) { std::ofstream(folder_.file("log")) << text; }
     std::vector<qemu::MeasuredRow> measure(qemu::Counting counting = qemu::Counting::blocks,
                                            const timing::TimingRequest& timing = {}) {
-        const qemu::Board board{
-            folder_.file("measure.elf"), "replay.elf", "x.so", {folder_.file("emulate"), std::chrono::seconds(20)}};
+        const qemu::Board board{folder_.file("measure.elf"), "replay.elf", "x.so", emulator_};
         std::vector<qemu::PlannedRow> plan;
         for (const std::size_t taps : {3U, 40U, 7U}) {
             plan.push_back({"ring_plain_f32", 0.5, taps, 0, qemu::calls_to_measure("ring_plain_f32", taps)});
@@ -272,7 +268,7 @@ protected:
     }
 
     base::Scratch folder_;
-    std::string script_;
+    qemu::Emulator emulator_;
     std::size_t done_ = 0;
 };
 
@@ -423,22 +419,18 @@ protected:
         made.write(folder_.file("model.elf"));
         std::ofstream(folder_.file("said")) << "row 0 0 ab 12 34 56\nrow 1 5\nrow 2 0 cd 13 35 57\nend 3\n";
         log(steps_ + reached);
-        std::ofstream(folder_.file("emulate"))
-            << "#!/bin/sh\nof() { echo \"$GLSUM_QEMU_PLUGIN\" | tr , '\\n' | sed -n \"s/^$1=//p\"; }\ncd '"
-            << folder_.file("").string()
-            << "'\necho \"$GLSUM_QEMU_PLUGIN\" >plugin\nfor last; do :; done\ncp \"$last\" plan\n"
-               "cp \"$(sed -n '1s/^glsum-model-2 //p' plan)\" numbers\n"
-               "cp log \"$(of out)\"; cp \"$(of watch)\" watch\n"
-               "if [ -n \"$(of timing)\" ]; then cp times \"$(of times)\"; cp \"$(of marks)\" marks; cp \"$(of "
-               "timing)\" "
-               "request; fi\ncat said\n";
-        std::filesystem::permissions(folder_.file("emulate"), std::filesystem::perms::owner_all);
+        emulator_ = test::made_emulator(
+            folder_,
+            "echo \"$GLSUM_QEMU_PLUGIN\" >plugin\nfor last; do :; done\ncp \"$last\" plan\n"
+            "cp \"$(sed -n '1s/^glsum-model-2 //p' plan)\" numbers\n"
+            "cp log \"$(of out)\"; cp \"$(of watch)\" watch\n"
+            "if [ -n \"$(of timing)\" ]; then cp times \"$(of times)\"; cp \"$(of marks)\" marks; cp \"$(of timing)\" "
+            "request; fi\ncat said\n");
         design_.tables = tables_;
     }
     void log(const std::string& text) { std::ofstream(folder_.file("log")) << text; }
     std::vector<qemu::MeasuredRow> step(const timing::TimingRequest& timing = {}, std::size_t steps = 100) {
-        const qemu::Board board{
-            folder_.file("measure.elf"), "replay.elf", "x.so", {folder_.file("emulate"), std::chrono::seconds(20)}};
+        const qemu::Board board{folder_.file("measure.elf"), "replay.elf", "x.so", emulator_};
         const std::vector<qemu::PlannedModel> plan = {{"ring_plain_f32", &design_, some_input, steps},
                                                       {"ring_plain_f32", &design_, some_input, steps},
                                                       {"block_plain_q31", &other_, some_input, 132}};
@@ -447,6 +439,7 @@ protected:
     }
 
     base::Scratch folder_;
+    qemu::Emulator emulator_;
     const glsum::PastTable tables_[1] = {{2.0, some_ratios}};
     glsum::ModelDesign design_{.increments = false, .delay = 7, .input = 0.5, .constant = 0.25, .tables = {}};
     const glsum::ModelDesign other_{.half_input = true, .input_full_scale = 4.0, .tables = {}};

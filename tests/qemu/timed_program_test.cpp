@@ -1,0 +1,117 @@
+// What becomes of a program's timing logs: what the plugin is told, one log a part, and whose fault it is without one.
+#include "qemu/emulate/timed_program.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "base/failure.hpp"
+#include "made_emulator.hpp"
+#include "made_program.hpp"
+
+namespace {
+
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::Not;
+
+const std::string no_losses = [] {
+    std::string text;
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        text += " 0";
+    }
+    return text + " 0\n";
+}();
+
+class TimedProgram : public testing::Test {
+protected:
+    void SetUp() override {
+        test::MadeElf made = test::program();
+        made.symbols.push_back({"__aeabi_dadd", 0x901, 0x10, true});
+        made.write(folder_.file("a.elf"));
+        log("calls 2 1024 50 core 1 80" + no_losses + "end\ncalls 1 1024 60 core 1 90" + no_losses + "end\n");
+        ends_with(0);
+    }
+    [[nodiscard]] std::string text_of(const char* name) const {
+        std::ifstream in(folder_.file(name));
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+    void log(const std::string& text) { std::ofstream(folder_.file("log")) << text; }
+    void ends_with(int status) {
+        emulator_ =
+            test::made_emulator(folder_,
+                                "echo \"$GLSUM_QEMU_PLUGIN\" >plugin; shift; echo \"$*\" >arguments\n"
+                                "cp \"$(of watch)\" watch; cp \"$(of timing)\" request; cp log \"$(of times)\"\n"
+                                "[ -z \"$(of marks)\" ] || cp \"$(of marks)\" marks\n"
+                                "echo one; echo two; exit " +
+                                    std::to_string(status) + "\n");
+    }
+    std::vector<timing::TimingLog> time(const std::optional<qemu::Marks>& marks = {},
+                                        const std::function<void(const std::string&)>& line = {}) {
+        timing::TimingRequest request;
+        request.cores_folder = "cores";
+        request.cores = {{"a-core", "", ""}};
+        return qemu::time_program(emulator_, "x.so", folder_.file("a.elf"), {"one", "2"}, {1024, 1088}, request, marks,
+                                  line);
+    }
+    std::string fault(glsum::Exit status) {
+        try {
+            (void)time();
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), status) << failure.what();
+            return failure.what();
+        }
+        return "none";
+    }
+
+    base::Scratch folder_;
+    qemu::Emulator emulator_;
+};
+
+TEST_F(TimedProgram, TellsThePluginAndReadsALogAPart) {
+    std::vector<std::string> lines;
+    const auto logs = time(qemu::Marks{16, 32, 48}, [&](const std::string& line) { lines.push_back(line); });
+    ASSERT_EQ(logs.size(), 2U);
+    EXPECT_EQ(logs[0].runs.at(0).calls, 2U);
+    EXPECT_EQ(logs[1].runs.at(0).call.cores.at(0).half_cycles.at(0), 90);
+    EXPECT_EQ(lines, (std::vector<std::string>{"one", "two"}));
+    EXPECT_THAT(text_of("plugin"), testing::StartsWith("x.so,watch="));
+    EXPECT_EQ(text_of("arguments"), "one 2\n");
+    EXPECT_EQ(text_of("watch"), "1024\n1088\n");
+    EXPECT_EQ(text_of("marks"), "16 32 48\n");
+    EXPECT_EQ(text_of("request"), "folder cores\ndouble 2304 2320\ncore a-core - - 1 -\n");
+}
+
+TEST_F(TimedProgram, NeedsNoMarksAndNobodyToTell) {
+    EXPECT_EQ(time().size(), 2U);
+    EXPECT_THAT(text_of("plugin"), Not(HasSubstr("marks")));
+}
+
+// A program that fails says so itself; what its log lacks is then no news.
+TEST_F(TimedProgram, AFailureOfTheProgramComesFirst) {
+    ends_with(7);
+    EXPECT_EQ(fault(glsum::Exit::check_failed), "a.elf under the emulator exited with 7; it said:\n  one\n  two");
+    log("");
+    EXPECT_THAT(fault(glsum::Exit::check_failed), HasSubstr("exited with 7"));
+    ends_with(3);
+    EXPECT_THAT(fault(glsum::Exit::missing), HasSubstr("exited with 3"));
+    ends_with(0);
+    EXPECT_THAT(fault(glsum::Exit::check_failed), HasSubstr("timing log: cut short"));
+}
+
+TEST_F(TimedProgram, ACallThatDidNotReturnIsToldWithWhy) {
+    log("calls 2 1024 50 core 1 80" + no_losses + "unfinished\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::check_failed),
+                EndsWith("a.elf: a call of the timed function did not return before the program ended"));
+    ends_with(3);
+    EXPECT_THAT(fault(glsum::Exit::check_failed), HasSubstr("did not return; a.elf under the emulator exited with 3"));
+}
+
+TEST_F(TimedProgram, EveryPartCallsTheFunction) {
+    log("calls 2 1024 50 core 1 80" + no_losses + "end\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::check_failed), EndsWith("a.elf: the timed function was never called"));
+}
+
+}  // namespace

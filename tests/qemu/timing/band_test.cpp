@@ -1,0 +1,50 @@
+// How wide a figure's band is, by hand: as wide as the rule sets that fit, and on either side by what published rules
+// leave open and by how far the furthest set is, refuted or not; never by more than the model may be wrong.
+#include "qemu/timing/band.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace {
+
+timing::Band band(const std::vector<std::int64_t>& figures, bool rival_fits, std::int64_t published = 20,
+                  std::int64_t fitted = 105) {
+    timing::CoreFile core;
+    for (std::size_t s = 0; s < figures.size(); ++s) {
+        core.sets.push_back({"", "", {}, s == 0 || rival_fits});
+    }
+    core.sets[0].figures.band_published_permille = published;
+    core.sets[0].figures.band_fitted_permille = fitted;
+    return timing::band_of(core, figures);
+}
+
+void expect(const timing::Band& found, std::int64_t low, std::int64_t high) {
+    EXPECT_EQ(found.low, low);
+    EXPECT_EQ(found.high, high);
+}
+
+TEST(Band, OfOneSetIsWhatPublishedRulesLeaveOpen) {
+    expect(band({1010}, true), 989, 1031);  // 2 %: 20.2, outwards to whole half cycles
+    expect(band({0}, true), 0, 0);
+}
+
+TEST(Band, HoldsTheSetsThatFit) {
+    // 40 of 1010 are 3.96 %: beside 990 or 1030, the middle, 20 and 5.96 % of it.
+    expect(band({1010, 1050}, true), 948, 1112);
+    expect(band({1010, 970}, true), 910, 1070);
+}
+
+TEST(Band, ARefutedSetMovesItNowhere) { expect(band({1010, 1050}, false), 949, 1071); }
+
+// 10.5 % of the nominal figure, which stays inside.
+TEST(Band, IsNoWiderThanTheModelMayBeWrong) {
+    expect(band({1010, 1500}, false), 903, 1117);
+    const timing::Band far = band({1010, 1500}, true);
+    EXPECT_NEAR(static_cast<double>(far.low), 1010.0, 1.0);
+    EXPECT_LE(far.low, 1010);
+    EXPECT_EQ(far.high, 1223);
+    expect(band({1010}, true, 105, 20), 903, 1117);  // never narrower than published rules leave it
+}
+
+}  // namespace
