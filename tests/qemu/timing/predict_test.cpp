@@ -150,7 +150,7 @@ TEST_F(Predict, OtherCallsThanWereAskedForAreNotBelieved) {
 }
 
 TEST(SiliconLine, IsTheOneOfLeastSquares) {
-    const qemu::Line line = qemu::fit_line({1, 2, 3, 4}, {6, 5, 7, 10});
+    const qemu::FittedLine line = qemu::fit_line({1, 2, 3, 4}, {6, 5, 7, 10});
     EXPECT_NEAR(line.slope, 1.4, 1e-12);
     EXPECT_NEAR(line.constant, 3.5, 1e-12);
     EXPECT_EQ(qemu::fit_line({5, 5}, {40, 60}).slope, 0.0);  // of one length there is only a mean
