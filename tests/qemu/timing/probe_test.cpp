@@ -333,6 +333,25 @@ TEST(Probe, EveryRowOfACoreFileMovesOne) {
     }
 }
 
+// How many registers of a transfer move in a cycle is a figure. Where it is 0 the transfer issues in one, and they move
+// one by one.
+TEST(Probe, RegistersMoveAsManyACycleAsTheFigureSays) {
+    const auto cycles_between = [](const char* text, std::int64_t a_cycle) {
+        probe::Setting setting = probe::core("stm32f746-itcm");
+        setting.figures.issue_registers_per_cycle = a_cycle;
+        const auto positions = probe::run(lines_of(text), setting).positions;
+        return positions.at(1) / 2 - positions.at(0) / 2;
+    };
+    constexpr const char* load_of_the_last = "stm r0,{r1,r2,r3,r4}; ldr.w r5,[r0,#12]";
+    EXPECT_EQ(cycles_between(load_of_the_last, 0), 3 + 4);  // in the fourth cycle behind its store
+    EXPECT_EQ(cycles_between(load_of_the_last, 1), 3 + 4);
+    EXPECT_EQ(cycles_between(load_of_the_last, 2), 1 + 4);
+    constexpr const char* use_of_the_last = "ldm r0,{r1,r2,r3,r4}; eor.w r5,r4,r6";
+    EXPECT_EQ(cycles_between(use_of_the_last, 0), 3 + 1);
+    EXPECT_EQ(cycles_between(use_of_the_last, 1), 4);
+    EXPECT_EQ(cycles_between(use_of_the_last, 2), 2);
+}
+
 // What each wait is called, in half cycles: of instructions that go half a cycle apart where nothing holds them.
 TEST(Probe, LossesHaveTheNameOfTheirCause) {
     struct Case {
