@@ -11,10 +11,14 @@
 #include "base/failure.hpp"
 #include "bench/sweep/signals.hpp"
 #include "cli/board.hpp"
+#include "cli/name_value.hpp"
 #include "glsum/weights.hpp"
 
 namespace cli {
 namespace {
+
+// An hour at 10 kHz and more.
+constexpr double most_samples = 5e7;
 
 [[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
 
@@ -50,6 +54,68 @@ std::vector<std::string> to_signals(const Budget& budget) {
     return signals;
 }
 
+// "5%" or "0.05".
+double to_share(const std::string& text) {
+    const bool percent = text.ends_with('%');
+    const auto value = to_number<double>(percent ? text.substr(0, text.size() - 1) : text);
+    if (!value || !(*value > 0.0) || !std::isfinite(*value)) {
+        refuse(fmt::format("--derivative-error: expected a share above 0, as in 5%, found {}", text));
+    }
+    return percent ? *value / 100.0 : *value;
+}
+
+glsum::design::Band to_band(const std::string& text, double step_s) {
+    const auto dots = text.find("..");
+    const auto low = dots == std::string::npos ? std::nullopt : to_number<double>(text.substr(0, dots));
+    const auto high = dots == std::string::npos ? std::nullopt : to_number<double>(text.substr(dots + 2));
+    if (!low || !high || !(*low > 0.0) || !(*high >= *low) || !std::isfinite(*high)) {
+        refuse(fmt::format("--band: expected two rising frequencies in Hz, as in 0.05..80, found {}", text));
+    }
+    if (*high * step_s > 0.5) {
+        refuse(
+            fmt::format("--band: expected at most half the sampling rate, {:g} Hz, found {:g}", 0.5 / step_s, *high));
+    }
+    if (!(*low * step_s * most_samples >= 1.0)) {
+        refuse(fmt::format("--band: expected a period of at most {:g} samples, found {:g} Hz, {:g} samples",
+                           most_samples, *low, 1.0 / (*low * step_s)));
+    }
+    return {*low, *high};
+}
+
+// What is asked of the derivative itself; nothing where --max-error asks about the sum.
+std::optional<glsum::design::DerivativeGoal> to_goal(const Budget& budget) {
+    if (budget.derivative_error.empty()) {
+        if (!budget.band.empty() || budget.step_until_s != 0.0) {
+            refuse("--band and --step-until: only with --derivative-error");
+        }
+        return std::nullopt;
+    }
+    if (budget.max_error != 0.0 || !budget.signals.empty()) {
+        refuse(
+            "--derivative-error: it takes the place of --max-error and --signal, which speak of the sum; expected one");
+    }
+    if (budget.band.empty() && budget.step_until_s == 0.0) {
+        refuse("--derivative-error: expected --band, --step-until or both beside it");
+    }
+    glsum::design::DerivativeGoal goal{budget.order, budget.step_s};
+    if (!budget.band.empty()) {
+        goal.band = to_band(budget.band, budget.step_s);
+    }
+    if (budget.step_until_s != 0.0) {
+        if (!glsum::design::has_step(budget.order)) {
+            refuse(fmt::format("--step-until: the derivative of order {:g} of a step is 0: no relative error",
+                               budget.order));
+        }
+        const double samples = budget.step_until_s / budget.step_s;
+        if (!(samples >= static_cast<double>(glsum::design::first_of_step) && samples <= most_samples)) {
+            refuse(fmt::format("--step-until: expected {} to {:g} samples, found {:g}", glsum::design::first_of_step,
+                               most_samples, samples));
+        }
+        goal.step_until_s = budget.step_until_s;
+    }
+    return goal;
+}
+
 }  // namespace
 
 std::shared_ptr<Budget> add_budget(Command& command) {
@@ -63,6 +129,16 @@ std::shared_ptr<Budget> add_budget(Command& command) {
     command
         .add_option("--max-error", budget->max_error,
                     "Largest error of the sum, relative to the largest exact full-memory sum, before h^-v")
+        .above(0);
+    command.add_option("--derivative-error", budget->derivative_error,
+                       "In place of --max-error: largest relative error of the derivative (or integral) itself, as in "
+                       "5%, over a --band, along a step (--step-until), or both");
+    command.add_option("--band", budget->band,
+                       "Hertz, as in 0.05..80: there |H - (jw)^v| / w^v is held within --derivative-error");
+    command
+        .add_option("--step-until", budget->step_until_s,
+                    "Seconds: until then, from ten samples on, the response to a unit step is held within it of "
+                    "t^-v / Gamma(1 - v)")
         .above(0);
     command.add_option("--signal", budget->signals, "The error is the worst of these records (default: all of them)")
         .delimiter(',');
@@ -104,7 +180,8 @@ choose::Question to_question(const Budget& budget) {
     if (!(budget.step_s > 0.0 && budget.step_s <= 1000.0)) {
         refuse(fmt::format("--step-s: expected seconds above 0, up to 1000, found {}", budget.step_s));
     }
-    if (!(std::isfinite(budget.max_error) && budget.max_error > 0.0)) {
+    const auto goal = to_goal(budget);
+    if (!goal && !(std::isfinite(budget.max_error) && budget.max_error > 0.0)) {
         refuse(fmt::format("--max-error: expected a number above 0, found {}", budget.max_error));
     }
     check_positive("--max-cycles", budget.max_cycles);
@@ -136,7 +213,8 @@ choose::Question to_question(const Budget& budget) {
     const bool counts = question.target == choose::Target::host || (budget.max_instructions && budget.core.empty());
     question.core = counts ? "" : budget.core.empty() ? default_core : budget.core;
     question.kernels = choose::kernels_of(question.target, question.conditions.order);
-    question.max_error = budget.max_error;
+    question.max_error = goal ? to_share(budget.derivative_error) : budget.max_error;
+    question.goal = goal;
     question.max_cycles = budget.max_cycles;
     question.max_instructions = budget.max_instructions;
     question.max_bytes = budget.max_bytes;

@@ -15,6 +15,9 @@ struct Budget {
     double order = 0.0;
     double step_s = 0.0;
     double max_error = 0.0;
+    std::string derivative_error;
+    std::string band;
+    double step_until_s = 0.0;
     std::vector<std::string> signals;
     std::optional<double> max_cycles;
     std::optional<double> max_instructions;

@@ -44,8 +44,8 @@ void check(Budget budget, const Check& check) {
 }
 
 void run(const Budget& budget, const std::string& json) {
-    if (budget.max_error == 0.0) {
-        throw glsum::Failure(glsum::Exit::bad_input, "--max-error is required");
+    if (budget.max_error == 0.0 && budget.derivative_error.empty()) {
+        throw glsum::Failure(glsum::Exit::bad_input, "--max-error or --derivative-error is required");
     }
     const choose::Question question = to_question(budget);
     if (!json.empty()) {
@@ -82,9 +82,15 @@ void add_options(Command& command, const Words&) {
         "ramp (from 0 to 0.9 over the record) and noise have no time of their own. Sines that --step-s cannot show "
         "are\n"
         "left out. Result files are of h = 1 ms and serve only there.\n"
+        "--derivative-error speaks of the derivative that is meant, not of the sum: each length is a filter of its "
+        "own,\n"
+        "fitted to the band and the step, judged as the kernel holds it, its noise included.\n"
         "Exit status: 0 something fits; 1 nothing does, with the nearest miss; 2 wrong use; 3 something is missing.\n"
         "Example: glsum choose --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --clock-hz 216e6 --rate-hz "
-        "1000");
+        "1000\n"
+        "         glsum choose --order 0.5 --step-s 0.001 --derivative-error 5% --band 0.05..80 --step-until 60 "
+        "--target "
+        "m7");
     command.callback([budget, json, against] {
         if (against->budgets > 0) {
             check(*budget, *against);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <memory>
 
 #include "base/failure.hpp"
@@ -30,6 +32,44 @@ bench::Json context_of(const Question& question, const std::optional<qemu::Board
     context["executable"] = "glsum choose";
     context["step_s"] = question.conditions.step_s;
     return context;
+}
+
+// Errors of the question's records or of its goal; `measured` is empty for a goal.
+struct Errors {
+    std::unique_ptr<MeasuredErrors> measured;
+    std::unique_ptr<DerivativeErrors> fitted;
+    [[nodiscard]] ErrorSource& source() const {
+        return measured ? static_cast<ErrorSource&>(*measured) : static_cast<ErrorSource&>(*fitted);
+    }
+};
+
+Errors make_errors(const Question& question, const Earlier& earlier) {
+    Errors errors;
+    if (question.goal) {
+        errors.fitted = std::make_unique<DerivativeErrors>(*question.goal);
+    } else {
+        errors.measured = std::make_unique<MeasuredErrors>(question.conditions.order,
+                                                           make_records(question.conditions, question.jobs));
+        remember(earlier, question, *errors.measured);
+    }
+    return errors;
+}
+
+// Why some kernels are not asked: for each reason how many.
+std::vector<std::string> leave_out(std::vector<std::string>& kernels) {
+    std::map<std::string, std::vector<std::string>> reasons;
+    std::erase_if(kernels, [&](const std::string& kernel) {
+        const std::string why = DerivativeErrors::why_not(kernel);
+        if (!why.empty()) {
+            reasons[why].push_back(kernel);
+        }
+        return !why.empty();
+    });
+    std::vector<std::string> notes;
+    for (const auto& [why, left_out] : reasons) {
+        notes.push_back(fmt::format("left out, since {}: {}", why, fmt::join(left_out, ", ")));
+    }
+    return notes;
 }
 
 // Costs of the question's target; `note` says where they come from.
@@ -83,22 +123,35 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
     const Earlier earlier = read_earlier(question, answer.context);
     std::string cost_note;
     const std::unique_ptr<CostSource> costs = make_costs(question, earlier, board, cost_note);
-    MeasuredErrors errors(question.conditions.order, make_records(question.conditions, question.jobs));
-    remember(earlier, question, errors);
+    const Errors errors = make_errors(question, earlier);
+    std::vector<std::string> kernels = question.kernels;
+    const std::vector<std::string> left_out = question.goal ? leave_out(kernels) : std::vector<std::string>{};
     const Limits limits{
         question.max_error,
         question.target == Target::m7 && question.max_instructions ? question.max_instructions : question.max_cycles,
         question.max_bytes};
-    answer.choice = choose(errors, *costs, question.kernels, limits, question.jobs);
+    answer.choice = choose(errors.source(), *costs, kernels, limits, question.jobs);
     answer.unit = costs->unit();
     answer.limited_unit = costs->limited_unit();
-    answer.notes = {earlier.note, cost_note};
-    answer.notes.push_back(fmt::format("{} records run through kernels for their errors, {} errors taken from the file",
-                                       errors.measured(), errors.remembered()));
+    answer.notes = {
+        question.goal && question.target == Target::host ? "no earlier errors serve a derivative" : earlier.note,
+        cost_note};
+    answer.notes.push_back(
+        errors.measured
+            ? fmt::format("{} records run through kernels for their errors, {} errors taken from the file",
+                          errors.measured->measured(), errors.measured->remembered())
+            : "errors: of a filter fitted to the derivative for each length, as the kernel's format holds it, and of "
+              "the noise of its arithmetic");
+    if (errors.fitted && answer.choice.chosen) {
+        const Candidate& chosen = *answer.choice.chosen;
+        answer.derivative =
+            report_on(chosen.kernel, chosen.taps, *question.goal, errors.fitted->filter_of(chosen.kernel, chosen.taps));
+    }
     if (const auto* counted = dynamic_cast<const OnTarget*>(costs.get())) {
         answer.notes.back() +=
             fmt::format("; {} costs measured, {} taken from the file", counted->measured(), counted->remembered());
     }
+    answer.notes.insert(answer.notes.end(), left_out.begin(), left_out.end());
     if (const auto* timed = dynamic_cast<const HostTimes*>(costs.get())) {
         answer.notes.push_back("host cycles: " + timed->cycle_counter());
     }

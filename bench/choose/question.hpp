@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/choose/conditions.hpp"
+#include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/search.hpp"
 #include "bench/rows/row.hpp"
 #include "qemu/emulate/firmware.hpp"
@@ -21,7 +22,8 @@ struct Question {
     Target target = Target::m7;
     std::string core;                  ///< of the timing model, whose cycles count; empty: instructions do
     std::vector<std::string> kernels;  ///< to choose among
-    double max_error = 0.0;
+    double max_error = 0.0;            ///< of the sum, or of the derivative where there is a goal
+    std::optional<glsum::design::DerivativeGoal> goal;
     std::optional<double> max_cycles;
     std::optional<double> max_instructions;
     std::optional<double> max_bytes;
@@ -35,10 +37,11 @@ struct Question {
 struct Answer {
     Question question;
     Choice choice;
-    std::string unit;                ///< of what is ranked
-    std::string limited_unit;        ///< of what the cost limit holds against
-    std::vector<std::string> notes;  ///< where the numbers come from, one sentence each
-    bench::Json context;             ///< the conditions of this run
+    std::optional<DerivativeReport> derivative;  ///< of what was chosen, where there is a goal
+    std::string unit;                            ///< of what is ranked
+    std::string limited_unit;                    ///< of what the cost limit holds against
+    std::vector<std::string> notes;              ///< where the numbers come from, one sentence each
+    bench::Json context;                         ///< the conditions of this run
 };
 
 /// Kernels that run on a target: all but `null`, on the m7 without the host's own, those of integrals for these alone.

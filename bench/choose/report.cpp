@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded_up.hpp"
 #include "bench/sweep/designs.hpp"
 
 namespace choose {
@@ -25,16 +26,22 @@ std::string option(const Answer& answer, const std::string& limit) {
     if (limit == "max_cost") {
         return answer.unit == "instructions" ? "--max-instructions" : "--max-cycles";
     }
-    return limit == "max_error" ? "--max-error" : "--max-bytes";
+    return limit != "max_error" ? "--max-bytes" : answer.question.goal ? "--derivative-error" : "--max-error";
+}
+
+// "5 %" or "0.05": an error as the user asked for it.
+std::string error_text(const Answer& answer, double error) {
+    return answer.question.goal ? fmt::format("{:.3g} %", 100.0 * error) : fmt::format("{:.3g}", error);
 }
 
 // Relaxed upwards to two or three digits, so that it may be typed.
-std::string relaxed_value(const Relaxed& relaxed) {
+std::string relaxed_value(const Answer& answer, const Relaxed& relaxed) {
     if (relaxed.limit != "max_error") {
         return fmt::format("{:.0f}", std::ceil(relaxed.to));
     }
     const double unit = std::pow(10.0, std::floor(std::log10(relaxed.to)) - 2.0);
-    return fmt::format("{:.3g}", std::ceil(relaxed.to / unit * (1.0 - 1e-12)) * unit);
+    const double up = std::ceil(relaxed.to / unit * (1.0 - 1e-12)) * unit;
+    return answer.question.goal ? fmt::format("{:.3g}%", 100.0 * up) : fmt::format("{:.3g}", up);
 }
 
 std::string taps_of(const Answer& answer, const Candidate& candidate) {
@@ -106,6 +113,58 @@ std::string line_of(const Answer& answer, const Outcome& outcome) {
     return line;
 }
 
+// ", from 0.05 to 80 Hz, a step until 60 s"
+std::string extent(const glsum::design::DerivativeGoal& goal) {
+    std::string text;
+    if (goal.band) {
+        text += fmt::format(", from {:g} to {:g} Hz", goal.band->low_hz, goal.band->high_hz);
+    }
+    if (goal.step_until_s) {
+        text += fmt::format(", a step from {:g} s until {:g} s",
+                            static_cast<double>(glsum::design::first_of_step) * goal.step_s, *goal.step_until_s);
+    }
+    return text;
+}
+
+// Where what was chosen may be used, and what running it gave.
+std::string derivative_text(const Answer& answer) {
+    if (!answer.derivative) {
+        return "";
+    }
+    const DerivativeReport& report = *answer.derivative;
+    const glsum::design::DerivativeGoal& goal = *answer.question.goal;
+    const auto lines = [&](const glsum::design::DerivativeError& error, const auto& percent) {
+        std::string text;
+        if (goal.band) {
+            text += fmt::format("{} % from {:g} to {:g} Hz (worst at {:.3g} Hz)", percent(error.band),
+                                goal.band->low_hz, goal.band->high_hz, error.band_hz);
+        }
+        if (goal.step_until_s) {
+            text += fmt::format("{}{} % of a step's response until {:g} s (worst at {:.3g} s)", goal.band ? ", " : "",
+                                percent(error.step), *goal.step_until_s, error.step_s);
+        }
+        return text;
+    };
+    return fmt::format("{:<10} within {}\n{:<10} {}\n{:<10} derivative = {} S_k\n", "certified",
+                       lines(report.certified, [](double error) { return base::rounded_up(100.0 * error); }),
+                       "measured",
+                       lines(report.measured, [](double error) { return fmt::format("{:.3g}", 100.0 * error); }),
+                       "factor", report.filter.factor);
+}
+
+bench::Json to_json(const glsum::design::DerivativeError& error, const glsum::design::DerivativeGoal& goal) {
+    bench::Json json;
+    if (goal.band) {
+        json["band_error"] = error.band;
+        json["worst_hz"] = error.band_hz;
+    }
+    if (goal.step_until_s) {
+        json["step_error"] = error.step;
+        json["worst_s"] = error.step_s;
+    }
+    return json;
+}
+
 bench::Json to_json(const Answer& answer, const Candidate& candidate) {
     bench::Json json;
     json["kernel"] = candidate.kernel;
@@ -122,8 +181,8 @@ bench::Json to_json(const Answer& answer, const Candidate& candidate) {
         json["blocks"] = length.blocks->count;
         json["blocks_per_level"] = length.blocks->per_level;
     }
-    json["error_max"] = candidate.error.error;
-    json["worst_signal"] = candidate.error.signal;
+    json[answer.question.goal ? "derivative_error" : "error_max"] = candidate.error.error;
+    json[answer.question.goal ? "worst_at" : "worst_signal"] = candidate.error.signal;
     const bool known = candidate.cost.fault.empty() && candidate.cost.bytes > 0.0;
     if (known && answer.question.target == Target::host) {
         json["ns_per_sample"] = candidate.cost.value;
@@ -185,15 +244,18 @@ std::string nearest_miss(const Answer& answer) {
     const Relaxed& nearest = answer.choice.relaxed.front();
     return fmt::format("nothing fits; nearest miss: {} misses {} by {:.3g} %, with {} {} it fits",
                        at(answer, nearest.fits), option(answer, nearest.limit), 100.0 * (nearest.factor() - 1.0),
-                       option(answer, nearest.limit), relaxed_value(nearest));
+                       option(answer, nearest.limit), relaxed_value(answer, nearest));
 }
 
 std::string to_table(const Answer& answer, bool colour) {
     const Question& question = answer.question;
     const Conditions& conditions = question.conditions;
-    std::string text =
-        fmt::format("order {}, h = {:g} s, error at most {:g}: the worst of {} over {} samples\n", conditions.order,
-                    conditions.step_s, question.max_error, fmt::join(conditions.signals, ", "), conditions.samples);
+    std::string text = question.goal
+                           ? fmt::format("derivative of order {}, h = {:g} s, within {:g} %{}\n", conditions.order,
+                                         conditions.step_s, 100.0 * question.max_error, extent(*question.goal))
+                           : fmt::format("order {}, h = {:g} s, error at most {:g}: the worst of {} over {} samples\n",
+                                         conditions.order, conditions.step_s, question.max_error,
+                                         fmt::join(conditions.signals, ", "), conditions.samples);
     const auto limit = [&](const char* name, const std::optional<double>& value) {
         if (value) {
             text += fmt::format("at most {} {}\n", count(*value), name);
@@ -204,9 +266,9 @@ std::string to_table(const Answer& answer, bool colour) {
     limit("bytes of state and coefficients", question.max_bytes);
     const auto strong = [&](const std::string& words) { return colour ? "\033[1m" + words + "\033[0m" : words; };
     const auto headline = [&](const char* what, const Candidate& candidate) {
-        text += fmt::format("\n{:<10} {}: error {:.3g} ({}), {}, {} bytes", what, strong(at(answer, candidate)),
-                            candidate.error.error, candidate.error.signal, cost_text(answer, candidate),
-                            count(candidate.cost.bytes));
+        text += fmt::format("\n{:<10} {}: error {} ({}), {}, {} bytes", what, strong(at(answer, candidate)),
+                            error_text(answer, candidate.error.error), candidate.error.signal,
+                            cost_text(answer, candidate), count(candidate.cost.bytes));
     };
     if (answer.choice.chosen) {
         headline("choice", *answer.choice.chosen);
@@ -215,16 +277,19 @@ std::string to_table(const Answer& answer, bool colour) {
             text += answer.choice.tie ? "; within the noise as cheap" : "";
         }
         text += '\n';
+        text += derivative_text(answer);
         if (const std::string share = budget_share(answer, *answer.choice.chosen); !share.empty()) {
             text += fmt::format("{:<10} {}\n", "real time", share);
         }
     } else {
         text += fmt::format("\n{}\n", strong(nearest_miss(answer)));
         for (const Relaxed& relaxed : answer.choice.relaxed) {
-            text += fmt::format("  {} {} instead of {:g} (times {:.3g}): {}, error {:.3g}, {}, {} bytes\n",
-                                option(answer, relaxed.limit), relaxed_value(relaxed), relaxed.from, relaxed.factor(),
-                                at(answer, relaxed.fits), relaxed.fits.error.error, cost_text(answer, relaxed.fits),
-                                count(relaxed.fits.cost.bytes));
+            text += fmt::format(
+                "  {} {} instead of {} (times {:.3g}): {}, error {}, {}, {} bytes\n", option(answer, relaxed.limit),
+                relaxed_value(answer, relaxed),
+                relaxed.limit == "max_error" ? error_text(answer, relaxed.from) : fmt::format("{:g}", relaxed.from),
+                relaxed.factor(), at(answer, relaxed.fits), error_text(answer, relaxed.fits.error.error),
+                cost_text(answer, relaxed.fits), count(relaxed.fits.cost.bytes));
         }
     }
     text += fmt::format("\n  {:<24} {:>6} {:>9}  {:<7} {:>10} {:>8}  {}\n", "kernel", "taps", "error", "worst",
@@ -267,8 +332,18 @@ bench::Json to_json(const Answer& answer) {
     asked["step_s"] = question.conditions.step_s;
     asked["target"] = question.target == Target::host ? "host" : "m7";
     asked["core"] = question.core;
-    asked["signals"] = question.conditions.signals;
-    asked["max_error"] = question.max_error;
+    if (question.goal) {
+        asked["derivative_error"] = question.max_error;
+        if (question.goal->band) {
+            asked["band_hz"] = {question.goal->band->low_hz, question.goal->band->high_hz};
+        }
+        if (question.goal->step_until_s) {
+            asked["step_until_s"] = *question.goal->step_until_s;
+        }
+    } else {
+        asked["signals"] = question.conditions.signals;
+        asked["max_error"] = question.max_error;
+    }
     const auto optional = [](bench::Json& to, const char* name, const std::optional<double>& value) {
         if (value) {
             to[name] = *value;
@@ -281,6 +356,11 @@ bench::Json to_json(const Answer& answer) {
     optional(asked, "rate_hz", question.rate_hz);
     if (answer.choice.chosen) {
         json["choice"] = to_json(answer, *answer.choice.chosen);
+        if (answer.derivative) {
+            json["certified"] = to_json(answer.derivative->certified, *question.goal);
+            json["measured"] = to_json(answer.derivative->measured, *question.goal);
+            json["factor"] = answer.derivative->filter.factor;
+        }
         if (const std::string share = budget_share(answer, *answer.choice.chosen); !share.empty()) {
             bench::Json& real_time = json["real_time"];
             const double budget = *question.clock_hz / *question.rate_hz;

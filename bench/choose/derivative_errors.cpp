@@ -1,0 +1,115 @@
+#include "bench/choose/derivative_errors.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "bench/choose/kernel_run.hpp"
+#include "bench/sweep/designs.hpp"
+#include "glsum/catalogue.hpp"
+
+namespace choose {
+namespace {
+
+namespace design = glsum::design;
+
+// Samples of a run while lengths are looked for; what is chosen is run to the end.
+constexpr std::size_t samples_of_search = 100'000;
+
+// Noise is of any frequency and any time: it weighs most where the derivative is least.
+void add_noise(design::DerivativeError& error, const design::DerivativeGoal& goal, double noise) {
+    if (goal.band) {
+        error.band += noise / std::min(std::abs(design::exact_response(goal.order, goal.band->low_hz)),
+                                       std::abs(design::exact_response(goal.order, goal.band->high_hz)));
+    }
+    if (goal.step_until_s) {
+        const double first_s = static_cast<double>(design::first_of_step) * goal.step_s;
+        error.step += noise / std::min(std::fabs(design::exact_step(goal.order, first_s)),
+                                       std::fabs(design::exact_step(goal.order, *goal.step_until_s)));
+    }
+}
+
+}  // namespace
+
+DerivativeErrors::DerivativeErrors(const design::DerivativeGoal& goal) : goal_(goal) {}
+
+std::string DerivativeErrors::why_not(const std::string& kernel) {
+    const glsum::CatalogueEntry& facts = bench::facts_of(kernel);
+    return facts.family == glsum::Family::logmemory ? "its blocks' weights change from sample to sample"
+           : facts.forgotten == glsum::Forgotten::increments
+               ? "it sums increments, which are not fitted to a derivative"
+           : facts.forgotten != glsum::Forgotten::zero ? "the weights of its guessed tail change with the record"
+                                                       : "";
+}
+
+DerivativeErrors::Key DerivativeErrors::key_of(const std::string& kernel, std::size_t taps) const {
+    const std::size_t modes = bench::length_of(kernel, goal_.order, taps, longest()).modes.value_or(0);
+    return {taps - 2 * modes, modes, modes > 0 && bench::has_integrator(kernel)};
+}
+
+std::optional<std::vector<std::size_t>> DerivativeErrors::lengths(const std::string& kernel) const {
+    const std::size_t last = bench::has_modes(kernel) ? longest_with_modes : longest_window;
+    constexpr std::size_t one_by_one = 16;
+    std::vector<std::size_t> all = {1};
+    while (all.back() < last) {
+        const std::size_t taps = all.back();
+        all.push_back(bench::has_modes(kernel) || taps < one_by_one ? taps + 1 : std::min(last, taps + taps / 8));
+    }
+    return all;
+}
+
+const design::FittedFilter& DerivativeErrors::filter_of(const std::string& kernel, std::size_t taps) {
+    const Key key = key_of(kernel, taps);
+    Once* once = nullptr;
+    {
+        const std::lock_guard lock(mutex_);
+        auto& entry = fitted_[key];
+        if (!entry) {
+            entry = std::make_unique<Once>();
+        }
+        once = entry.get();
+    }
+    std::call_once(once->flag,
+                   [&] { once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.integrator); });
+    return *once->filter;
+}
+
+ErrorAt DerivativeErrors::error(const std::string& kernel, std::size_t taps) {
+    ErrorAt found;
+    found.fault = why_not(kernel);
+    if (!found.fault.empty()) {
+        return found;
+    }
+    const Held held = hold(kernel, taps, goal_, filter_of(kernel, taps), samples_of_search);
+    found.fault = held.fault;
+    if (found.fault.empty()) {
+        design::DerivativeError error = design::error_at_points(held.filter, goal_);
+        add_noise(error, goal_, held.noise);
+        found.error = error.largest();
+        found.signal = worst_place(error);
+        if (!std::isfinite(found.error)) {
+            found.fault = "the derivative is not a finite number";
+        }
+    }
+    return found;
+}
+
+bool DerivativeErrors::meets(const std::string& kernel, std::size_t taps, double limit) {
+    const ErrorAt at = error(kernel, taps);
+    return at.fault.empty() && at.error <= limit;
+}
+
+std::string worst_place(const design::DerivativeError& error) {
+    return error.band >= error.step ? fmt::format("{:.3g} Hz", error.band_hz) : fmt::format("{:.3g} s", error.step_s);
+}
+
+DerivativeReport report_on(const std::string& kernel, std::size_t taps, const design::DerivativeGoal& goal,
+                           const design::FittedFilter& filter) {
+    const Held held = hold(kernel, taps, goal, filter, 2 * goal.horizon());
+    DerivativeReport report{filter, design::certified_error(held.filter, goal), run(kernel, taps, goal, filter)};
+    add_noise(report.certified, goal, held.noise);
+    return report;
+}
+
+}  // namespace choose

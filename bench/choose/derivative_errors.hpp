@@ -1,0 +1,76 @@
+// The error of any kernel at any length against the derivative that is meant: over a band of frequencies, and along a
+// step. Each length has a filter of its own, fitted to that goal (glsum/design/band.hpp).
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/choose/errors.hpp"
+#include "glsum/design/band.hpp"
+
+namespace choose {
+
+/// The filter of a length, and of each kernel what its format and its arithmetic add. The error of a kernel is that of
+/// the filter that it holds, its table read back, and the noise of its arithmetic: of averages the largest difference
+/// to the same filter in double, over a step and sines at both ends of the band, at full scale, up to 100 000 samples;
+/// of a window its promised bound.
+class DerivativeErrors : public ErrorSource {
+public:
+    explicit DerivativeErrors(const glsum::design::DerivativeGoal& goal);
+
+    [[nodiscard]] std::size_t longest() const override { return longest_window; }
+    /// With modes every length up to 40, as `bench::length_of` parts it; of a window every one to 16, then to 64 each
+    /// an eighth longer than the last.
+    [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
+    [[nodiscard]] double truncation(std::size_t) const override { return 0.0; }
+    [[nodiscard]] double rounding_bound(const std::string&, std::size_t) const override { return 0.0; }
+    [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override;
+    [[nodiscard]] bool meets(const std::string& kernel, std::size_t taps, double limit) override;
+
+    /// What `error` fits, once. Thread-safe; it stays where it is. \pre `why_not(kernel)` is empty
+    [[nodiscard]] const glsum::design::FittedFilter& filter_of(const std::string& kernel, std::size_t taps);
+
+    /// Why a kernel cannot be fitted to a derivative; empty where it can.
+    [[nodiscard]] static std::string why_not(const std::string& kernel);
+
+private:
+    static constexpr std::size_t longest_with_modes = 40;
+    static constexpr std::size_t longest_window = 64;
+
+    struct Key {
+        std::size_t near_taps;
+        std::size_t modes;
+        bool integrator;
+        auto operator<=>(const Key&) const = default;
+    };
+    struct Once {
+        std::once_flag flag;
+        std::optional<glsum::design::FittedFilter> filter;
+    };
+    [[nodiscard]] Key key_of(const std::string& kernel, std::size_t taps) const;
+
+    glsum::design::DerivativeGoal goal_;
+    std::mutex mutex_;
+    std::map<Key, std::unique_ptr<Once>> fitted_;
+};
+
+/// "80 Hz", or "60 s" where the step's error is the larger one.
+[[nodiscard]] std::string worst_place(const glsum::design::DerivativeError& error);
+
+/// Of a kernel with a fitted filter: the certificate of what it holds, with its noise, and what running it gave, a sine
+/// at nine frequencies of the band (its line's amplitude and phase, by a window of eight periods) and the whole step.
+struct DerivativeReport {
+    glsum::design::FittedFilter filter;
+    glsum::design::DerivativeError certified;
+    glsum::design::DerivativeError measured;
+};
+[[nodiscard]] DerivativeReport report_on(const std::string& kernel, std::size_t taps,
+                                         const glsum::design::DerivativeGoal& goal,
+                                         const glsum::design::FittedFilter& filter);
+
+}  // namespace choose

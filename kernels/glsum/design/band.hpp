@@ -1,0 +1,36 @@
+// A filter fitted to the derivative itself, over a band and along a step: not to the weights of a sum, whose own error
+// grows towards half the sample's rate.
+//
+// Given its poles, a filter of near taps and modes is linear in what is sought; its largest relative error is made
+// small by least squares whose weights follow the error (Lawson's iteration [Lawson1961]), and the poles, real and
+// inside the circle, are moved by Gauss-Newton steps of the weighted problem with the linear part solved for (variable
+// projection [GolubPereyra1973]). Oustaloup's and Charef's filters are of this form too, with poles and weights by
+// rule.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "glsum/design/derivative.hpp"
+#include "glsum/kernel.hpp"
+
+namespace glsum::design {
+
+/// A filter for a goal, as what a kernel's design names: D_k = factor S_k with S_k of these weights and modes.
+struct FittedFilter {
+    double factor;                ///< b_0: w_0 h^-v
+    std::vector<double> weights;  ///< a_1 ... a_(K-1)
+    std::vector<Mode> modes;      ///< slowest first; of an integrator the first does not decay
+    DerivativeError error;        ///< of the filter in double, at the points of a search
+
+    [[nodiscard]] Filter filter() const;
+};
+
+/// \param near_taps   K >= 1
+/// \param modes       M; none: a window fitted to the goal
+/// \param integrator  whether the slowest mode does not decay; then M >= 1
+/// The same arguments give the same filter.
+[[nodiscard]] FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes,
+                                      bool integrator);
+
+}  // namespace glsum::design

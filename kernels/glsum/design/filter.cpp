@@ -1,0 +1,46 @@
+#include "glsum/design/filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glsum::design {
+
+std::complex<double> mode_response(double decay, std::size_t near_taps, double angle) {
+    const double half = std::sin(0.5 * angle);
+    // 1 - (1-d) z^-1 = d + (1-d) (1 - z^-1): slow modes at low angles keep their digits.
+    const std::complex<double> difference(2.0 * half * half, std::sin(angle));
+    return std::polar(1.0, -angle * static_cast<double>(near_taps)) / (decay + (1.0 - decay) * difference);
+}
+
+std::complex<double> frequency_response(const Filter& filter, double angle) {
+    std::complex<double> sum;
+    const std::complex<double> delay = std::polar(1.0, -angle);
+    for (auto tap = filter.taps.rbegin(); tap != filter.taps.rend(); ++tap) {
+        sum = sum * delay + *tap;
+    }
+    for (const Mode& mode : filter.modes) {
+        sum += mode.weight * mode_response(mode.decay, filter.taps.size(), angle);
+    }
+    return sum;
+}
+
+double mode_step_response(double decay, std::size_t near_taps, std::size_t k) {
+    if (k < near_taps) {
+        return 0.0;
+    }
+    const auto count = static_cast<double>(k - near_taps + 1);
+    return decay == 0.0 ? count : decay == 1.0 ? 1.0 : -std::expm1(count * std::log1p(-decay)) / decay;
+}
+
+double step_response(const Filter& filter, std::size_t k) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < std::min(filter.taps.size(), k + 1); ++j) {
+        sum += filter.taps[j];
+    }
+    for (const Mode& mode : filter.modes) {
+        sum += mode.weight * mode_step_response(mode.decay, filter.taps.size(), k);
+    }
+    return sum;
+}
+
+}  // namespace glsum::design
