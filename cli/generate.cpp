@@ -9,6 +9,7 @@
 #include "base/failure.hpp"
 #include "base/files.hpp"
 #include "base/glob.hpp"
+#include "bench/choose/derivative_text.hpp"
 #include "bench/choose/report.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/generate/provenance.hpp"
@@ -120,13 +121,22 @@ void run(const Options& options, Budget budget, const std::string& command) {
     std::vector<generate::Spec> specs;
     std::optional<choose::Answer> answer;
     if (options.kernel.empty()) {
-        if (budget.step_s == 0.0 || budget.max_error == 0.0 || budget.target.empty() || !options.taps.empty()) {
+        if (budget.step_s == 0.0 || (budget.max_error == 0.0 && budget.derivative_error.empty()) ||
+            budget.target.empty() || !options.taps.empty()) {
             refuse(
-                "expected a budget (--order, --step-s, --max-error, --target) or a kernel (--order, --kernel, --taps)");
+                "expected a budget (--order, --step-s, --max-error or --derivative-error, --target) or a kernel "
+                "(--order, --kernel, --taps)");
         }
         answer = choose_one(budget);
         specs = {to_spec(options, budget, answer->choice.chosen->kernel, answer->choice.chosen->taps)};
+        if (answer->derivative) {
+            specs.front().fitted = answer->derivative->filter;
+            specs.front().use = choose::use_of(*answer->derivative, *answer->question.goal);
+        }
     } else {
+        if (!budget.derivative_error.empty()) {
+            refuse("--derivative-error: it fits a filter to what is chosen; expected no --kernel beside it");
+        }
         budget.step_s = budget.step_s == 0.0 ? 0.001 : budget.step_s;
         budget.target = budget.target.empty() ? "m7" : budget.target;
         budget.max_error = 1.0;  // no limit: it is measured and told
@@ -182,7 +192,8 @@ void add_options(Command& command, const Words& words) {
                      "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
                      "modelled cycles and the kernel's");
     command.footer(
-        "Takes the budget of `choose` (see there) and writes what that chooses, among the kernels that can be "
+        "Takes the budget of `choose` (see there), --derivative-error and --band included, and writes what that "
+        "chooses, among the kernels that can be "
         "generated\n"
         "(all but the host's vector kernels); or a kernel by name, at h = 1 ms unless --step-s says otherwise.\n"
         "Exit status: 0 written; 1 nothing fits, or --verify failed; 2 wrong use; 3 something is missing.\n"

@@ -10,27 +10,8 @@
 #include "glsum/catalogue.hpp"
 
 namespace choose {
-namespace {
 
 namespace design = glsum::design;
-
-// Samples of a run while lengths are looked for; what is chosen is run to the end.
-constexpr std::size_t samples_of_search = 100'000;
-
-// Noise is of any frequency and any time: it weighs most where the derivative is least.
-void add_noise(design::DerivativeError& error, const design::DerivativeGoal& goal, double noise) {
-    if (goal.band) {
-        error.band += noise / std::min(std::abs(design::exact_response(goal.order, goal.band->low_hz)),
-                                       std::abs(design::exact_response(goal.order, goal.band->high_hz)));
-    }
-    if (goal.step_until_s) {
-        const double first_s = static_cast<double>(design::first_of_step) * goal.step_s;
-        error.step += noise / std::min(std::fabs(design::exact_step(goal.order, first_s)),
-                                       std::fabs(design::exact_step(goal.order, *goal.step_until_s)));
-    }
-}
-
-}  // namespace
 
 DerivativeErrors::DerivativeErrors(const design::DerivativeGoal& goal) : goal_(goal) {}
 
@@ -81,11 +62,14 @@ ErrorAt DerivativeErrors::error(const std::string& kernel, std::size_t taps) {
     if (!found.fault.empty()) {
         return found;
     }
-    const Held held = hold(kernel, taps, goal_, filter_of(kernel, taps), samples_of_search);
+    const design::FittedFilter& fitted = filter_of(kernel, taps);
+    const Held held = hold(kernel, taps, goal_, fitted);
     found.fault = held.fault;
+    if (found.fault.empty() && !(fitted.factor > 0.0)) {
+        found.fault = "its filter begins with no coefficient above 0";
+    }
     if (found.fault.empty()) {
-        design::DerivativeError error = design::error_at_points(held.filter, goal_);
-        add_noise(error, goal_, held.noise);
+        const design::DerivativeError error = held.added_to(design::certified_error(held.filter, goal_));
         found.error = error.largest();
         found.signal = worst_place(error);
         if (!std::isfinite(found.error)) {
@@ -106,10 +90,8 @@ std::string worst_place(const design::DerivativeError& error) {
 
 DerivativeReport report_on(const std::string& kernel, std::size_t taps, const design::DerivativeGoal& goal,
                            const design::FittedFilter& filter) {
-    const Held held = hold(kernel, taps, goal, filter, 2 * goal.horizon());
-    DerivativeReport report{filter, design::certified_error(held.filter, goal), run(kernel, taps, goal, filter)};
-    add_noise(report.certified, goal, held.noise);
-    return report;
+    const Held held = hold(kernel, taps, goal, filter);
+    return {filter, held.added_to(design::certified_error(held.filter, goal)), run(kernel, taps, goal, filter)};
 }
 
 }  // namespace choose

@@ -16,9 +16,7 @@
 namespace choose {
 
 /// The filter of a length, and of each kernel what its format and its arithmetic add. The error of a kernel is that of
-/// the filter that it holds, its table read back, and the noise of its arithmetic: of averages the largest difference
-/// to the same filter in double, over a step and sines at both ends of the band, at full scale, up to 100 000 samples;
-/// of a window its promised bound.
+/// the filter that it holds, its table read back, and the noise of its arithmetic (kernel_run.hpp).
 class DerivativeErrors : public ErrorSource {
 public:
     explicit DerivativeErrors(const glsum::design::DerivativeGoal& goal);

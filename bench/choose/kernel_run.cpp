@@ -69,45 +69,81 @@ design::Filter scaled(design::Filter filter, double factor) {
     return filter;
 }
 
+// The least of what a band's errors are relative to.
+double least_of_band(const design::DerivativeGoal& goal) {
+    return std::min(std::abs(design::exact_response(goal.order, goal.band->low_hz)),
+                    std::abs(design::exact_response(goal.order, goal.band->high_hz)));
+}
+
 template <class K>
-Held hold(const glsum::Design& made, const design::DerivativeGoal& goal, const design::FittedFilter& fitted,
-          std::size_t most) {
-    bench::HostLine<K> line(made);
-    if (line.status() != glsum::Status::ok) {
-        return {{}, 0.0, bench::to_text(line.status())};
-    }
-    Held found{fitted.filter(), 0.0, {}};
-    using History = typename K::HistoryPart;
-    using Technique = typename K::TechniquePart;
-    using Format = typename K::FormatPart;
-    constexpr bool averages = std::is_same_v<History, glsum::Modes>;
-    constexpr bool integrates = std::is_same_v<History, glsum::Integral>;
-    if constexpr (averages) {
-        found.filter = scaled(design::held<Technique, Format>(line.state()), fitted.factor);
-    } else if constexpr (integrates) {
-        found.filter = scaled(design::held_with_integrator<Technique, Format>(line.state()), fitted.factor);
-    }
-    if constexpr (!averages && !integrates) {
-        found.noise = std::fabs(fitted.factor) * glsum::error_bound<K>(made, line.state(), 1.0, goal.horizon());
-        return found;
-    }
-    const auto compare = [&](std::size_t samples, const auto& signal) {
+void run_noise(bench::HostLine<K>& line, const design::DerivativeGoal& goal, double factor, Held& found) {
+    // visit(k, difference) behind each sample.
+    const auto compare = [&](std::size_t samples, const auto& signal, const auto& visit) {
         K::reset(line.state());
         Line exact(found.filter);
-        for (std::size_t k = 0; k < std::min(samples, most); ++k) {
+        for (std::size_t k = 0; k < samples; ++k) {
             const double sample = full_scale * signal(k);
-            const double output = fitted.factor * line.step_real(sample);
-            found.noise = std::max(found.noise, std::fabs(output - exact.step(sample)) / full_scale);
+            const double output = factor * line.step_real(sample);
+            visit(k, std::fabs(output - exact.step(sample)) / full_scale);
         }
     };
     if (goal.step_until_s) {
-        compare(goal.last_of_step() + 1, [](std::size_t) { return 1.0; });
+        compare(
+            goal.last_of_step() + 1, [](std::size_t) { return 1.0; },
+            [&](std::size_t k, double difference) {
+                if (k >= design::first_of_step) {
+                    const double wanted = design::exact_step(goal.order, static_cast<double>(k) * goal.step_s);
+                    found.step_noise = std::max(found.step_noise, difference / std::fabs(wanted));
+                }
+            });
     }
     if (goal.band) {
+        constexpr double periods = 4.0;
+        const double least = least_of_band(goal);
         for (const double hz : {goal.band->low_hz, goal.band->high_hz}) {
             const double angle = 2.0 * std::numbers::pi * hz * goal.step_s;
-            compare(2 * goal.horizon(), [&](std::size_t k) { return std::sin(angle * static_cast<double>(k)); });
+            compare(
+                static_cast<std::size_t>(std::ceil(periods / (goal.band->low_hz * goal.step_s))),
+                [&](std::size_t k) { return std::sin(angle * static_cast<double>(k)); },
+                [&](std::size_t, double difference) {
+                    found.band_noise = std::max(found.band_noise, difference / least);
+                });
         }
+    }
+}
+
+void bound_noise(const design::DerivativeGoal& goal, double bound, Held& found) {
+    if (goal.band) {
+        found.band_noise = bound / least_of_band(goal);
+    }
+    if (goal.step_until_s) {
+        const double first_s = static_cast<double>(design::first_of_step) * goal.step_s;
+        found.step_noise = bound / std::min(std::fabs(design::exact_step(goal.order, first_s)),
+                                            std::fabs(design::exact_step(goal.order, *goal.step_until_s)));
+    }
+}
+
+template <class K>
+Held hold(const glsum::Design& made, const design::DerivativeGoal& goal, const design::FittedFilter& fitted) {
+    bench::HostLine<K> line(made);
+    Held found;
+    if (line.status() != glsum::Status::ok) {
+        found.fault = bench::to_text(line.status());
+        return found;
+    }
+    using History = typename K::HistoryPart;
+    using Technique = typename K::TechniquePart;
+    using Format = typename K::FormatPart;
+    if constexpr (std::is_same_v<History, glsum::Modes>) {
+        found.filter = scaled(design::held<Technique, Format>(line.state()), fitted.factor);
+        run_noise<K>(line, goal, fitted.factor, found);
+    } else if constexpr (std::is_same_v<History, glsum::Integral>) {
+        found.filter = scaled(design::held_with_integrator<Technique, Format>(line.state()), fitted.factor);
+        run_noise<K>(line, goal, fitted.factor, found);
+    } else {
+        found.filter = fitted.filter();
+        bound_noise(goal, std::fabs(fitted.factor) * glsum::error_bound<K>(made, line.state(), 1.0, goal.horizon()),
+                    found);
     }
     return found;
 }
@@ -178,11 +214,11 @@ design::DerivativeError run(const glsum::Design& made, const design::DerivativeG
 }  // namespace
 
 Held hold(const std::string& kernel, std::size_t taps, const design::DerivativeGoal& goal,
-          const design::FittedFilter& fitted, std::size_t most) {
+          const design::FittedFilter& fitted) {
     Held found;
     bench::with_kernel(kernel, [&]<class K>() {
         if constexpr (!std::is_same_v<K, glsum::Null>) {
-            found = hold<K>(design_for(goal, fitted, taps), goal, fitted, most);
+            found = hold<K>(design_for(goal, fitted, taps), goal, fitted);
         }
     });
     return found;

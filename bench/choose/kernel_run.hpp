@@ -12,12 +12,21 @@ namespace choose {
 /// What a kernel holds of a fitted filter, and how far its arithmetic strays from that.
 struct Held {
     glsum::design::Filter filter;  ///< in units of the derivative
-    double noise = 0.0;            ///< largest, for |x| <= 1, in units of the derivative
+    double band_noise = 0.0;       ///< largest, at full scale, relative to the least |w^v| of the band
+    double step_noise = 0.0;       ///< largest, relative to the step's exact response at that time
     std::string fault;             ///< why the kernel refused; empty if it did not
+
+    /// With the filter's own errors, as they were found.
+    [[nodiscard]] glsum::design::DerivativeError added_to(glsum::design::DerivativeError error) const {
+        error.band += band_noise;
+        error.step += step_noise;
+        return error;
+    }
 };
-/// \param most  samples that a run takes at most
+/// Runs a kernel with averages over the whole step, and four periods of a sine at both ends of the band; of a window
+/// the noise is its promised bound.
 [[nodiscard]] Held hold(const std::string& kernel, std::size_t taps, const glsum::design::DerivativeGoal& goal,
-                        const glsum::design::FittedFilter& fitted, std::size_t most);
+                        const glsum::design::FittedFilter& fitted);
 
 /// Errors of the outputs themselves.
 [[nodiscard]] glsum::design::DerivativeError run(const std::string& kernel, std::size_t taps,

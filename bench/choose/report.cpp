@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/rounded_up.hpp"
+#include "bench/choose/derivative_text.hpp"
 #include "bench/sweep/designs.hpp"
 
 namespace choose {
@@ -111,58 +111,6 @@ std::string line_of(const Answer& answer, const Outcome& outcome) {
         line += ": " + reason;
     }
     return line;
-}
-
-// ", from 0.05 to 80 Hz, a step until 60 s"
-std::string extent(const glsum::design::DerivativeGoal& goal) {
-    std::string text;
-    if (goal.band) {
-        text += fmt::format(", from {:g} to {:g} Hz", goal.band->low_hz, goal.band->high_hz);
-    }
-    if (goal.step_until_s) {
-        text += fmt::format(", a step from {:g} s until {:g} s",
-                            static_cast<double>(glsum::design::first_of_step) * goal.step_s, *goal.step_until_s);
-    }
-    return text;
-}
-
-// Where what was chosen may be used, and what running it gave.
-std::string derivative_text(const Answer& answer) {
-    if (!answer.derivative) {
-        return "";
-    }
-    const DerivativeReport& report = *answer.derivative;
-    const glsum::design::DerivativeGoal& goal = *answer.question.goal;
-    const auto lines = [&](const glsum::design::DerivativeError& error, const auto& percent) {
-        std::string text;
-        if (goal.band) {
-            text += fmt::format("{} % from {:g} to {:g} Hz (worst at {:.3g} Hz)", percent(error.band),
-                                goal.band->low_hz, goal.band->high_hz, error.band_hz);
-        }
-        if (goal.step_until_s) {
-            text += fmt::format("{}{} % of a step's response until {:g} s (worst at {:.3g} s)", goal.band ? ", " : "",
-                                percent(error.step), *goal.step_until_s, error.step_s);
-        }
-        return text;
-    };
-    return fmt::format("{:<10} within {}\n{:<10} {}\n{:<10} derivative = {} S_k\n", "certified",
-                       lines(report.certified, [](double error) { return base::rounded_up(100.0 * error); }),
-                       "measured",
-                       lines(report.measured, [](double error) { return fmt::format("{:.3g}", 100.0 * error); }),
-                       "factor", report.filter.factor);
-}
-
-bench::Json to_json(const glsum::design::DerivativeError& error, const glsum::design::DerivativeGoal& goal) {
-    bench::Json json;
-    if (goal.band) {
-        json["band_error"] = error.band;
-        json["worst_hz"] = error.band_hz;
-    }
-    if (goal.step_until_s) {
-        json["step_error"] = error.step;
-        json["worst_s"] = error.step_s;
-    }
-    return json;
 }
 
 bench::Json to_json(const Answer& answer, const Candidate& candidate) {
@@ -277,7 +225,10 @@ std::string to_table(const Answer& answer, bool colour) {
             text += answer.choice.tie ? "; within the noise as cheap" : "";
         }
         text += '\n';
-        text += derivative_text(answer);
+        if (answer.derivative) {
+            text += use_of(*answer.derivative, *question.goal) +
+                    fmt::format("{:<10} derivative = {} S_k\n", "factor", answer.derivative->filter.factor);
+        }
         if (const std::string share = budget_share(answer, *answer.choice.chosen); !share.empty()) {
             text += fmt::format("{:<10} {}\n", "real time", share);
         }

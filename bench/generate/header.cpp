@@ -299,15 +299,19 @@ std::string constants(const Spec& spec, const KernelData& data) {
         text = fmt::format("#define @NAME@_OUTPUT_EXPONENT {}     /* S_k = output * 2^(OUTPUT_EXPONENT - 31) */\n",
                            data.scale.output_exponent);
     }
+    const char* const factor_name = spec.fitted ? "w_0 h^-v" : "h^-v";
+    const double factor = spec.fitted   ? spec.fitted->factor
+                          : spec.step_s ? glsum::step_factor(spec.order, *spec.step_s)
+                                        : 0.0;
     if (spec.step_s && data.fixed) {
-        const glsum::Gain gain = glsum::make_gain(glsum::step_factor(spec.order, *spec.step_s));
+        const glsum::Gain gain = glsum::make_gain(factor);
         text += fmt::format(
-            "/* h^-v = GAIN_MANTISSA * 2^(GAIN_EXPONENT - 30): times S_k it is the derivative. */\n"
+            "/* {} = GAIN_MANTISSA * 2^(GAIN_EXPONENT - 30): times S_k it is the derivative. */\n"
             "#define @NAME@_GAIN_MANTISSA {}\n#define @NAME@_GAIN_EXPONENT ({})\n",
-            gain.mantissa, gain.exponent);
+            factor_name, gain.mantissa, gain.exponent);
     } else if (spec.step_s) {
-        text += fmt::format("#define @NAME@_STEP_FACTOR {} /* h^-v: times S_k it is the derivative */\n",
-                            real_literal(data.inputs.type, glsum::step_factor(spec.order, *spec.step_s)));
+        text += fmt::format("#define @NAME@_STEP_FACTOR {} /* {}: times S_k it is the derivative */\n",
+                            real_literal(data.inputs.type, factor), factor_name);
     }
     if (data.guesses) {
         text += fmt::format(
@@ -399,17 +403,21 @@ std::string helpers_of(const KernelData& data, const std::string& body) {
 std::string opening_comment(const Spec& spec, const KernelData& data, const Places& places) {
     const std::string name = places.at("name");
     std::string text = fmt::format(
-        "{}, {}: the Grünwald-Letnikov sum of order v = {}\n\n"
-        "{} h^-v S_k approximates the derivative of order v (v < 0: the integral).\n"
+        "{}, {}: {} of order v = {}\n{}\n"
+        "{} {} S_k approximates the derivative of order v (v < 0: the integral).\n"
         "Made by glsum; make it again rather than edit it.\n\n",
         spec.kernel,
         data.blocks.count > 0 ? fmt::format("{} taps and {} blocks", data.past + 1, data.blocks.count)
         : data.modes == 0     ? fmt::format("{} taps", spec.taps)
                               : fmt::format("{} taps and {} modes", data.past + 1, data.modes),
-        spec.order,
-        data.history_text.formula.empty() ? "  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 "
-                                            "- (1+v)/j)\n\none sum a sample;"
-                                          : data.history_text.formula);
+        spec.fitted ? "a sum fitted to the derivative" : "the Grünwald-Letnikov sum", spec.order,
+        spec.use.empty() ? "" : "\n" + spec.use,
+        spec.fitted ? "  S_k = sum a_j x_(k-j), a_0 = 1, a_j of the table;"
+        : data.history_text.formula.empty()
+            ? "  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 "
+              "- (1+v)/j)\n\none sum a sample;"
+            : data.history_text.formula,
+        spec.fitted ? "w_0 h^-v" : "h^-v");
     text += fmt::format(
         "  static {0}_instance line;\n  {1}_init_{2}(&line);\n  {3} sum = {1}_step_{2}(&line, x);  once a sample\n\n",
         name, spec.prefix, data.format, data.output);
@@ -418,16 +426,19 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
                         fill(data.format_text.scaling, places));
     text += fmt::format(
         "Error bounds, absolute, of S_k for |x| <= 1, before h^-v\n"
-        "against the exact sum of {}{}, rounding of coefficients and inputs included: {}\n"
-        "of that sum against full memory ({}): {}\n\n",
+        "against the exact sum of {}{}, rounding of coefficients and inputs included: {}\n{}\n",
         data.guesses            ? fmt::format("{} taps and the tail's weights", spec.taps)
         : data.blocks.count > 0 ? "these taps and blocks"
         : data.modes == 0       ? fmt::format("{} taps", spec.taps)
                                 : "these taps and modes, as designed in double",
         data.bound_grows ? fmt::format(", over {} samples", spec.horizon) : "", base::rounded_up(data.error_bound),
-        data.modes == 0 && !data.has_blocks ? "truncation" : fmt::format("{} samples from rest", spec.horizon),
-        data.modes == 0 && !data.has_blocks ? truncation_bound(spec.order, spec.taps, data)
-                                            : base::rounded_up(data.design_error));
+        spec.fitted
+            ? ""
+            : fmt::format("of that sum against full memory ({}): {}\n",
+                          data.modes == 0 && !data.has_blocks ? "truncation"
+                                                              : fmt::format("{} samples from rest", spec.horizon),
+                          data.modes == 0 && !data.has_blocks ? truncation_bound(spec.order, spec.taps, data)
+                                                              : base::rounded_up(data.design_error)));
     for (const std::string& line : spec.provenance) {
         text += line + "\n";
     }
@@ -482,7 +493,8 @@ std::string make_header(const Spec& spec) {
     // Past twice the window, so that every history wraps, and two turns of the inputs more.
     const std::size_t held = std::max(past, past_held(spec));
     const std::size_t steps = ((2 * held + 3 + check_samples - 1) / check_samples + 2) * check_samples;
-    const KernelData data = describe(spec.kernel, spec.order, spec.taps, spec.horizon, check_signal(), steps);
+    const KernelData data = describe(spec.kernel, spec.order, spec.taps, spec.horizon,
+                                     spec.fitted ? &*spec.fitted : nullptr, check_signal(), steps);
     const std::string name = spec.prefix + "_" + data.format;
     const bool wide_sum = data.accumulator == "double";
     const bool wide_bits = data.output == "double";
@@ -542,9 +554,11 @@ std::string make_header(const Spec& spec) {
     text += uses ? fill(m7_loop_of(data.technique_text.m7), places) : "";
     text += fill(helpers_of(data, body), places);
     text += fill(step, places) + fill(self_check, places);
-    places["design"] = fmt::format("{}, {}, v = {}{}", spec.kernel,
-                                   bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(),
-                                   spec.order, spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "");
+    places["design"] =
+        fmt::format("{}, {}, v = {}{}", spec.kernel,
+                    bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(), spec.order,
+                    (spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "") +
+                        (spec.fitted ? ", fitted to the derivative" : ""));
     places["fingerprint"] = fmt::format("{:016X}", fingerprint_of(places["constants"] + text));
     return opening_comment(spec, data, places) + fill(head, places) + text;
 }

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "glsum/design/band.hpp"
+
 namespace generate {
 
 /// What to generate.
@@ -17,7 +19,9 @@ struct Spec {
     std::optional<double> step_s;  ///< gives the factor h^-v, where it is known
     std::string prefix = "glsum";  ///< of every identifier
     std::string licence = "the terms of glsum itself";
-    std::size_t horizon = 5000;           ///< samples that a design with modes is for
+    std::size_t horizon = 5000;                              ///< samples that a design with modes is for
+    std::optional<glsum::design::FittedFilter> fitted = {};  ///< in place of the order's own weights, with `step_s`
+    std::string use = {};  ///< with it, what the comment says first: where it may be used, and how near it comes
     std::vector<std::string> provenance;  ///< lines of the comment: where it comes from, what was measured
 };
 

@@ -117,8 +117,8 @@ std::uint64_t bits_of(Output output) {
 }
 
 template <class K>
-KernelData describe(double order, std::size_t taps, std::size_t horizon, const std::vector<double>& reals,
-                    std::size_t calls) {
+KernelData describe(double order, std::size_t taps, std::size_t horizon, const glsum::design::FittedFilter* fitted,
+                    const std::vector<double>& reals, std::size_t calls) {
     using Technique = typename K::TechniquePart;
     using Format = typename K::FormatPart;
     using Sample = typename K::Sample;
@@ -126,7 +126,13 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
     constexpr bool has_modes = glsum::keeps_modes<typename K::HistoryPart>;
     constexpr bool increments = glsum::keeps_increments<typename K::HistoryPart>;
     const bench::Length length = bench::length_of(std::string(K::name()), order, taps, horizon);
-    const glsum::Design design = bench::design_of(std::string(K::name()), order, length, horizon);
+    glsum::Design design{order, taps};
+    if (fitted != nullptr) {
+        design.modes = fitted->modes;
+        design.weights = fitted->weights;
+    } else {
+        design = bench::design_of(std::string(K::name()), order, length, horizon);
+    }
     bench::HostLine<K> line(design);
     if (line.status() != glsum::Status::ok) {
         throw Failure(Exit::bad_input, fmt::format("{} with {} taps at order {}: {}", K::name(), length.text(), order,
@@ -173,7 +179,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const s
         data.technique_text = modes_text(data.past, data.decaying, std::is_same_v<Technique, glsum::Compensated>,
                                          Format::fixed_point, std::is_same_v<Format, glsum::F64>);
         const double largest = increments ? 2.0 : 1.0;  // of what is kept
-        data.design_error = data.modes == 0
+        data.design_error = data.modes == 0 || fitted != nullptr
                                 ? 0.0
                                 : largest * glsum::design::error_of(
                                                 glsum::design::weights_to(increments ? order - 1.0 : order, horizon),
@@ -241,12 +247,12 @@ std::vector<std::string> generatable() {
 }
 
 KernelData describe(const std::string& kernel, double order, std::size_t taps, std::size_t horizon,
-                    const std::vector<double>& inputs, std::size_t calls) {
+                    const glsum::design::FittedFilter* fitted, const std::vector<double>& inputs, std::size_t calls) {
     KernelData data;
     std::string why = "no kernel is called " + kernel;
     glsum::Registry::with(kernel, [&]<class K>() {
         if constexpr (can_generate<K>) {
-            data = describe<K>(order, taps, horizon, inputs, calls);
+            data = describe<K>(order, taps, horizon, fitted, inputs, calls);
             why.clear();
         } else {
             why = kernel + " cannot be generated: " +

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "bench/generate/parts.hpp"
+#include "glsum/design/band.hpp"
 
 namespace generate {
 
@@ -52,11 +53,12 @@ struct KernelData {
 };
 
 /// \param taps     of a kernel with modes: near taps and two for each mode, with blocks one for each, as
-/// `bench::length_of` parts them \param horizon  samples that a design with modes or blocks is for \param calls outputs
-/// wanted \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, and for a design
-/// that the
+/// `bench::length_of` parts them \param horizon  samples that a design with modes or blocks is for \param fitted  the
+/// weights and modes where they are not the order's own, else null \param calls outputs wanted \throws glsum::Failure
+/// (bad input) for a kernel that is not there or cannot be generated, and for a design that the
 ///         kernel refuses.
 [[nodiscard]] KernelData describe(const std::string& kernel, double order, std::size_t taps, std::size_t horizon,
-                                  const std::vector<double>& inputs, std::size_t calls);
+                                  const glsum::design::FittedFilter* fitted, const std::vector<double>& inputs,
+                                  std::size_t calls);
 
 }  // namespace generate

@@ -18,18 +18,22 @@ std::vector<std::string> provenance(const choose::Answer& answer, const std::str
     const choose::Question& question = answer.question;
     const choose::Candidate& chosen = answer.choice.chosen.value();
     const bool on_target = question.target == choose::Target::m7;
-    std::vector<std::string> lines = {
-        fmt::format("Measured error {:.3g} ({}): the largest of S_k over {} samples at h = {:g} s,", chosen.error.error,
-                    chosen.error.signal, question.conditions.samples, question.conditions.step_s),
-        fmt::format("relative to the largest exact full-memory sum, the worst of {}",
-                    fmt::join(question.conditions.signals, ", ")),
-        chosen.cost.fault.empty()
-            ? fmt::format("Measured cost a sample of the kernel that this is made from: {}{}",
-                          choose::cost_text(answer, chosen),
-                          on_target ? answer.unit == "instructions" ? ", on an emulated Cortex-M7: no cycles"
-                                                                    : ", for " + question.core
-                                    : " on " + text(answer.context, "cpu"))
-            : fmt::format("Cost not measured: {}", chosen.cost.fault)};
+    std::vector<std::string> lines;
+    if (!question.goal) {
+        lines = {fmt::format("Measured error {:.3g} ({}): the largest of S_k over {} samples at h = {:g} s,",
+                             chosen.error.error, chosen.error.signal, question.conditions.samples,
+                             question.conditions.step_s),
+                 fmt::format("relative to the largest exact full-memory sum, the worst of {}",
+                             fmt::join(question.conditions.signals, ", "))};
+    }
+    lines.push_back(chosen.cost.fault.empty()
+                        ? fmt::format("Measured cost a sample of the kernel that this is made from: {}{}",
+                                      choose::cost_text(answer, chosen),
+                                      on_target ? answer.unit == "instructions"
+                                                      ? ", on an emulated Cortex-M7: no cycles"
+                                                      : ", for " + question.core
+                                                : " on " + text(answer.context, "cpu"))
+                        : fmt::format("Cost not measured: {}", chosen.cost.fault));
     if (answer.choice.runner_up) {
         lines.push_back(fmt::format(
             "Runner-up of {} kernels: {} with {} taps, {}", answer.choice.kernels.size(),

@@ -229,7 +229,8 @@ double amplification(const Filter& filter) {
     for (const Mode& mode : filter.modes) {
         sum += std::fabs(mode.weight) / (mode.decay == 0.0 ? 1.0 : mode.decay);
     }
-    return sum / std::fabs(filter.taps.front());
+    // One that begins with no coefficient above 0 is no w_0 of a sum.
+    return filter.taps.front() > 0.0 ? sum / filter.taps.front() : std::numeric_limits<double>::infinity();
 }
 
 constexpr int rough_rounds = 6;

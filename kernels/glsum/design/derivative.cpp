@@ -53,7 +53,7 @@ private:
     double of_taps_ = 0.0;
 };
 
-// Halves intervals, those of the largest bound first, until no bound is 1 % above the largest error found.
+// Halves intervals, those of the largest bound first, until no bound is half a percent above the largest error found.
 void certify_band(const Filter& filter, const DerivativeGoal& goal, DerivativeError& found) {
     struct Interval {
         double low;  // angles
@@ -63,7 +63,7 @@ void certify_band(const Filter& filter, const DerivativeGoal& goal, DerivativeEr
         double bound;
         bool operator<(const Interval& other) const { return bound < other.bound; }
     };
-    constexpr double margin = 1.01;
+    constexpr double margin = 1.005;
     constexpr std::size_t most_intervals = 2'000'000;
     const Curvature curvature(filter, goal);
     const double v = goal.order;
