@@ -18,8 +18,8 @@ using Vector = Eigen::VectorXd;
 // What the filter is held against: every point two rows of relative error, the step's one and an empty one.
 class Fit {
 public:
-    Fit(const DerivativeGoal& goal, std::size_t near_taps, bool integrator)
-        : near_taps_(near_taps), integrator_(integrator), samples_(design::samples_of(goal)) {
+    Fit(const DerivativeGoal& goal, std::size_t near_taps, bool integrator, double ridge)
+        : near_taps_(near_taps), integrator_(integrator), ridge_(ridge), samples_(design::samples_of(goal)) {
         for (const double hz : frequencies_of(goal)) {
             angles_.push_back(2.0 * std::numbers::pi * hz * goal.step_s);
             exact_.push_back(exact_response(goal.order, hz));
@@ -137,11 +137,17 @@ private:
         }
         const Vector scale = matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
         const Vector root = row_weights();
-        const Matrix weighted = root.asDiagonal() * matrix * scale.cwiseInverse().asDiagonal();
+        // Behind the points a row for each coefficient, which asks for 0.
+        const Eigen::Index unknowns = matrix.cols();
+        Matrix weighted = Matrix::Zero(matrix.rows() + unknowns, unknowns);
+        weighted.topRows(matrix.rows()) = root.asDiagonal() * matrix * scale.cwiseInverse().asDiagonal();
+        weighted.bottomRows(unknowns).diagonal().setConstant(ridge_);
         Eigen::ColPivHouseholderQR<Matrix> qr(weighted);
         qr.setThreshold(1e-11);
         const Vector ones = wanted();
-        solution = qr.solve(root.cwiseProduct(ones)).cwiseQuotient(scale);
+        Vector right = Vector::Zero(weighted.rows());
+        right.head(ones.size()) = root.cwiseProduct(ones);
+        solution = qr.solve(right).cwiseQuotient(scale);
         residual = matrix * solution - ones;
     }
 
@@ -194,6 +200,7 @@ private:
 
     std::size_t near_taps_;
     bool integrator_;
+    double ridge_;
     std::vector<double> angles_;
     std::vector<std::complex<double>> exact_;
     std::vector<std::size_t> samples_;
@@ -236,6 +243,44 @@ double amplification(const Filter& filter) {
 constexpr int rough_rounds = 6;
 constexpr int rounds = 60;
 
+// What a coefficient of the size of its column's norm counts as: tried in turn until coefficients are not too large.
+constexpr double ridges[] = {0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
+
+// \param most  of the amplification, if there is one with less
+Filter fitted(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, bool integrator, double ridge,
+              double most) {
+    const auto moving = static_cast<Eigen::Index>(modes) - (integrator ? 1 : 0);
+    Vector start = Vector::Zero(std::max<Eigen::Index>(moving, 0));
+    if (moving > 0) {
+        double least = std::numeric_limits<double>::infinity();
+        for (const double slow : {0.1, 0.3, 1.0, 3.0}) {
+            for (const double fast : {0.5, 1.5, 5.0}) {
+                Fit fit(goal, near_taps, integrator, ridge);
+                fit.set(spread(goal, moving, slow, fast));
+                for (int round = 0; round < rough_rounds; ++round) {
+                    fit.improve(true);
+                }
+                if (fit.error() < least) {
+                    least = fit.error();
+                    start = fit.log_decays();
+                }
+            }
+        }
+    }
+    Fit fit(goal, near_taps, integrator, ridge);
+    fit.set(start);
+    Filter best = fit.filter();
+    double least = amplification(best) <= most ? fit.error() : std::numeric_limits<double>::infinity();
+    for (int round = 0; round < rounds; ++round) {
+        fit.improve(round < rounds / 2 || round % 2 == 0);
+        if (fit.error() < least && amplification(fit.filter()) <= most) {
+            least = fit.error();
+            best = fit.filter();
+        }
+    }
+    return best;
+}
+
 }  // namespace
 
 Filter FittedFilter::filter() const {
@@ -250,34 +295,12 @@ Filter FittedFilter::filter() const {
 }
 
 FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, bool integrator) {
-    const auto moving = static_cast<Eigen::Index>(modes) - (integrator ? 1 : 0);
-    Vector start = Vector::Zero(std::max<Eigen::Index>(moving, 0));
-    if (moving > 0) {
-        double least = std::numeric_limits<double>::infinity();
-        for (const double slow : {0.1, 0.3, 1.0, 3.0}) {
-            for (const double fast : {0.5, 1.5, 5.0}) {
-                Fit fit(goal, near_taps, integrator);
-                fit.set(spread(goal, moving, slow, fast));
-                for (int round = 0; round < rough_rounds; ++round) {
-                    fit.improve(true);
-                }
-                if (fit.error() < least) {
-                    least = fit.error();
-                    start = fit.log_decays();
-                }
-            }
-        }
-    }
-    Fit fit(goal, near_taps, integrator);
-    fit.set(start);
-    double least = fit.error();
-    Filter best = fit.filter();
     const double most = largest_amplification * absolute_sum(goal.order, goal.horizon() + 1);
-    for (int round = 0; round < rounds; ++round) {
-        fit.improve(round < rounds / 2 || round % 2 == 0);
-        if (fit.error() < least && amplification(fit.filter()) <= most) {
-            least = fit.error();
-            best = fit.filter();
+    Filter best;
+    for (const double ridge : ridges) {
+        best = fitted(goal, near_taps, modes, integrator, ridge, most);
+        if (amplification(best) <= most) {
+            break;
         }
     }
     std::sort(best.modes.begin(), best.modes.end(), [](const Mode& a, const Mode& b) { return a.decay < b.decay; });

@@ -1,0 +1,142 @@
+// What kernels hold of a filter fitted to a derivative, the noise of their arithmetic, and what running them gives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "bench/choose/derivative_errors.hpp"
+#include "bench/choose/derivative_text.hpp"
+#include "bench/choose/kernel_run.hpp"
+
+namespace {
+
+using choose::DerivativeErrors;
+using choose::hold;
+using glsum::design::Band;
+using glsum::design::DerivativeGoal;
+using glsum::design::fit_filter;
+using glsum::design::FittedFilter;
+
+DerivativeGoal goal_of(double order, double step_until_s) {
+    DerivativeGoal goal{order, 0.001, Band{0.5, 80.0}};
+    if (step_until_s > 0.0) {
+        goal.step_until_s = step_until_s;
+    }
+    return goal;
+}
+
+TEST(HeldFilter, IsTheDesignAsFarAsTheFormatHasDigits) {
+    const DerivativeGoal goal = goal_of(0.5, 2.0);
+    const FittedFilter fitted = fit_filter(goal, 2, 4, false);
+    const auto largest_difference = [&](const char* kernel) {
+        const auto held = hold(kernel, 10, goal, fitted);
+        EXPECT_EQ(held.fault, "") << kernel;
+        EXPECT_EQ(held.filter.taps.size(), 2U);
+        EXPECT_EQ(held.filter.modes.size(), 4U);
+        double largest = std::fabs(held.filter.taps[1] / fitted.filter().taps[1] - 1.0);
+        for (std::size_t m = 0; m < fitted.modes.size(); ++m) {
+            const auto& mode = held.filter.modes.at(m);
+            largest = std::max(largest, std::fabs(mode.decay / fitted.modes[m].decay - 1.0));
+            largest = std::max(largest, std::fabs(mode.weight / (fitted.factor * fitted.modes[m].weight) - 1.0));
+        }
+        return largest;
+    };
+    EXPECT_LT(largest_difference("modes_plain_f64"), 1e-15);
+    EXPECT_GT(largest_difference("modes_plain_f32"), 1e-10);
+    EXPECT_LT(largest_difference("modes_plain_f32"), 2e-7);
+    EXPECT_GT(largest_difference("modes_plain_q31"), 1e-12);
+    EXPECT_LT(largest_difference("modes_plain_q31"), 1e-6);
+}
+
+TEST(HeldFilter, AnIntegratorIsItsSlowestMode) {
+    const DerivativeGoal goal = goal_of(-0.5, 2.0);
+    const FittedFilter fitted = fit_filter(goal, 1, 4, true);
+    const auto held = hold("modessum_plain_f64", 9, goal, fitted);
+    ASSERT_EQ(held.filter.modes.size(), 4U);
+    EXPECT_EQ(held.filter.modes.front().decay, 0.0);
+    EXPECT_DOUBLE_EQ(held.filter.modes.front().weight, fitted.factor * fitted.modes.front().weight);
+}
+
+TEST(HeldFilter, NoiseIsOfTheFormatAndOfTheRecord) {
+    const DerivativeGoal goal = goal_of(0.5, 200.0);
+    const FittedFilter fitted = fit_filter(goal, 1, 6, false);
+    const auto noise = [&](const char* kernel) { return hold(kernel, 13, goal, fitted).step_noise; };
+    EXPECT_LT(noise("modes_plain_f64"), 1e-10);
+    EXPECT_LT(noise("modes_compensated_f32"), 1e-4);
+    // Slow averages stop where their step is below half a unit of their last place.
+    EXPECT_GT(noise("modes_plain_f32"), 10.0 * noise("modes_compensated_f32"));
+}
+
+TEST(DerivativeReport, WhatRunningGivesIsWithinTheCertificate) {
+    for (const double order : {0.5, 0.9, -0.5}) {
+        const DerivativeGoal goal = goal_of(order, 2.0);
+        for (const char* kernel :
+             {"modes_plain_f32", "modes_compensated_f32", "modes_plain_q31", "modessum_plain_f32"}) {
+            if (std::string(kernel) == "modessum_plain_f32" && order > 0.0) {
+                continue;
+            }
+            DerivativeErrors errors(goal);
+            for (const std::size_t taps : {7U, 11U}) {
+                const auto at = errors.error(kernel, taps);
+                if (!at.fault.empty()) {
+                    continue;
+                }
+                const auto report = choose::report_on(kernel, taps, goal, errors.filter_of(kernel, taps));
+                EXPECT_LE(report.measured.band, report.certified.band + 1e-5) << kernel << ", " << order;
+                EXPECT_LE(report.measured.step, report.certified.step + 1e-9) << kernel << ", " << order;
+                EXPECT_GT(report.measured.band, 0.3 * report.certified.band) << kernel << ", " << order;
+                EXPECT_EQ(at.error, report.certified.largest()) << kernel << ", " << order;
+            }
+        }
+    }
+}
+
+TEST(DerivativeReport, AWindowIsWithinItsPromisedBound) {
+    DerivativeGoal goal{0.5, 0.001, Band{10.0, 100.0}};
+    DerivativeErrors errors(goal);
+    for (const char* kernel : {"ring_plain_f32", "mirror_plain_q15c31", "ring_oldest_f64"}) {
+        const auto at = errors.error(kernel, 20);
+        ASSERT_EQ(at.fault, "") << kernel;
+        const auto report = choose::report_on(kernel, 20, goal, errors.filter_of(kernel, 20));
+        EXPECT_LE(report.measured.band, report.certified.band + 1e-5) << kernel;
+        EXPECT_LT(at.error, 0.2) << kernel;
+    }
+}
+
+TEST(DerivativeErrors, LeavesOutWhatIsNoFilterOfItsOwn) {
+    EXPECT_EQ(DerivativeErrors::why_not("ring_plain_f32"), "");
+    EXPECT_EQ(DerivativeErrors::why_not("block_plain_q31"), "");
+    EXPECT_EQ(DerivativeErrors::why_not("modessum_plain_f32"), "");
+    EXPECT_NE(DerivativeErrors::why_not("nested_plain_f32"), "");
+    EXPECT_NE(DerivativeErrors::why_not("mirrorhold_plain_f32"), "");
+    EXPECT_NE(DerivativeErrors::why_not("modesdelta_plain_f32"), "");
+    DerivativeErrors errors(goal_of(0.5, 0.0));
+    EXPECT_NE(errors.error("nested_plain_f32", 9).fault, "");
+    EXPECT_FALSE(errors.meets("nested_plain_f32", 9, 1e9));
+}
+
+TEST(DerivativeErrors, LengthsAreThoseThatAFilterIsFittedTo) {
+    DerivativeErrors errors(goal_of(0.5, 0.0));
+    EXPECT_EQ(errors.lengths("modes_plain_f32")->size(), 40U);
+    const auto windows = errors.lengths("ring_plain_f32").value();
+    EXPECT_EQ(windows[15], 16U);
+    EXPECT_EQ(windows[16], 18U);
+    EXPECT_EQ(windows.back(), 64U);
+    EXPECT_TRUE(errors.meets("modes_plain_f32", 11, 0.05));
+    EXPECT_FALSE(errors.meets("modes_plain_f32", 3, 0.05));
+}
+
+TEST(DerivativeText, SaysWhereAndWithinWhat) {
+    const DerivativeGoal goal = goal_of(0.5, 2.0);
+    EXPECT_EQ(choose::extent(goal), ", from 0.5 to 80 Hz, a step from 0.01 s until 2 s");
+    glsum::design::DerivativeError error{0.0123, 7.5, 0.04, 1.0};
+    EXPECT_EQ(choose::worst_place(error), "1 s");
+    error.step = 0.01;
+    EXPECT_EQ(choose::worst_place(error), "7.5 Hz");
+    const std::string text = choose::use_of({{}, error, error}, goal);
+    EXPECT_NE(text.find("within 1.2"), std::string::npos) << text;
+    EXPECT_NE(text.find("until 2 s (worst at 1 s)"), std::string::npos) << text;
+    EXPECT_EQ(choose::to_json(error, goal)["band_error"], 0.0123);
+    EXPECT_EQ(choose::to_json(error, goal)["worst_s"], 1.0);
+}
+
+}  // namespace

@@ -1,0 +1,38 @@
+#!/bin/sh
+# choose and generate for a derivative within so many percent: what is refused, and the header's own response.
+# Arguments: the glsum program, the sources' folder.
+set -u
+program=$1
+. "$(dirname "$0")/expect.sh"
+at="--order 0.5 --step-s 0.001 --target m7"
+half="$at --derivative-error 5% --band 0.05..80 --step-until 60"
+expect 2 "--derivative-error: expected a share above 0, as in 5%, found five" choose $at --derivative-error five --band 1..2
+expect 2 "found -5%" choose $at --derivative-error=-5% --band 1..2
+expect 2 "expected --band, --step-until or both" choose $at --derivative-error 5%
+expect 2 "only with --derivative-error" choose $at --max-error 0.1 --band 1..2
+expect 2 "only with --derivative-error" choose $at --max-error 0.1 --step-until 2
+expect 2 "which speak of the sum; expected one" choose $at --max-error 0.1 --derivative-error 5% --band 1..2
+expect 2 "expected two rising frequencies in Hz, as in 0.05..80, found 80..0.05" choose $at --derivative-error 5% --band 80..0.05
+expect 2 "found 0..80" choose $at --derivative-error 5% --band 0..80
+expect 2 "found 7" choose $at --derivative-error 5% --band 7
+expect 2 "half the sampling rate, 500 Hz, found 600" choose $at --derivative-error 5% --band 1..600
+expect 2 "found 1e-06 Hz" choose $at --derivative-error 5% --band 1e-6..1
+expect 2 "expected 10 to 5e+07 samples, found 5" choose $at --derivative-error 5% --step-until 0.005
+expect 2 "of a step is 0" choose --order 1 --step-s 0.001 --target m7 --derivative-error 5% --step-until 1
+expect 2 "expected no --kernel beside it" generate $at --derivative-error 5% --band 1..2 --kernel ring_plain_f32 --taps 9 --out "$folder/no.h"
+expect 1 "misses --derivative-error by" choose $at --derivative-error 0.001% --band 5..80 --step-until 0.1 --samples 100
+expect 0 "certified  within" choose $half --json "$folder/half.json"
+grep -q '"band_hz"' "$folder/half.json" && grep -q '"step_error"' "$folder/half.json" && grep -q '"factor"' "$folder/half.json" ||
+    { echo "expected band, step and factor in the answer"; failures=$((failures + 1)); }
+expect 0 "measured" generate $half --max-bytes 200 --out "$folder/half.h"
+grep -q "within .* % from 0.05 to 80 Hz" "$folder/half.h" || { echo "the header does not say its band"; failures=$((failures + 1)); }
+for compiler in gcc clang; do
+    command -v $compiler >/dev/null 2>&1 || continue
+    if ! $compiler -std=c99 -D_GNU_SOURCE -O2 -Wall -Wextra -Werror -I"$folder" "$2/tests/cli/derivative_response.c" -lm -o "$folder/run" ||
+        ! "$folder/run" 0.5 0.001 0.05 80 60 >"$folder/response" ||
+        ! awk '$2 > 0.05 || $4 > 0.05 || $2 < 0.01 || $4 < 0.01 { exit 1 }' "$folder/response"; then
+        echo "$compiler: the header's response:"; cat "$folder/response"
+        failures=$((failures + 1))
+    fi
+done
+[ "$failures" -eq 0 ]

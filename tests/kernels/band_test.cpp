@@ -1,0 +1,136 @@
+// Filters fitted to a derivative: what they keep, and that rules of others with as many coefficients do not come near.
+#include "glsum/design/band.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "glsum/design/modes.hpp"
+
+namespace {
+
+using namespace glsum::design;
+
+DerivativeGoal goal_of(double order, double low_hz, double high_hz, double step_until_s) {
+    DerivativeGoal goal{order, 0.001, Band{low_hz, high_hz}};
+    if (step_until_s > 0.0) {
+        goal.step_until_s = step_until_s;
+    }
+    return goal;
+}
+
+// Oustaloup's filter [Oustaloup2000], its poles and zeros mapped by e^(-w h), the gain set at the middle of its band;
+// the best of a grid of bands. (The same number of coefficients as 1 + P modes: 2 P + 1.)
+double tuned_oustaloup(const DerivativeGoal& goal, int poles) {
+    double best = INFINITY;
+    for (double low = goal.band->low_hz / 30.0; low < goal.band->low_hz * 2.0; low *= 1.25) {
+        for (double high = goal.band->high_hz / 3.0; high < 500.0; high *= 1.1) {
+            const double ratio = high / low;
+            double error = 0.0;
+            const auto response = [&](double hz) {
+                std::complex<double> product = 1.0;
+                const auto delay = std::polar(1.0, -2.0 * std::numbers::pi * hz * goal.step_s);
+                for (int k = 0; k < poles; ++k) {
+                    const auto at = [&](double sign) {
+                        const double here = low * std::pow(ratio, (k + 0.5 + sign * 0.5 * goal.order) / poles);
+                        return 1.0 - std::exp(-2.0 * std::numbers::pi * here * goal.step_s) * delay;
+                    };
+                    product *= at(-1.0) / at(1.0);
+                }
+                return product;
+            };
+            const double middle = std::sqrt(low * high);
+            const double gain = std::abs(exact_response(goal.order, middle)) / std::abs(response(middle));
+            for (const double hz : frequencies_of(goal)) {
+                error = std::max(error, std::abs(gain * response(hz) / exact_response(goal.order, hz) - 1.0));
+            }
+            best = std::min(best, error);
+        }
+    }
+    return best;
+}
+
+TEST(FittedFilter, ErrsLessThanTunedOustaloupWithAsManyCoefficients) {
+    std::vector<double> ratios;
+    for (const double order : {0.2, 0.5, 0.9}) {
+        for (const double low_hz : {8.0, 0.8, 0.08}) {
+            for (const std::size_t poles : {3U, 5U}) {
+                const DerivativeGoal goal = goal_of(order, low_hz, 80.0, 0.0);
+                ratios.push_back(tuned_oustaloup(goal, static_cast<int>(poles)) /
+                                 fit_filter(goal, 1, poles, false).error.band);
+            }
+        }
+    }
+    std::sort(ratios.begin(), ratios.end());
+    EXPECT_GT(ratios.front(), 1.0);
+    EXPECT_GT(ratios[ratios.size() / 2], 3.0);
+}
+
+TEST(FittedFilter, IsWhatItsErrorSays) {
+    const DerivativeGoal goal = goal_of(0.5, 0.05, 80.0, 60.0);
+    const FittedFilter fitted = fit_filter(goal, 1, 5, false);
+    EXPECT_LT(fitted.error.largest(), 0.05);
+    EXPECT_EQ(error_at_points(fitted.filter(), goal).largest(), fitted.error.largest());
+    EXPECT_EQ(fitted.weights.size(), 0U);
+    EXPECT_EQ(fitted.modes.size(), 5U);
+    EXPECT_GT(fitted.factor, 0.0);
+    double before = 0.0;
+    for (const Mode& mode : fitted.modes) {
+        EXPECT_GT(mode.decay, before);
+        EXPECT_LE(mode.decay, 0.951);
+        before = mode.decay;
+    }
+    // The sum's own modes, as many of them, are far from the derivative over a minute.
+    const Approximation own = approximate({0.5, goal.horizon()}, 1, 5);
+    Filter of_sum{{std::pow(0.001, -0.5)}, own.modes};
+    for (Mode& mode : of_sum.modes) {
+        mode.weight *= std::pow(0.001, -0.5);
+    }
+    EXPECT_GT(error_at_points(of_sum, goal).largest(), 10.0 * fitted.error.largest());
+}
+
+TEST(FittedFilter, AnIntegratorsSlowestModeDoesNotDecay) {
+    const DerivativeGoal goal = goal_of(-0.5, 0.05, 80.0, 60.0);
+    const FittedFilter fitted = fit_filter(goal, 1, 6, true);
+    EXPECT_EQ(fitted.modes.front().decay, 0.0);
+    EXPECT_GT(fitted.modes[1].decay, 0.0);
+    EXPECT_LT(fitted.error.largest(), 0.03);
+}
+
+TEST(FittedFilter, OfAWholeOrderIsItsFirstOrderDifferenceOrBetter) {
+    const FittedFilter fitted = fit_filter(goal_of(1.0, 0.1, 50.0, 0.0), 2, 0, false);
+    const DerivativeError plain = error_at_points({{1000.0, -1000.0}, {}}, goal_of(1.0, 0.1, 50.0, 0.0));
+    EXPECT_LE(fitted.error.band, plain.band);
+    EXPECT_EQ(fitted.weights.size(), 1U);
+}
+
+TEST(FittedFilter, AWindowIsFittedToo) {
+    const DerivativeGoal goal = goal_of(0.5, 10.0, 100.0, 0.0);
+    EXPECT_LT(fit_filter(goal, 24, 0, false).error.band, 0.05);
+}
+
+TEST(FittedFilter, LargerOnesDoNotErrMore) {
+    const DerivativeGoal goal = goal_of(0.5, 0.5, 100.0, 0.0);
+    double before = INFINITY;
+    for (const std::size_t modes : {1U, 2U, 3U, 4U, 5U}) {
+        const double error = fit_filter(goal, 2, modes, false).error.largest();
+        EXPECT_LT(error, before) << modes;
+        before = error;
+    }
+}
+
+TEST(FittedFilter, IsTheSameEachTime) {
+    const DerivativeGoal goal = goal_of(0.9, 1.0, 100.0, 0.0);
+    const FittedFilter one = fit_filter(goal, 2, 3, false);
+    const FittedFilter other = fit_filter(goal, 2, 3, false);
+    EXPECT_EQ(one.factor, other.factor);
+    for (std::size_t m = 0; m < one.modes.size(); ++m) {
+        EXPECT_EQ(one.modes[m].decay, other.modes[m].decay);
+        EXPECT_EQ(one.modes[m].weight, other.modes[m].weight);
+    }
+}
+
+}  // namespace

@@ -1,0 +1,136 @@
+// How near a filter comes to a derivative: closed forms, and a certificate that no point exceeds.
+#include "glsum/design/derivative.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "glsum/design/modes.hpp"
+
+namespace {
+
+using namespace glsum::design;
+
+DerivativeGoal half(double low_hz, double high_hz, double step_until_s) {
+    DerivativeGoal goal{0.5, 0.001, Band{low_hz, high_hz}};
+    if (step_until_s > 0.0) {
+        goal.step_until_s = step_until_s;
+    }
+    return goal;
+}
+
+// Modes of the sum's own weights, times h^-v.
+Filter of_the_sum(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes) {
+    const Approximation found = approximate({goal.order, goal.horizon()}, near_taps, modes);
+    Filter filter{weights_to(goal.order, near_taps - 1), found.modes};
+    const double factor = std::pow(goal.step_s, -goal.order);
+    for (double& tap : filter.taps) {
+        tap *= factor;
+    }
+    for (Mode& mode : filter.modes) {
+        mode.weight *= factor;
+    }
+    return filter;
+}
+
+TEST(Derivative, ADifferenceOfOrderOneIsWithinItsClosedForm) {
+    DerivativeGoal goal{1.0, 0.01, Band{1.0, 20.0}};
+    const DerivativeError error = error_at_points({{100.0, -100.0}, {}}, goal);
+    // (1 - e^-ia) / (ia) - 1, largest at the highest frequency.
+    const double angle = 2.0 * std::numbers::pi * 20.0 * 0.01;
+    const std::complex<double> i(0.0, 1.0);
+    EXPECT_NEAR(error.band, std::abs((1.0 - std::exp(-i * angle)) / (i * angle) - 1.0), 1e-12);
+    EXPECT_EQ(error.band_hz, 20.0);
+    EXPECT_EQ(error.step, 0.0);
+}
+
+TEST(Derivative, TheStepOfALongSumIsThatOfTheWeights) {
+    // sum_{j<=k} a_j = Gamma(k + 1 - v) / (Gamma(1 - v) Gamma(k + 1)).
+    const DerivativeGoal goal = half(1.0, 10.0, 0.5);
+    Filter filter{weights_to(0.5, 500), {}};
+    for (double& tap : filter.taps) {
+        tap *= std::pow(0.001, -0.5);
+    }
+    const DerivativeError error = error_at_points(filter, goal);
+    const double sum = std::exp(std::lgamma(10.5) - std::lgamma(11.0)) / std::tgamma(0.5);
+    const double exact = std::pow(10.0, -0.5) / std::tgamma(0.5);
+    EXPECT_NEAR(error.step, std::fabs(sum / exact - 1.0), 1e-9);
+    EXPECT_DOUBLE_EQ(error.step_s, 0.01);
+}
+
+TEST(Derivative, ExactValuesAreThoseOfTheTables) {
+    EXPECT_NEAR(exact_step(0.5, 5.0), 0.25231325220201600, 1e-15);  // 1/sqrt(5 pi)
+    EXPECT_NEAR(exact_step(-0.5, 4.0), 4.0 / std::sqrt(std::numbers::pi), 1e-14);
+    EXPECT_NEAR(exact_response(0.5, 1.0).real(), std::sqrt(std::numbers::pi), 1e-14);
+    EXPECT_NEAR(exact_response(0.5, 1.0).imag(), std::sqrt(std::numbers::pi), 1e-14);
+    EXPECT_FALSE(has_step(1.0));
+    EXPECT_FALSE(has_step(2.0));
+    EXPECT_TRUE(has_step(-1.0));
+    EXPECT_TRUE(has_step(0.0));
+}
+
+TEST(Derivative, NoPointExceedsTheCertificate) {
+    std::mt19937 random(5);
+    for (const double order : {0.2, 0.5, 0.9, -0.5, 1.5}) {
+        for (const std::size_t modes : {1U, 3U, 6U}) {
+            DerivativeGoal goal{order, 0.001, Band{0.3, 120.0}};
+            goal.step_until_s = 2.0;
+            const Filter filter = of_the_sum(goal, 3, modes);
+            const DerivativeError certified = certified_error(filter, goal);
+            double band = 0.0;
+            std::uniform_real_distribution<double> share(0.0, 1.0);
+            for (int i = 0; i < 20'000; ++i) {
+                const double hz = 0.3 * std::pow(400.0, share(random));
+                const auto exact = exact_response(order, hz);
+                band = std::max(
+                    band, std::abs(frequency_response(filter, 2.0 * std::numbers::pi * hz * 0.001) / exact - 1.0));
+            }
+            EXPECT_LE(band, certified.band) << order << ", " << modes;
+            EXPECT_GE(band, certified.band / 1.006) << order << ", " << modes;
+            double step = 0.0;
+            for (std::size_t k = 10; k <= 2000; ++k) {
+                const double exact = exact_step(order, 0.001 * static_cast<double>(k));
+                step = std::max(step, std::fabs(step_response(filter, k) / exact - 1.0));
+            }
+            EXPECT_NEAR(certified.step, step, 1e-9 * (1.0 + step)) << order << ", " << modes;
+        }
+    }
+}
+
+TEST(Derivative, APeakBetweenTheSearchPointsIsCertified) {
+    // A long window ripples faster than the points of a search lie.
+    const DerivativeGoal goal = half(1.0, 400.0, 0.0);
+    Filter filter{weights_to(0.5, 700), {}};
+    for (double& tap : filter.taps) {
+        tap *= std::pow(0.001, -0.5);
+    }
+    filter.taps.back() += 3.0;  // a ripple of 1.4 Hz
+    const double at_points = error_at_points(filter, goal).band;
+    const double certified = certified_error(filter, goal).band;
+    EXPECT_GT(certified, at_points);
+    double dense = 0.0;
+    for (double hz = 1.0; hz <= 400.0; hz += 0.01) {
+        dense = std::max(
+            dense,
+            std::abs(frequency_response(filter, 2.0 * std::numbers::pi * hz * 0.001) / exact_response(0.5, hz) - 1.0));
+    }
+    EXPECT_LE(dense, certified);
+    EXPECT_GE(dense, certified / 1.006);
+}
+
+TEST(Derivative, PointsCoverBothEnds) {
+    const DerivativeGoal goal = half(0.05, 80.0, 60.0);
+    EXPECT_EQ(frequencies_of(goal).front(), 0.05);
+    EXPECT_EQ(frequencies_of(goal).back(), 80.0);
+    EXPECT_EQ(samples_of(goal).front(), 10U);
+    EXPECT_EQ(samples_of(goal).back(), 60'000U);
+    EXPECT_EQ(goal.last_of_step(), 60'000U);
+    EXPECT_EQ(goal.horizon(), 60'000U);
+    EXPECT_EQ(half(0.05, 80.0, 0.0).horizon(), 20'000U);  // a period
+    EXPECT_EQ(samples_of(half(1.0, 2.0, 0.0)).size(), 0U);
+    EXPECT_EQ(frequencies_of(half(2.0, 2.0, 0.0)).size(), 1U);
+}
+
+}  // namespace

@@ -1,0 +1,57 @@
+// A filter's answer to a sine and to a step, against closed forms and against running it.
+#include "glsum/design/filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+namespace {
+
+using glsum::design::Filter;
+using glsum::design::frequency_response;
+using glsum::design::step_response;
+
+TEST(Filter, OfADifferenceIsTwiceTheSineOfHalfTheAngle) {
+    for (const double angle : {1e-6, 0.1, 1.0, std::numbers::pi}) {
+        const std::complex<double> response = frequency_response({{1.0, -1.0}, {}}, angle);
+        EXPECT_NEAR(std::abs(response), 2.0 * std::sin(0.5 * angle), 1e-15) << angle;
+        EXPECT_NEAR(std::arg(response), 0.5 * (std::numbers::pi - angle), 1e-9) << angle;
+    }
+}
+
+TEST(Filter, OfAModeIsAGeometricSeries) {
+    // 1 z^-2 + 0.9 z^-3 + 0.81 z^-4 ..., twice.
+    const Filter filter{{0.0, 0.0}, {{0.1, 2.0}}};
+    for (const double angle : {0.001, 0.3, 2.0}) {
+        std::complex<double> sum;
+        double weight = 2.0;
+        for (int j = 2; j < 400; ++j, weight *= 0.9) {
+            sum += weight * std::polar(1.0, -angle * j);
+        }
+        EXPECT_LT(std::abs(frequency_response(filter, angle) - sum), 1e-13) << angle;
+    }
+    EXPECT_EQ(step_response(filter, 1), 0.0);
+    EXPECT_NEAR(step_response(filter, 2), 2.0, 1e-15);
+    EXPECT_NEAR(step_response(filter, 4), 2.0 * (1.0 + 0.9 + 0.81), 1e-14);
+    EXPECT_NEAR(step_response(filter, 100'000), 20.0, 1e-12);
+}
+
+TEST(Filter, ARunningSumGrows) {
+    const Filter filter{{0.5}, {{0.0, 0.25}}};
+    EXPECT_EQ(step_response(filter, 0), 0.5);
+    EXPECT_EQ(step_response(filter, 8), 0.5 + 0.25 * 8.0);
+    // z^-1 / (1 - z^-1): at half the rate -1/2.
+    EXPECT_NEAR(frequency_response(filter, std::numbers::pi).real(), 0.5 - 0.25 * 0.5, 1e-15);
+}
+
+TEST(Filter, SlowModesKeepTheirDigits) {
+    // d = 1e-9 at an angle of 1e-9: 1/(d + i angle), to a part in a billion.
+    const Filter filter{{0.0}, {{1e-9, 1.0}}};
+    const std::complex<double> response = frequency_response(filter, 1e-9);
+    const std::complex<double> exact = 1.0 / std::complex<double>(1e-9, 1e-9);
+    EXPECT_LT(std::abs(response / exact - 1.0), 1e-8);
+}
+
+}  // namespace
