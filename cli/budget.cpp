@@ -9,6 +9,7 @@
 
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
+#include "bench/choose/derivative_plot.hpp"
 #include "bench/sweep/signals.hpp"
 #include "cli/board.hpp"
 #include "cli/name_value.hpp"
@@ -85,8 +86,8 @@ glsum::design::Band to_band(const std::string& text, double step_s) {
 // What is asked of the derivative itself; nothing where --max-error asks about the sum.
 std::optional<glsum::design::DerivativeGoal> to_goal(const Budget& budget) {
     if (budget.derivative_error.empty()) {
-        if (!budget.band.empty() || budget.step_until_s != 0.0) {
-            refuse("--band and --step-until: only with --derivative-error");
+        if (!budget.band.empty() || budget.step_until_s != 0.0 || !budget.plot.empty()) {
+            refuse("--band, --step-until and --plot: only with --derivative-error");
         }
         return std::nullopt;
     }
@@ -140,6 +141,8 @@ std::shared_ptr<Budget> add_budget(Command& command) {
                     "Seconds: until then, from ten samples on, the response to a unit step is held within it of "
                     "t^-v / Gamma(1 - v)")
         .above(0);
+    command.add_option("--plot", budget->plot,
+                       "With --derivative-error: draws gain, phase and step response there (FILE.svg and FILE.png)");
     command.add_option("--signal", budget->signals, "The error is the worst of these records (default: all of them)")
         .delimiter(',');
     command
@@ -228,6 +231,15 @@ choose::Question to_question(const Budget& budget) {
                                : std::filesystem::path(build_info::source_folder) / "results" / "latest.json";
     }
     return question;
+}
+
+void plot_if_asked(const Budget& budget, const choose::Answer& answer) {
+    if (!budget.plot.empty()) {
+        const std::filesystem::path file(budget.plot);
+        const bool named = file.extension() == ".png" || file.extension() == ".svg";
+        choose::plot_derivative(answer.derivative.value(), *answer.question.goal, answer.question.max_error,
+                                named ? std::filesystem::path(file).replace_extension() : file);
+    }
 }
 
 std::optional<qemu::Board> board_for(const choose::Question& question) {

@@ -18,6 +18,7 @@ struct Budget {
     std::string derivative_error;
     std::string band;
     double step_until_s = 0.0;
+    std::string plot;
     std::vector<std::string> signals;
     std::optional<double> max_cycles;
     std::optional<double> max_instructions;
@@ -41,6 +42,9 @@ std::shared_ptr<Budget> add_budget(Command& command);
 
 /// Checks what was typed. \throws glsum::Failure (bad input) naming the option, what was expected and found.
 [[nodiscard]] choose::Question to_question(const Budget& budget);
+
+/// Draws what was chosen where --plot was given. \pre something was chosen
+void plot_if_asked(const Budget& budget, const choose::Answer& answer);
 
 /// The board where a question needs it, else the board if it is there.
 [[nodiscard]] std::optional<qemu::Board> board_for(const choose::Question& question);

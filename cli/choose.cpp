@@ -56,7 +56,9 @@ void run(const Budget& budget, const std::string& json) {
     if (!json.empty()) {
         base::write_file(json, choose::to_json(answer).dump(2) + "\n");
     }
-    if (!answer.choice.chosen) {
+    if (answer.choice.chosen) {
+        plot_if_asked(budget, answer);
+    } else {
         throw glsum::Failure(glsum::Exit::check_failed, choose::nearest_miss(answer));
     }
 }

@@ -68,6 +68,7 @@ choose::Answer choose_one(const Budget& budget) {
     if (!answer.choice.chosen) {
         throw Failure(Exit::check_failed, choose::nearest_miss(answer));
     }
+    plot_if_asked(budget, answer);
     return answer;
 }
 

@@ -21,7 +21,13 @@ expect 2 "expected 10 to 5e+07 samples, found 5" choose $at --derivative-error 5
 expect 2 "of a step is 0" choose --order 1 --step-s 0.001 --target m7 --derivative-error 5% --step-until 1
 expect 2 "expected no --kernel beside it" generate $at --derivative-error 5% --band 1..2 --kernel ring_plain_f32 --taps 9 --out "$folder/no.h"
 expect 1 "misses --derivative-error by" choose $at --derivative-error 0.001% --band 5..80 --step-until 0.1 --samples 100
-expect 0 "certified  within" choose $half --json "$folder/half.json"
+expect 2 "and --plot: only with --derivative-error" choose $at --max-error 0.1 --plot "$folder/picture.png"
+if command -v gnuplot >/dev/null 2>&1; then
+    expect 0 "certified  within" choose $half --json "$folder/half.json" --plot "$folder/picture.png"
+    [ -s "$folder/picture.png" ] && [ -s "$folder/picture.svg" ] || { echo "expected a picture"; failures=$((failures + 1)); }
+else
+    expect 0 "certified  within" choose $half --json "$folder/half.json"
+fi
 grep -q '"band_hz"' "$folder/half.json" && grep -q '"step_error"' "$folder/half.json" && grep -q '"factor"' "$folder/half.json" ||
     { echo "expected band, step and factor in the answer"; failures=$((failures + 1)); }
 expect 0 "measured" generate $half --max-bytes 200 --out "$folder/half.h"
