@@ -18,15 +18,18 @@ DerivativeErrors::DerivativeErrors(const design::DerivativeGoal& goal) : goal_(g
 std::string DerivativeErrors::why_not(const std::string& kernel) {
     const glsum::CatalogueEntry& facts = bench::facts_of(kernel);
     return facts.family == glsum::Family::logmemory ? "its blocks' weights change from sample to sample"
-           : facts.forgotten == glsum::Forgotten::increments
-               ? "it sums increments, which are not fitted to a derivative"
-           : facts.forgotten != glsum::Forgotten::zero ? "the weights of its guessed tail change with the record"
-                                                       : "";
+           : facts.forgotten != glsum::Forgotten::zero && facts.forgotten != glsum::Forgotten::increments
+               ? "the weights of its guessed tail change with the record"
+               : "";
 }
 
 DerivativeErrors::Key DerivativeErrors::key_of(const std::string& kernel, std::size_t taps) const {
     const std::size_t modes = bench::length_of(kernel, goal_.order, taps, longest()).modes.value_or(0);
-    return {taps - 2 * modes, modes, modes > 0 && bench::has_integrator(kernel)};
+    const bool increments = bench::facts_of(kernel).forgotten == glsum::Forgotten::increments;
+    return {taps - 2 * modes, modes,
+            increments                                   ? design::FilterKind::increments
+            : modes > 0 && bench::has_integrator(kernel) ? design::FilterKind::integrator
+                                                         : design::FilterKind::samples};
 }
 
 std::optional<std::vector<std::size_t>> DerivativeErrors::lengths(const std::string& kernel) const {
@@ -51,8 +54,7 @@ const design::FittedFilter& DerivativeErrors::filter_of(const std::string& kerne
         }
         once = entry.get();
     }
-    std::call_once(once->flag,
-                   [&] { once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.integrator); });
+    std::call_once(once->flag, [&] { once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.kind); });
     return *once->filter;
 }
 

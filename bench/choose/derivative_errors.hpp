@@ -43,7 +43,7 @@ private:
     struct Key {
         std::size_t near_taps;
         std::size_t modes;
-        bool integrator;
+        glsum::design::FilterKind kind;
         auto operator<=>(const Key&) const = default;
     };
     struct Once {

@@ -98,6 +98,9 @@ Earlier read_earlier(const Question& question, const bench::Json& context) {
     if (build.empty() && question.conditions.step_s != bench::step_s) {
         build = "its records are sampled at 1 ms";
     }
+    if (build.empty() && question.goal) {
+        build = "its errors are of sums";
+    }
     earlier.errors = build.empty();
     earlier.note = fmt::format("errors: {}", earlier.errors ? "of " + name + " where it has them"
                                                             : "measured afresh, not of " + name + ": " + build);

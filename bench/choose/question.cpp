@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -72,6 +73,22 @@ std::vector<std::string> leave_out(std::vector<std::string>& kernels) {
     return notes;
 }
 
+// Those that come near what the nearest comes to, and those that meet the error and cost too much.
+std::vector<std::string> nearest_of(const std::vector<Outcome>& outcomes) {
+    constexpr double near = 1.5;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Outcome& outcome : outcomes) {
+        least = outcome.short_of ? std::min(least, outcome.short_of->error.error) : least;
+    }
+    std::vector<std::string> kernels;
+    for (const Outcome& outcome : outcomes) {
+        if (outcome.best || (outcome.short_of && outcome.short_of->error.error <= near * least)) {
+            kernels.push_back(outcome.kernel);
+        }
+    }
+    return kernels;
+}
+
 // Costs of the question's target; `note` says where they come from.
 std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& earlier,
                                        const std::optional<qemu::Board>& board, std::string& note) {
@@ -133,9 +150,7 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
     answer.choice = choose(errors.source(), *costs, kernels, limits, question.jobs);
     answer.unit = costs->unit();
     answer.limited_unit = costs->limited_unit();
-    answer.notes = {
-        question.goal && question.target == Target::host ? "no earlier errors serve a derivative" : earlier.note,
-        cost_note};
+    answer.notes = {earlier.note, cost_note};
     answer.notes.push_back(
         errors.measured
             ? fmt::format("{} records run through kernels for their errors, {} errors taken from the file",
@@ -146,6 +161,9 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
         const Candidate& chosen = *answer.choice.chosen;
         answer.derivative =
             report_on(chosen.kernel, chosen.taps, *question.goal, errors.fitted->filter_of(chosen.kernel, chosen.taps));
+    }
+    if (errors.fitted && !answer.choice.chosen) {
+        answer.would_do = what_would_do(*question.goal, nearest_of(answer.choice.kernels), *costs, limits);
     }
     if (const auto* counted = dynamic_cast<const OnTarget*>(costs.get())) {
         answer.notes.back() +=

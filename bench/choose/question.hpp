@@ -10,6 +10,7 @@
 #include "bench/choose/conditions.hpp"
 #include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/search.hpp"
+#include "bench/choose/would_do.hpp"
 #include "bench/rows/row.hpp"
 #include "qemu/emulate/firmware.hpp"
 
@@ -38,6 +39,7 @@ struct Answer {
     Question question;
     Choice choice;
     std::optional<DerivativeReport> derivative;  ///< of what was chosen, where there is a goal
+    std::vector<WouldDo> would_do;               ///< where nothing meets a goal: lesser goals that something meets
     std::string unit;                            ///< of what is ranked
     std::string limited_unit;                    ///< of what the cost limit holds against
     std::vector<std::string> notes;              ///< where the numbers come from, one sentence each

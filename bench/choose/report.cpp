@@ -113,6 +113,16 @@ std::string line_of(const Answer& answer, const Outcome& outcome) {
     return line;
 }
 
+void state(bench::Json& json, const glsum::design::DerivativeGoal& goal) {
+    json["step_s"] = goal.step_s;
+    if (goal.band) {
+        json["band_hz"] = {goal.band->low_hz, goal.band->high_hz};
+    }
+    if (goal.step_until_s) {
+        json["step_until_s"] = *goal.step_until_s;
+    }
+}
+
 bench::Json to_json(const Answer& answer, const Candidate& candidate) {
     bench::Json json;
     json["kernel"] = candidate.kernel;
@@ -242,6 +252,11 @@ std::string to_table(const Answer& answer, bool colour) {
                 relaxed.factor(), at(answer, relaxed.fits), error_text(answer, relaxed.fits.error.error),
                 cost_text(answer, relaxed.fits), count(relaxed.fits.cost.bytes));
         }
+        for (const WouldDo& other : answer.would_do) {
+            text += fmt::format("  {}: {}, error {}, {}, {} bytes\n", other.instead, at(answer, other.fits),
+                                error_text(answer, other.fits.error.error), cost_text(answer, other.fits),
+                                count(other.fits.cost.bytes));
+        }
     }
     text += fmt::format("\n  {:<24} {:>6} {:>9}  {:<7} {:>10} {:>8}  {}\n", "kernel", "taps", "error", "worst",
                         answer.unit == "model cycles" ? "cycles"
@@ -285,12 +300,7 @@ bench::Json to_json(const Answer& answer) {
     asked["core"] = question.core;
     if (question.goal) {
         asked["derivative_error"] = question.max_error;
-        if (question.goal->band) {
-            asked["band_hz"] = {question.goal->band->low_hz, question.goal->band->high_hz};
-        }
-        if (question.goal->step_until_s) {
-            asked["step_until_s"] = *question.goal->step_until_s;
-        }
+        state(asked, *question.goal);
     } else {
         asked["signals"] = question.conditions.signals;
         asked["max_error"] = question.max_error;
@@ -336,6 +346,11 @@ bench::Json to_json(const Answer& answer) {
             miss["factor"] = relaxed.factor();
             miss["fits"] = to_json(answer, relaxed.fits);
             misses.push_back(std::move(miss));
+        }
+        for (const WouldDo& other : answer.would_do) {
+            bench::Json would = {{"instead", other.instead}, {"fits", to_json(answer, other.fits)}};
+            state(would, other.goal);
+            json["would_do"].push_back(std::move(would));
         }
     }
     bench::Json& kernels = json["kernels"] = bench::Json::array();

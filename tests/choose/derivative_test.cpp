@@ -6,6 +6,7 @@
 #include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/derivative_text.hpp"
 #include "bench/choose/kernel_run.hpp"
+#include "bench/choose/would_do.hpp"
 
 namespace {
 
@@ -13,6 +14,7 @@ using choose::DerivativeErrors;
 using choose::hold;
 using glsum::design::Band;
 using glsum::design::DerivativeGoal;
+using glsum::design::FilterKind;
 using glsum::design::fit_filter;
 using glsum::design::FittedFilter;
 
@@ -26,7 +28,7 @@ DerivativeGoal goal_of(double order, double step_until_s) {
 
 TEST(HeldFilter, IsTheDesignAsFarAsTheFormatHasDigits) {
     const DerivativeGoal goal = goal_of(0.5, 2.0);
-    const FittedFilter fitted = fit_filter(goal, 2, 4, false);
+    const FittedFilter fitted = fit_filter(goal, 2, 4, FilterKind::samples);
     const auto largest_difference = [&](const char* kernel) {
         const auto held = hold(kernel, 10, goal, fitted);
         EXPECT_EQ(held.fault, "") << kernel;
@@ -49,16 +51,35 @@ TEST(HeldFilter, IsTheDesignAsFarAsTheFormatHasDigits) {
 
 TEST(HeldFilter, AnIntegratorIsItsSlowestMode) {
     const DerivativeGoal goal = goal_of(-0.5, 2.0);
-    const FittedFilter fitted = fit_filter(goal, 1, 4, true);
+    const FittedFilter fitted = fit_filter(goal, 1, 4, FilterKind::integrator);
     const auto held = hold("modessum_plain_f64", 9, goal, fitted);
     ASSERT_EQ(held.filter.modes.size(), 4U);
     EXPECT_EQ(held.filter.modes.front().decay, 0.0);
     EXPECT_DOUBLE_EQ(held.filter.modes.front().weight, fitted.factor * fitted.modes.front().weight);
 }
 
+TEST(HeldFilter, OfIncrementsIsOneOfSamples) {
+    const DerivativeGoal goal = goal_of(0.5, 2.0);
+    const FittedFilter fitted = fit_filter(goal, 2, 4, FilterKind::increments);
+    EXPECT_LT(fitted.error.largest(), 0.05);
+    const auto held = hold("modesdelta_plain_f64", 10, goal, fitted);
+    EXPECT_EQ(held.fault, "");
+    const auto expected = fitted.filter();
+    ASSERT_EQ(held.filter.taps.size(), 3U);
+    ASSERT_EQ(held.filter.modes.size(), 4U);
+    for (std::size_t j = 0; j < 3; ++j) {
+        EXPECT_NEAR(held.filter.taps[j] / expected.taps[j], 1.0, 1e-13) << j;
+    }
+    EXPECT_NEAR(held.filter.modes[0].weight / expected.modes[0].weight, 1.0, 1e-13);
+    EXPECT_LT(held.step_noise, 1e-10);
+    // A window of increments, whose noise is its promised bound.
+    const FittedFilter window = fit_filter(goal, 20, 0, FilterKind::increments);
+    EXPECT_EQ(hold("mirrordelta_oldest_f64", 20, goal, window).fault, "");
+}
+
 TEST(HeldFilter, NoiseIsOfTheFormatAndOfTheRecord) {
     const DerivativeGoal goal = goal_of(0.5, 200.0);
-    const FittedFilter fitted = fit_filter(goal, 1, 6, false);
+    const FittedFilter fitted = fit_filter(goal, 1, 6, FilterKind::samples);
     const auto noise = [&](const char* kernel) { return hold(kernel, 13, goal, fitted).step_noise; };
     EXPECT_LT(noise("modes_plain_f64"), 1e-10);
     EXPECT_LT(noise("modes_compensated_f32"), 1e-4);
@@ -69,8 +90,8 @@ TEST(HeldFilter, NoiseIsOfTheFormatAndOfTheRecord) {
 TEST(DerivativeReport, WhatRunningGivesIsWithinTheCertificate) {
     for (const double order : {0.5, 0.9, -0.5}) {
         const DerivativeGoal goal = goal_of(order, 2.0);
-        for (const char* kernel :
-             {"modes_plain_f32", "modes_compensated_f32", "modes_plain_q31", "modessum_plain_f32"}) {
+        for (const char* kernel : {"modes_plain_f32", "modes_compensated_f32", "modes_plain_q31", "modessum_plain_f32",
+                                   "modesdelta_plain_f32"}) {
             if (std::string(kernel) == "modessum_plain_f32" && order > 0.0) {
                 continue;
             }
@@ -108,7 +129,7 @@ TEST(DerivativeErrors, LeavesOutWhatIsNoFilterOfItsOwn) {
     EXPECT_EQ(DerivativeErrors::why_not("modessum_plain_f32"), "");
     EXPECT_NE(DerivativeErrors::why_not("nested_plain_f32"), "");
     EXPECT_NE(DerivativeErrors::why_not("mirrorhold_plain_f32"), "");
-    EXPECT_NE(DerivativeErrors::why_not("modesdelta_plain_f32"), "");
+    EXPECT_EQ(DerivativeErrors::why_not("modesdelta_plain_f32"), "");
     DerivativeErrors errors(goal_of(0.5, 0.0));
     EXPECT_NE(errors.error("nested_plain_f32", 9).fault, "");
     EXPECT_FALSE(errors.meets("nested_plain_f32", 9, 1e9));
@@ -123,6 +144,48 @@ TEST(DerivativeErrors, LengthsAreThoseThatAFilterIsFittedTo) {
     EXPECT_EQ(windows.back(), 64U);
     EXPECT_TRUE(errors.meets("modes_plain_f32", 11, 0.05));
     EXPECT_FALSE(errors.meets("modes_plain_f32", 3, 0.05));
+}
+
+// A tap costs a cycle and four bytes.
+class CountedTaps : public choose::CostSource {
+public:
+    std::string unit() const override { return "cycles"; }
+    std::string limited_unit() const override { return "cycles"; }
+    bool exact() const override { return true; }
+    std::vector<choose::Cost> costs(const std::vector<choose::Case>& cases) override {
+        std::vector<choose::Cost> costs;
+        for (const auto& [kernel, taps] : cases) {
+            const auto cost = static_cast<double>(taps);
+            costs.push_back({cost, cost, 0.0, 4.0 * cost, ""});
+        }
+        return costs;
+    }
+};
+
+TEST(WouldDo, AsksForLessAndKeepsTheLimits) {
+    const DerivativeGoal goal = goal_of(0.5, 2.0);
+    const auto lesser = choose::lesser_goals(goal);
+    ASSERT_EQ(lesser.size(), 4U);
+    EXPECT_EQ(lesser[0].first, "--band 0.5..80 alone");
+    EXPECT_FALSE(lesser[0].second.step_until_s);
+    EXPECT_EQ(lesser[1].first, "--step-until 2 alone");
+    EXPECT_FALSE(lesser[1].second.band);
+    EXPECT_EQ(lesser[2].first, "--band 0.5..40");
+    EXPECT_EQ(lesser[2].second.band->high_hz, 40.0);
+    EXPECT_EQ(lesser[3].first, "--step-s 0.0005");
+    EXPECT_EQ(lesser[3].second.step_s, 0.0005);
+    EXPECT_EQ(choose::lesser_goals({0.5, 0.001, Band{3.0, 5.0}}).size(), 1U);
+
+    CountedTaps costs;
+    // Band and step together come to 0.5 % at best.
+    const auto found = choose::what_would_do(goal, {"modes_plain_f64", "modes_plain_f32"}, costs, {2e-3, {}, {}});
+    ASSERT_GE(found.size(), 2U);
+    for (const choose::WouldDo& other : found) {
+        EXPECT_LE(other.fits.error.error, 2e-3) << other.instead;
+        EXPECT_EQ(other.fits.cost.value, static_cast<double>(other.fits.taps)) << other.instead;
+    }
+    EXPECT_EQ(found[0].instead, "--band 0.5..80 alone");
+    EXPECT_TRUE(choose::what_would_do(goal, {"modes_plain_f64"}, costs, {2e-3, 3.0, {}}).empty());
 }
 
 TEST(DerivativeText, SaysWhereAndWithinWhat) {

@@ -60,7 +60,7 @@ TEST(FittedFilter, ErrsLessThanTunedOustaloupWithAsManyCoefficients) {
             for (const std::size_t poles : {3U, 5U}) {
                 const DerivativeGoal goal = goal_of(order, low_hz, 80.0, 0.0);
                 ratios.push_back(tuned_oustaloup(goal, static_cast<int>(poles)) /
-                                 fit_filter(goal, 1, poles, false).error.band);
+                                 fit_filter(goal, 1, poles, FilterKind::samples).error.band);
             }
         }
     }
@@ -71,7 +71,7 @@ TEST(FittedFilter, ErrsLessThanTunedOustaloupWithAsManyCoefficients) {
 
 TEST(FittedFilter, IsWhatItsErrorSays) {
     const DerivativeGoal goal = goal_of(0.5, 0.05, 80.0, 60.0);
-    const FittedFilter fitted = fit_filter(goal, 1, 5, false);
+    const FittedFilter fitted = fit_filter(goal, 1, 5, FilterKind::samples);
     EXPECT_LT(fitted.error.largest(), 0.05);
     EXPECT_EQ(error_at_points(fitted.filter(), goal).largest(), fitted.error.largest());
     EXPECT_EQ(fitted.weights.size(), 0U);
@@ -94,14 +94,34 @@ TEST(FittedFilter, IsWhatItsErrorSays) {
 
 TEST(FittedFilter, AnIntegratorsSlowestModeDoesNotDecay) {
     const DerivativeGoal goal = goal_of(-0.5, 0.05, 80.0, 60.0);
-    const FittedFilter fitted = fit_filter(goal, 1, 6, true);
+    const FittedFilter fitted = fit_filter(goal, 1, 6, FilterKind::integrator);
     EXPECT_EQ(fitted.modes.front().decay, 0.0);
     EXPECT_GT(fitted.modes[1].decay, 0.0);
     EXPECT_LT(fitted.error.largest(), 0.03);
 }
 
+TEST(FittedFilter, OfIncrementsLeavesNothingOfALevel) {
+    const DerivativeGoal goal = goal_of(0.5, 0.5, 80.0, 0.0);
+    const FittedFilter fitted = fit_filter(goal, 2, 4, FilterKind::increments);
+    EXPECT_LT(fitted.error.band, 0.02);
+    EXPECT_NEAR(error_at_points(fitted.filter(), goal).band, fitted.error.band, 1e-12);
+    EXPECT_LT(std::fabs(step_response(fitted.filter(), 10'000'000)), 1e-9);
+    EXPECT_GT(std::fabs(step_response(fit_filter(goal, 2, 4, FilterKind::samples).filter(), 10'000'000)), 1e-3);
+}
+
+TEST(FittedFilter, ATapThatNoPointShowsIsTheOrdersOwn) {
+    // Of increments behind a step a tap shows at its own sample alone, and the first ten samples do not count.
+    DerivativeGoal goal{0.5, 0.001};
+    goal.step_until_s = 2.0;
+    const FittedFilter fitted = fit_filter(goal, 3, 4, FilterKind::increments);
+    EXPECT_DOUBLE_EQ(fitted.factor, std::sqrt(1000.0));
+    EXPECT_DOUBLE_EQ(fitted.weights[0], 0.5);
+    EXPECT_DOUBLE_EQ(fitted.weights[1], 0.375);
+    EXPECT_LT(fitted.error.step, 0.05);
+}
+
 TEST(FittedFilter, OfAWholeOrderIsItsFirstOrderDifferenceOrBetter) {
-    const FittedFilter fitted = fit_filter(goal_of(1.0, 0.1, 50.0, 0.0), 2, 0, false);
+    const FittedFilter fitted = fit_filter(goal_of(1.0, 0.1, 50.0, 0.0), 2, 0, FilterKind::samples);
     const DerivativeError plain = error_at_points({{1000.0, -1000.0}, {}}, goal_of(1.0, 0.1, 50.0, 0.0));
     EXPECT_LE(fitted.error.band, plain.band);
     EXPECT_EQ(fitted.weights.size(), 1U);
@@ -109,14 +129,14 @@ TEST(FittedFilter, OfAWholeOrderIsItsFirstOrderDifferenceOrBetter) {
 
 TEST(FittedFilter, AWindowIsFittedToo) {
     const DerivativeGoal goal = goal_of(0.5, 10.0, 100.0, 0.0);
-    EXPECT_LT(fit_filter(goal, 24, 0, false).error.band, 0.05);
+    EXPECT_LT(fit_filter(goal, 24, 0, FilterKind::samples).error.band, 0.05);
 }
 
 TEST(FittedFilter, LargerOnesDoNotErrMore) {
     const DerivativeGoal goal = goal_of(0.5, 0.5, 100.0, 0.0);
     double before = INFINITY;
     for (const std::size_t modes : {1U, 2U, 3U, 4U, 5U}) {
-        const double error = fit_filter(goal, 2, modes, false).error.largest();
+        const double error = fit_filter(goal, 2, modes, FilterKind::samples).error.largest();
         EXPECT_LT(error, before) << modes;
         before = error;
     }
@@ -124,8 +144,8 @@ TEST(FittedFilter, LargerOnesDoNotErrMore) {
 
 TEST(FittedFilter, IsTheSameEachTime) {
     const DerivativeGoal goal = goal_of(0.9, 1.0, 100.0, 0.0);
-    const FittedFilter one = fit_filter(goal, 2, 3, false);
-    const FittedFilter other = fit_filter(goal, 2, 3, false);
+    const FittedFilter one = fit_filter(goal, 2, 3, FilterKind::samples);
+    const FittedFilter other = fit_filter(goal, 2, 3, FilterKind::samples);
     EXPECT_EQ(one.factor, other.factor);
     for (std::size_t m = 0; m < one.modes.size(); ++m) {
         EXPECT_EQ(one.modes[m].decay, other.modes[m].decay);

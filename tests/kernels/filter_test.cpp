@@ -11,6 +11,7 @@ namespace {
 
 using glsum::design::Filter;
 using glsum::design::frequency_response;
+using glsum::design::of_samples;
 using glsum::design::step_response;
 
 TEST(Filter, OfADifferenceIsTwiceTheSineOfHalfTheAngle) {
@@ -44,6 +45,23 @@ TEST(Filter, ARunningSumGrows) {
     EXPECT_EQ(step_response(filter, 8), 0.5 + 0.25 * 8.0);
     // z^-1 / (1 - z^-1): at half the rate -1/2.
     EXPECT_NEAR(frequency_response(filter, std::numbers::pi).real(), 0.5 - 0.25 * 0.5, 1e-15);
+}
+
+TEST(Filter, OfIncrementsIsTheDifferenceOfOneOfSamples) {
+    const Filter of_increments{{2.0, -0.5}, {{0.01, 0.3}, {0.4, -0.1}}};
+    const Filter filter = of_samples(of_increments);
+    ASSERT_EQ(filter.taps.size(), 3U);
+    for (const double angle : {0.001, 0.3, 2.0}) {
+        const std::complex<double> difference = 1.0 - std::polar(1.0, -angle);
+        EXPECT_LT(std::abs(frequency_response(filter, angle) - difference * frequency_response(of_increments, angle)),
+                  1e-14)
+            << angle;
+    }
+    // Of a step the increments are 1, 0, 0, ...
+    const double expected[] = {2.0, -0.5, 0.2, 0.3 * 0.99 - 0.1 * 0.6, 0.3 * 0.99 * 0.99 - 0.1 * 0.6 * 0.6};
+    for (std::size_t k = 0; k < 5; ++k) {
+        EXPECT_NEAR(step_response(filter, k), expected[k], 1e-14) << k;
+    }
 }
 
 TEST(Filter, SlowModesKeepTheirDigits) {

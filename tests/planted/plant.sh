@@ -65,6 +65,7 @@ library_of() {
 }
 tests_of() {
     case $1 in
+        kernels/glsum/design/held.hpp) echo choose_tests ;;
         kernels/glsum/design/*) echo modes_tests ;;
         kernels/glsum/model/*) echo drive_tests ;;
         kernels/*) echo kernel_tests bench_tests ;;

@@ -15,11 +15,16 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
+// Of the weights that a kernel sums with: increments have one order less.
+double order_of(const DerivativeGoal& goal, FilterKind kind) {
+    return kind == FilterKind::increments ? goal.order - 1.0 : goal.order;
+}
+
 // What the filter is held against: every point two rows of relative error, the step's one and an empty one.
 class Fit {
 public:
-    Fit(const DerivativeGoal& goal, std::size_t near_taps, bool integrator, double ridge)
-        : near_taps_(near_taps), integrator_(integrator), ridge_(ridge), samples_(design::samples_of(goal)) {
+    Fit(const DerivativeGoal& goal, std::size_t near_taps, FilterKind kind, double ridge)
+        : near_taps_(near_taps), kind_(kind), ridge_(ridge), samples_(design::samples_of(goal)) {
         for (const double hz : frequencies_of(goal)) {
             angles_.push_back(2.0 * std::numbers::pi * hz * goal.step_s);
             exact_.push_back(exact_response(goal.order, hz));
@@ -29,10 +34,14 @@ public:
         }
         weights_ = Vector::Ones(points());
         taps_ = Matrix(2 * points(), static_cast<Eigen::Index>(near_taps));
+        own_ = Vector(static_cast<Eigen::Index>(near_taps));
+        double weight = std::pow(goal.step_s, -goal.order);
         for (std::size_t j = 0; j < near_taps; ++j) {
             const auto at = [&](double angle) { return std::polar(1.0, -angle * static_cast<double>(j)); };
             const auto step = [&](std::size_t k) { return k >= j ? 1.0 : 0.0; };
             taps_.col(static_cast<Eigen::Index>(j)) = column(at, step);
+            own_(static_cast<Eigen::Index>(j)) = weight;
+            weight *= 1.0 - (1.0 + order_of(goal, kind)) / static_cast<double>(j + 1);
         }
     }
 
@@ -76,6 +85,8 @@ public:
     }
 
 private:
+    [[nodiscard]] bool integrator() const { return kind_ == FilterKind::integrator; }
+
     static constexpr double largest_decay = 0.95;  // beyond it a mode is but another tap
     static constexpr double least_gap = 0.3;       // of logarithms: nearer poles need huge weights of both signs
 
@@ -91,23 +102,28 @@ private:
 
     [[nodiscard]] Eigen::Index points() const { return static_cast<Eigen::Index>(angles_.size() + samples_.size()); }
 
+    // What a coefficient adds to the relative errors: by its answers to a sine and to a step of what is summed.
     template <class AtAngle, class AtSample>
     Vector column(const AtAngle& at_angle, const AtSample& at_sample) const {
+        const bool increments = kind_ == FilterKind::increments;
         Vector column = Vector::Zero(2 * points());
         Eigen::Index row = 0;
         for (std::size_t i = 0; i < angles_.size(); ++i, row += 2) {
-            const std::complex<double> relative = at_angle(angles_[i]) / exact_[i];
+            const double half = std::sin(0.5 * angles_[i]);
+            const std::complex<double> difference(2.0 * half * half, std::sin(angles_[i]));
+            const std::complex<double> relative = at_angle(angles_[i]) * (increments ? difference : 1.0) / exact_[i];
             column(row) = relative.real();
             column(row + 1) = relative.imag();
         }
         for (std::size_t i = 0; i < samples_.size(); ++i, row += 2) {
-            column(row) = at_sample(samples_[i]) / exact_step_[i];
+            const double before = increments ? at_sample(samples_[i] - 1) : 0.0;
+            column(row) = (at_sample(samples_[i]) - before) / exact_step_[i];
         }
         return column;
     }
 
     [[nodiscard]] double decay_of(const Vector& log_decays, Eigen::Index mode) const {
-        if (integrator_) {
+        if (integrator()) {
             return mode == 0 ? 0.0 : std::exp(log_decays(mode - 1));
         }
         return std::exp(log_decays(mode));
@@ -126,7 +142,7 @@ private:
 
     // Taps and weights of the modes for these poles. \param residual  before the points' weights
     void solve(const Vector& log_decays, Vector& solution, Vector& residual) const {
-        const Eigen::Index modes = log_decays.size() + (integrator_ ? 1 : 0);
+        const Eigen::Index modes = log_decays.size() + (integrator() ? 1 : 0);
         const auto near = static_cast<Eigen::Index>(near_taps_);
         Matrix matrix(2 * points(), near + modes);
         matrix.leftCols(near) = taps_;
@@ -149,6 +165,11 @@ private:
         right.head(ones.size()) = root.cwiseProduct(ones);
         solution = qr.solve(right).cwiseQuotient(scale);
         residual = matrix * solution - ones;
+        for (Eigen::Index j = 0; j < near; ++j) {
+            if (matrix.col(j).isZero(0.0)) {
+                solution(j) = own_(j);
+            }
+        }
     }
 
     [[nodiscard]] Vector wanted() const {
@@ -199,13 +220,14 @@ private:
     }
 
     std::size_t near_taps_;
-    bool integrator_;
+    FilterKind kind_;
     double ridge_;
     std::vector<double> angles_;
     std::vector<std::complex<double>> exact_;
     std::vector<std::size_t> samples_;
     std::vector<double> exact_step_;
     Matrix taps_;
+    Vector own_;  // the taps of the order's own weights, what is summed taken into account
     Vector weights_;
     Vector log_decays_;
     Vector solution_;
@@ -247,15 +269,15 @@ constexpr int rounds = 60;
 constexpr double ridges[] = {0.0, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2};
 
 // \param most  of the amplification, if there is one with less
-Filter fitted(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, bool integrator, double ridge,
+Filter fitted(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, FilterKind kind, double ridge,
               double most) {
-    const auto moving = static_cast<Eigen::Index>(modes) - (integrator ? 1 : 0);
+    const auto moving = static_cast<Eigen::Index>(modes) - (kind == FilterKind::integrator ? 1 : 0);
     Vector start = Vector::Zero(std::max<Eigen::Index>(moving, 0));
     if (moving > 0) {
         double least = std::numeric_limits<double>::infinity();
         for (const double slow : {0.1, 0.3, 1.0, 3.0}) {
             for (const double fast : {0.5, 1.5, 5.0}) {
-                Fit fit(goal, near_taps, integrator, ridge);
+                Fit fit(goal, near_taps, kind, ridge);
                 fit.set(spread(goal, moving, slow, fast));
                 for (int round = 0; round < rough_rounds; ++round) {
                     fit.improve(true);
@@ -267,7 +289,7 @@ Filter fitted(const DerivativeGoal& goal, std::size_t near_taps, std::size_t mod
             }
         }
     }
-    Fit fit(goal, near_taps, integrator, ridge);
+    Fit fit(goal, near_taps, kind, ridge);
     fit.set(start);
     Filter best = fit.filter();
     double least = amplification(best) <= most ? fit.error() : std::numeric_limits<double>::infinity();
@@ -291,20 +313,21 @@ Filter FittedFilter::filter() const {
     for (Mode& mode : filter.modes) {
         mode.weight *= factor;
     }
-    return filter;
+    return kind == FilterKind::increments ? of_samples(filter) : filter;
 }
 
-FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, bool integrator) {
-    const double most = largest_amplification * absolute_sum(goal.order, goal.horizon() + 1);
+FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, FilterKind kind) {
+    const double most = largest_amplification * absolute_sum(order_of(goal, kind), goal.horizon() + 1);
     Filter best;
     for (const double ridge : ridges) {
-        best = fitted(goal, near_taps, modes, integrator, ridge, most);
+        best = fitted(goal, near_taps, modes, kind, ridge, most);
         if (amplification(best) <= most) {
             break;
         }
     }
     std::sort(best.modes.begin(), best.modes.end(), [](const Mode& a, const Mode& b) { return a.decay < b.decay; });
-    FittedFilter found{best.taps.front(), {}, best.modes, error_at_points(best, goal)};
+    const Filter whole = kind == FilterKind::increments ? of_samples(best) : best;
+    FittedFilter found{best.taps.front(), {}, best.modes, error_at_points(whole, goal), kind};
     for (std::size_t j = 1; j < best.taps.size(); ++j) {
         found.weights.push_back(best.taps[j] / found.factor);
     }

@@ -19,18 +19,19 @@ namespace glsum::design {
 /// A filter for a goal, as what a kernel's design names: D_k = factor S_k with S_k of these weights and modes.
 struct FittedFilter {
     double factor;                ///< b_0: w_0 h^-v
-    std::vector<double> weights;  ///< a_1 ... a_(K-1)
+    std::vector<double> weights;  ///< a_1 ... a_(K-1), of what the kernel sums
     std::vector<Mode> modes;      ///< slowest first; of an integrator the first does not decay
     DerivativeError error;        ///< of the filter in double, at the points of a search
+    FilterKind kind = FilterKind::samples;
 
+    /// Of the samples, in units of the derivative.
     [[nodiscard]] Filter filter() const;
 };
 
-/// \param near_taps   K >= 1
-/// \param modes       M; none: a window fitted to the goal
-/// \param integrator  whether the slowest mode does not decay; then M >= 1
-/// The same arguments give the same filter.
+/// \param near_taps  K >= 1
+/// \param modes      M; none: a window fitted to the goal; of an integrator M >= 1
+/// A tap that no point of the goal shows is that of the order's own weights. The same arguments give the same filter.
 [[nodiscard]] FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes,
-                                      bool integrator);
+                                      FilterKind kind);
 
 }  // namespace glsum::design

@@ -5,6 +5,21 @@
 
 namespace glsum::design {
 
+Filter of_samples(const Filter& of_increments) {
+    Filter filter = of_increments;
+    for (std::size_t j = 1; j < of_increments.taps.size(); ++j) {
+        filter.taps[j] -= of_increments.taps[j - 1];
+    }
+    // Behind a mode's newest sample its weights w, w (1-d), ... differ by w d, w d (1-d), ...
+    double behind = -of_increments.taps.back();
+    for (Mode& mode : filter.modes) {
+        behind += mode.weight;
+        mode.weight *= -mode.decay;
+    }
+    filter.taps.push_back(behind);
+    return filter;
+}
+
 std::complex<double> mode_response(double decay, std::size_t near_taps, double angle) {
     const double half = std::sin(0.5 * angle);
     // 1 - (1-d) z^-1 = d + (1-d) (1 - z^-1): slow modes at low angles keep their digits.

@@ -15,6 +15,16 @@ struct Filter {
     std::vector<Mode> modes;   ///< decays in [0, 1]; 0: a running sum
 };
 
+/// What a kernel applies its taps and modes to.
+enum class FilterKind {
+    samples,
+    integrator,  ///< samples; the slowest mode does not decay
+    increments,  ///< x_k - x_(k-1), with x = 0 before k = 0
+};
+
+/// A filter of increments as one of samples: a tap more, and modes of d times the weight.
+[[nodiscard]] Filter of_samples(const Filter& of_increments);
+
 /// H(e^(i angle)). \param angle  w h in (0, pi]
 [[nodiscard]] std::complex<double> frequency_response(const Filter& filter, double angle);
 
