@@ -25,6 +25,7 @@ public:
     /// With modes every length up to 40, as `bench::length_of` parts it; of a window every one to 16, then to 64 each
     /// an eighth longer than the last.
     [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
+    [[nodiscard]] std::size_t patience() const override { return 6; }
     [[nodiscard]] double truncation(std::size_t) const override { return 0.0; }
     [[nodiscard]] double rounding_bound(const std::string&, std::size_t) const override { return 0.0; }
     [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override;

@@ -30,6 +30,8 @@ public:
     [[nodiscard]] virtual std::size_t longest() const = 0;
     /// Rising, the lengths of a kernel that has few; nothing: every length up to the longest.
     [[nodiscard]] virtual std::optional<std::vector<std::size_t>> lengths(const std::string&) const { return {}; }
+    /// After so many of `lengths` in a row that came no nearer by a twentieth, none longer is tried.
+    [[nodiscard]] virtual std::size_t patience() const { return std::numeric_limits<std::size_t>::max(); }
     [[nodiscard]] std::size_t longest_of(const std::string& kernel) const {
         const auto few = lengths(kernel);
         return few ? few->back() : longest();

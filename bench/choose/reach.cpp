@@ -1,6 +1,7 @@
 #include "bench/choose/reach.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace choose {
@@ -103,6 +104,31 @@ private:
 };
 
 }  // namespace
+
+Reach reach_of(ErrorSource& errors, const std::string& kernel, const std::vector<std::size_t>& lengths, double limit) {
+    constexpr double gain = 0.95;
+    Reach reach;
+    std::size_t without_gain = 0;
+    double to_beat = std::numeric_limits<double>::infinity();
+    for (const std::size_t taps : lengths) {
+        const ErrorAt at = errors.error(kernel, taps);
+        if (reach.best_taps == 0 || at.error < reach.best.error) {
+            reach.best_taps = taps;
+            reach.best = at;
+        }
+        if (at.fault.empty() && at.error <= limit) {
+            reach.shortest = taps;
+            break;
+        }
+        if (at.error < gain * to_beat || !at.fault.empty()) {
+            to_beat = std::min(to_beat, at.error);
+            without_gain = 0;
+        } else if (++without_gain == errors.patience()) {
+            break;
+        }
+    }
+    return reach;
+}
 
 Reach reach(ErrorSource& errors, const std::string& kernel, double limit) {
     return Reacher(errors, kernel, limit).run();

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bench/choose/errors.hpp"
 
@@ -15,6 +16,10 @@ struct Reach {
     std::size_t best_taps = 0;            ///< where the error was least, of those measured whole
     ErrorAt best;
 };
+
+/// The first of a kernel's few lengths that meets the limit, as far as the source's patience goes.
+[[nodiscard]] Reach reach_of(ErrorSource& errors, const std::string& kernel, const std::vector<std::size_t>& lengths,
+                             double limit);
 
 /// Finds the shortest length that meets the limit. Truncation guides: every length up to the first whose truncation
 /// meets it, and that rounding within its bound can bring there, is measured, from the shortest on. If rounding is in

@@ -58,19 +58,7 @@ private:
 
     void find_length(Outcome& outcome) {
         if (const auto lengths = errors_.lengths(outcome.kernel)) {
-            Reach reach;
-            for (const std::size_t taps : *lengths) {
-                const ErrorAt at = errors_.error(outcome.kernel, taps);
-                if (reach.best_taps == 0 || at.error < reach.best.error) {
-                    reach.best_taps = taps;
-                    reach.best = at;
-                }
-                if (at.fault.empty() && at.error <= limits_.max_error) {
-                    reach.shortest = taps;
-                    break;
-                }
-            }
-            take(outcome, reach);
+            take(outcome, reach_of(errors_, outcome.kernel, *lengths, limits_.max_error));
         } else {
             take(outcome, reach(errors_, outcome.kernel, limits_.max_error));
         }

@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <optional>
+
+#include "bench/choose/reach.hpp"
 
 namespace choose {
 namespace {
@@ -18,12 +19,9 @@ std::optional<Candidate> cheapest(const design::DerivativeGoal& goal, const std:
     DerivativeErrors errors(goal);
     std::vector<Candidate> candidates;
     for (const std::string& kernel : kernels) {
-        const auto lengths = errors.lengths(kernel);
-        const auto shortest = std::find_if(lengths->begin(), lengths->end(), [&](std::size_t taps) {
-            return errors.meets(kernel, taps, limits.max_error);
-        });
-        if (shortest != lengths->end()) {
-            candidates.push_back({kernel, *shortest, errors.error(kernel, *shortest), {}});
+        const Reach found = reach_of(errors, kernel, errors.lengths(kernel).value(), limits.max_error);
+        if (found.shortest) {
+            candidates.push_back({kernel, *found.shortest, found.best, {}});
         }
     }
     std::vector<Candidate*> all;

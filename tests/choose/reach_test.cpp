@@ -165,4 +165,27 @@ TEST(Reach, AFaultMeetsNoLimit) {
     EXPECT_TRUE(errors.scanned.empty());
 }
 
+// Few lengths: in turn until one meets the limit, or so many in a row came no nearer by a twentieth.
+TEST(Reach, OfFewLengthsStopsWhereNothingIsGained) {
+    struct Patient : Made {
+        [[nodiscard]] std::size_t patience() const override { return 3; }
+    } errors;
+    const Lengths few = {1, 2, 4, 8, 16, 32, 64, 100};
+    errors.error_of = [](std::size_t taps) { return taps < 8 ? 1.0 / static_cast<double>(taps) : 0.24; };
+    Reach reach = choose::reach_of(errors, "any", few, limit);
+    EXPECT_FALSE(reach.shortest);
+    EXPECT_EQ(errors.whole, (Lengths{1, 2, 4, 8, 16, 32}));
+    EXPECT_EQ(reach.best_taps, 8U);
+    EXPECT_EQ(reach.best.error, 0.24);
+    errors.error_of = [](std::size_t taps) { return taps < 32 ? 1.0 : limit; };
+    EXPECT_FALSE(choose::reach_of(errors, "any", few, limit).shortest);
+    errors.error_of = [](std::size_t taps) { return taps < 8 ? 1.0 : limit; };
+    EXPECT_EQ(choose::reach_of(errors, "any", few, limit).shortest, 8U);
+    // A length that a kernel refuses says nothing of longer ones.
+    errors.fault = "refused";
+    errors.whole.clear();
+    EXPECT_FALSE(choose::reach_of(errors, "any", few, limit).shortest);
+    EXPECT_EQ(errors.whole, few);
+}
+
 }  // namespace
