@@ -11,15 +11,13 @@
 #include "base/failure.hpp"
 #include "bench/choose/derivative_plot.hpp"
 #include "bench/sweep/signals.hpp"
+#include "cli/band.hpp"
 #include "cli/board.hpp"
 #include "cli/name_value.hpp"
 #include "glsum/weights.hpp"
 
 namespace cli {
 namespace {
-
-// An hour at 10 kHz and more.
-constexpr double most_samples = 5e7;
 
 [[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
 
@@ -65,24 +63,6 @@ double to_share(const std::string& text) {
     return percent ? *value / 100.0 : *value;
 }
 
-glsum::design::Band to_band(const std::string& text, double step_s) {
-    const auto dots = text.find("..");
-    const auto low = dots == std::string::npos ? std::nullopt : to_number<double>(text.substr(0, dots));
-    const auto high = dots == std::string::npos ? std::nullopt : to_number<double>(text.substr(dots + 2));
-    if (!low || !high || !(*low > 0.0) || !(*high >= *low) || !std::isfinite(*high)) {
-        refuse(fmt::format("--band: expected two rising frequencies in Hz, as in 0.05..80, found {}", text));
-    }
-    if (*high * step_s > 0.5) {
-        refuse(
-            fmt::format("--band: expected at most half the sampling rate, {:g} Hz, found {:g}", 0.5 / step_s, *high));
-    }
-    if (!(*low * step_s * most_samples >= 1.0)) {
-        refuse(fmt::format("--band: expected a period of at most {:g} samples, found {:g} Hz, {:g} samples",
-                           most_samples, *low, 1.0 / (*low * step_s)));
-    }
-    return {*low, *high};
-}
-
 // What is asked of the derivative itself; nothing where --max-error asks about the sum.
 std::optional<glsum::design::DerivativeGoal> to_goal(const Budget& budget) {
     if (budget.derivative_error.empty()) {
@@ -100,7 +80,7 @@ std::optional<glsum::design::DerivativeGoal> to_goal(const Budget& budget) {
     }
     glsum::design::DerivativeGoal goal{budget.order, budget.step_s};
     if (!budget.band.empty()) {
-        goal.band = to_band(budget.band, budget.step_s);
+        goal.band = to_band("--band", budget.band, budget.step_s);
     }
     if (budget.step_until_s != 0.0) {
         if (!glsum::design::has_step(budget.order)) {

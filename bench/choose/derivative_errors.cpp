@@ -61,6 +61,9 @@ const design::FittedFilter& DerivativeErrors::filter_of(const std::string& kerne
 ErrorAt DerivativeErrors::error(const std::string& kernel, std::size_t taps) {
     ErrorAt found;
     found.fault = why_not(kernel);
+    if (goal_.order <= 0.0 && bench::facts_of(kernel).forgotten == glsum::Forgotten::increments) {
+        found.fault = "increments keep no level, and an integral is of one";
+    }
     if (!found.fault.empty()) {
         return found;
     }

@@ -37,6 +37,12 @@ bool is_length(std::string_view text) {
                               text.find_first_not_of("0123456789+") == text.npos);
 }
 
+// "0.05..80": two numbers.
+bool is_band(std::string_view text) {
+    const std::size_t dots = text.find("..");
+    return dots != text.npos && is_number(text.substr(0, dots)) && is_number(text.substr(dots + 2));
+}
+
 // A part of a name: where it stands in the key, what is written before it, what it may be.
 struct Part {
     std::string RowKey::*where;
@@ -53,6 +59,7 @@ constexpr Part taps{&RowKey::taps, "taps:", is_length};
 constexpr Part error{&RowKey::error, "error:", is_number};
 constexpr Part samples{&RowKey::samples, "samples:", is_number};
 constexpr Part poles{&RowKey::poles, "poles:", is_number};
+constexpr Part hz{&RowKey::hz, "hz:", is_band};
 constexpr Part aspect{&RowKey::aspect, "", is_aspect};
 constexpr Part signal{&RowKey::signal, "signal:", is_word};
 constexpr Part signal_if_any{&RowKey::signal, "signal:", is_word, true};
@@ -65,6 +72,7 @@ constexpr Part parts_of_model[] = {part::model, part::kernel, part::taps, part::
 constexpr Part parts_of_record[] = {part::kernel, part::order, part::samples, part::aspect};
 constexpr Part parts_of_horizon[] = {part::kernel, part::order, part::error, part::samples};
 constexpr Part parts_of_filter[] = {part::kernel, part::order, part::poles, part::aspect, part::signal};
+constexpr Part parts_of_band[] = {part::kernel, part::order, part::taps, part::hz};
 
 struct Form {
     RowKind kind;
@@ -75,7 +83,7 @@ struct Form {
 constexpr Form forms[] = {
     {RowKind::sum, "gl", parts_of_sum},           {RowKind::model, "drive", parts_of_model},
     {RowKind::record, "record", parts_of_record}, {RowKind::horizon, "horizon", parts_of_horizon},
-    {RowKind::filter, "filter", parts_of_filter},
+    {RowKind::filter, "filter", parts_of_filter}, {RowKind::band, "band", parts_of_band},
 };
 
 std::string written(const RowKey& key, std::size_t most_parts) {

@@ -14,6 +14,7 @@ enum class RowKind {
     record,   ///< record/<kernel>/order:<v>/samples:<N>/<aspect>
     horizon,  ///< horizon/<kernel>/order:<v>/error:<e>/samples:<N>
     filter,   ///< filter/<kernel>/order:<v>/poles:<P>/<aspect>/signal:<s>
+    band,     ///< band/<kernel>/order:<v>/taps:<L>/hz:<low>..<high>
 };
 
 /// The parts of a name, as they are written in it; those that its kind has not are empty.
@@ -26,6 +27,7 @@ struct RowKey {
     std::string error;
     std::string samples;
     std::string poles;
+    std::string hz;      ///< "0.05..80"
     std::string aspect;  ///< accuracy, host, m7:<core>
     std::string signal;
     std::string amplitude;  ///< empty: 1

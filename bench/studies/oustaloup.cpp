@@ -6,11 +6,14 @@
 
 namespace bench {
 
-std::string to_text(Mapping mapping) { return mapping == Mapping::matched ? "matched" : "Tustin"; }
+std::string to_text(Mapping mapping) {
+    return mapping == Mapping::matched ? "matched" : mapping == Mapping::tustin ? "Tustin" : "impulse-invariant";
+}
 
 Oustaloup::Oustaloup(double order, double step_s, std::size_t poles, Band band, Mapping mapping)
     : differs_(order > 1.0) {
-    if (!takes(order) || poles == 0 || !(step_s > 0.0) || !(band.low_rad_s > 0.0 && band.high_rad_s > band.low_rad_s)) {
+    if (!takes(order) || poles == 0 || mapping == Mapping::impulse_invariant || !(step_s > 0.0) ||
+        !(band.low_rad_s > 0.0 && band.high_rad_s > band.low_rad_s)) {
         throw std::invalid_argument("Oustaloup: order, poles, step or band out of range");
     }
     const double r = differs_ ? order - 1.0 : order;

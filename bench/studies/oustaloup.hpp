@@ -10,8 +10,9 @@ namespace bench {
 
 /// How a pole or zero at -w becomes one of the sampled filter.
 enum class Mapping {
-    matched,  ///< e^(-w h), and the gain at the middle of the band
-    tustin,   ///< s = 2/h (z - 1)/(z + 1)
+    matched,            ///< e^(-w h), and the gain at the middle of the band
+    tustin,             ///< s = 2/h (z - 1)/(z + 1)
+    impulse_invariant,  ///< the impulse response, sampled: of poles with residues, not of sections
 };
 
 [[nodiscard]] std::string to_text(Mapping mapping);
@@ -30,6 +31,7 @@ public:
     /// \param order   v, as `takes` has it
     /// \param step_s  h > 0
     /// \param poles   P >= 1
+    /// \param mapping  matched or Tustin's
     Oustaloup(double order, double step_s, std::size_t poles, Band band, Mapping mapping);
 
     /// Whether there is a filter of an order: in (-1, 2), and not a whole number.

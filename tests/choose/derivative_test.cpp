@@ -133,6 +133,7 @@ TEST(DerivativeErrors, LeavesOutWhatIsNoFilterOfItsOwn) {
     DerivativeErrors errors(goal_of(0.5, 0.0));
     EXPECT_NE(errors.error("nested_plain_f32", 9).fault, "");
     EXPECT_FALSE(errors.meets("nested_plain_f32", 9, 1e9));
+    EXPECT_NE(DerivativeErrors(goal_of(-0.5, 0.0)).error("modesdelta_plain_f32", 9).fault, "");
 }
 
 TEST(DerivativeErrors, LengthsAreThoseThatAFilterIsFittedTo) {

@@ -276,15 +276,20 @@ Filter fitted(const DerivativeGoal& goal, std::size_t near_taps, std::size_t mod
     if (moving > 0) {
         double least = std::numeric_limits<double>::infinity();
         for (const double slow : {0.1, 0.3, 1.0, 3.0}) {
-            for (const double fast : {0.5, 1.5, 5.0}) {
-                Fit fit(goal, near_taps, kind, ridge);
-                fit.set(spread(goal, moving, slow, fast));
-                for (int round = 0; round < rough_rounds; ++round) {
-                    fit.improve(true);
-                }
-                if (fit.error() < least) {
-                    least = fit.error();
-                    start = fit.log_decays();
+            for (const double fast : {0.5, 1.5}) {
+                // Derivatives want several at the fast end, where steps from a spread do not bring them.
+                for (Eigen::Index crowd = 0; crowd <= std::min<Eigen::Index>(3, moving - 1); ++crowd) {
+                    Fit fit(goal, near_taps, kind, ridge);
+                    Vector from = Vector::Zero(moving);
+                    from.head(moving - crowd) = spread(goal, moving - crowd, slow, fast);
+                    fit.set(from);
+                    for (int round = 0; round < rough_rounds; ++round) {
+                        fit.improve(true);
+                    }
+                    if (fit.error() < least) {
+                        least = fit.error();
+                        start = fit.log_decays();
+                    }
                 }
             }
         }

@@ -1,0 +1,153 @@
+#include "bench/studies/bands.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "bench/choose/costs.hpp"
+#include "bench/choose/derivative_errors.hpp"
+#include "bench/rows/key.hpp"
+#include "bench/studies/rational_filter.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/sweep.hpp"
+
+namespace bench {
+namespace {
+
+namespace design = glsum::design;
+
+// Single precision with modes: what is cheapest on the core. Of windows so short that they cost as little nothing lasts
+// over a decade.
+constexpr const char* kernels[] = {"modes_plain_f32", "modesdelta_plain_f32", "modessum_plain_f32"};
+constexpr std::size_t longest = 20;
+
+struct Case {
+    double order;
+    design::Band band;
+};
+
+bool is_ours(const BandPoint& point) { return point.way != oustaloup_way && point.way != charef_way; }
+
+// The kernel that a filter of others costs as much as, with P poles behind one tap.
+const char* kernel_of_poles(double order) { return order > 1.0 ? kernels[1] : kernels[0]; }
+
+BandPoint point_of(const Case& of, const std::string& way, std::size_t near_taps, std::size_t modes, double error) {
+    return {way, fmt::format("{}+{}", near_taps, modes), of.order, of.band, error, 0.0, 0.0, 0.0};
+}
+
+// A point and the kernel and length whose cost it has.
+struct Asked {
+    BandPoint point;
+    choose::Case cost;
+};
+
+std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
+    const design::DerivativeGoal goal{of.order, study.step_s, of.band, {}};
+    std::vector<Asked> points;
+    choose::DerivativeErrors errors(goal);
+    for (const char* kernel : kernels) {
+        if (!serves(kernel, of.order)) {
+            continue;
+        }
+        for (std::size_t taps = 3; taps <= longest; ++taps) {
+            const choose::ErrorAt at = errors.error(kernel, taps);
+            const std::size_t modes = length_of(kernel, of.order, taps, longest_length).modes.value_or(0);
+            if (at.fault.empty() && modes > 0) {
+                points.push_back({point_of(of, kernel, taps - 2 * modes, modes, at.error), {kernel, taps}});
+            }
+        }
+    }
+    for (const auto& [way, rule] :
+         {std::pair(oustaloup_way, RationalRule::oustaloup), std::pair(charef_way, RationalRule::charef)}) {
+        for (const std::size_t poles : study.poles) {
+            if (Oustaloup::takes(of.order)) {
+                points.push_back({point_of(of, way, 1, poles, tune_rational(rule, goal, poles).error),
+                                  {kernel_of_poles(of.order), 1 + 2 * poles}});
+            }
+        }
+    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board) {
+    std::vector<Case> cases;
+    for (const double order : study.orders) {
+        for (const design::Band& band : study.bands) {
+            cases.push_back({order, band});
+        }
+    }
+    std::vector<std::vector<Asked>> found(cases.size());
+    {
+        base::Progress progress("orders and bands", cases.size());
+        base::parallel_for(cases.size(), study.jobs, [&](std::size_t i) {
+            found[i] = points_of(study, cases[i]);
+            progress.advance();
+        });
+    }
+    std::vector<BandPoint> points;
+    for (std::size_t first = 0; first < cases.size(); first += study.bands.size()) {
+        choose::OnTarget costs(board, cases[first].order, Sweep().samples, Sweep().seed, study.jobs, study.core);
+        for (std::size_t i = first; i < first + study.bands.size(); ++i) {
+            std::vector<choose::Case> asked;
+            for (const Asked& one : found[i]) {
+                asked.push_back(one.cost);
+            }
+            const std::vector<choose::Cost> costs_of = costs.costs(asked);
+            for (std::size_t j = 0; j < asked.size(); ++j) {
+                BandPoint& point = found[i][j].point;
+                if (costs_of[j].fault.empty()) {
+                    point.model_cycles = costs_of[j].value;
+                    point.model_cycles_high = costs_of[j].limited;
+                    point.bytes = costs_of[j].bytes;
+                    points.push_back(point);
+                }
+            }
+        }
+    }
+    return points;
+}
+
+std::vector<BandRival> compare_bands(const std::vector<BandPoint>& points) {
+    std::vector<BandRival> compared;
+    for (const BandPoint& rival : points) {
+        if (is_ours(rival)) {
+            continue;
+        }
+        BandRival one{rival, {}};
+        one.ours.error = std::numeric_limits<double>::infinity();
+        for (const BandPoint& ours : points) {
+            if (is_ours(ours) && ours.order == rival.order && ours.band == rival.band &&
+                ours.model_cycles <= rival.model_cycles && ours.error < one.ours.error) {
+                one.ours = ours;
+            }
+        }
+        compared.push_back(one);
+    }
+    return compared;
+}
+
+std::vector<Json> rows_of_bands(const std::vector<BandPoint>& points) {
+    std::vector<Json> rows;
+    for (const BandPoint& point : points) {
+        RowKey key;
+        key.kind = RowKind::band;
+        key.kernel = point.way;
+        key.order = fmt::format("{}", point.order);
+        key.taps = point.taps;
+        key.hz = fmt::format("{}..{}", point.band.low_hz, point.band.high_hz);
+        Row row(key, 1);
+        row.set(Counter::band_error, point.error);
+        row.set(Counter::model_cycles_per_sample, point.model_cycles);
+        row.set(Counter::model_cycles_high, point.model_cycles_high);
+        rows.push_back(std::move(row).take());
+    }
+    return rows;
+}
+
+}  // namespace bench

@@ -1,0 +1,176 @@
+#include "bench/studies/rational_filter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+namespace bench {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+struct Point {
+    double angle;
+    std::complex<double> wanted;  // of the filter of order in (-1, 1)
+};
+
+// The gain g of least max |g a - 1|, which is convex in g.
+std::pair<double, double> best_gain(const std::vector<std::complex<double>>& relative) {
+    double cross = 0.0;
+    double square = 0.0;
+    for (const auto& a : relative) {
+        cross += a.real();
+        square += std::norm(a);
+    }
+    const double middle = cross / square;
+    if (!(middle > 0.0) || !std::isfinite(middle)) {
+        return {1.0, infinite};
+    }
+    const auto error = [&](double gain) {
+        double largest = 0.0;
+        for (const auto& a : relative) {
+            largest = std::max(largest, std::norm(gain * a - 1.0));
+        }
+        return largest;
+    };
+    double low = 0.5 * middle;
+    double high = 2.0 * middle;
+    for (int i = 0; i < 60 && high - low > 1e-9 * middle; ++i) {
+        const double third = (high - low) / 3.0;
+        if (error(low + third) < error(high - third)) {
+            high -= third;
+        } else {
+            low += third;
+        }
+    }
+    const double gain = 0.5 * (low + high);
+    return {gain, std::sqrt(error(gain))};
+}
+
+class Tuner {
+public:
+    Tuner(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles)
+        : rule_(rule), poles_(poles), step_s_(goal.step_s), order_(goal.order > 1.0 ? goal.order - 1.0 : goal.order) {
+        for (const double hz : glsum::design::frequencies_of(goal)) {
+            const double angle = 2.0 * std::numbers::pi * hz * goal.step_s;
+            std::complex<double> wanted = glsum::design::exact_response(goal.order, hz);
+            if (goal.order > 1.0) {
+                wanted *= goal.step_s / (1.0 - std::polar(1.0, -angle));
+            }
+            points_.push_back({angle, wanted});
+        }
+    }
+
+    [[nodiscard]] TunedRational at(double low, double high, Mapping mapping) const {
+        const Band band{std::pow(10.0, low), std::pow(10.0, high)};
+        const Roots roots = roots_of(rule_, order_, poles_, band);
+        std::vector<std::complex<double>> relative;
+        for (const Point& point : points_) {
+            relative.push_back(response_of(roots, mapping, step_s_, point.angle) / point.wanted);
+        }
+        const auto [gain, error] = best_gain(relative);
+        return {band, mapping, gain, std::isfinite(error) ? error : infinite};
+    }
+
+private:
+    RationalRule rule_;
+    std::size_t poles_;
+    double step_s_;
+    double order_;
+    std::vector<Point> points_;
+};
+
+}  // namespace
+
+Roots roots_of(RationalRule rule, double order, std::size_t poles, Band band) {
+    const double ratio = band.high_rad_s / band.low_rad_s;
+    const auto root = [&](double place) {
+        return band.low_rad_s * std::pow(ratio, place / static_cast<double>(poles));
+    };
+    const bool proper = rule == RationalRule::charef && order < 0.0;
+    Roots roots;
+    for (std::size_t k = 0; k < poles; ++k) {
+        const auto place = static_cast<double>(k) + 0.5;
+        roots.poles.push_back(root(place + 0.5 * order));
+        if (!proper || k + 1 < poles) {
+            roots.zeros.push_back(root(place - 0.5 * order));
+        }
+    }
+    return roots;
+}
+
+std::complex<double> response_of(const Roots& roots, Mapping mapping, double step_s, double angle) {
+    const std::complex<double> delay = std::polar(1.0, -angle);
+    std::complex<double> response = 1.0;
+    if (mapping == Mapping::impulse_invariant) {
+        // d + sum r / (s + p), d = 1 with as many zeros as poles.
+        response = roots.zeros.size() == roots.poles.size() ? 1.0 : 0.0;
+        for (std::size_t k = 0; k < roots.poles.size(); ++k) {
+            double residue = 1.0;
+            for (const double zero : roots.zeros) {
+                residue *= zero - roots.poles[k];
+            }
+            for (std::size_t j = 0; j < roots.poles.size(); ++j) {
+                residue /= j == k ? 1.0 : roots.poles[j] - roots.poles[k];
+            }
+            response += residue * step_s * (1.0 / (1.0 - std::exp(-roots.poles[k] * step_s) * delay) - 0.5);
+        }
+        return response;
+    }
+    const auto factor = [&](double root) {
+        return mapping == Mapping::matched ? 1.0 - std::exp(-root * step_s) * delay
+                                           : root + 2.0 / step_s * (1.0 - delay) / (1.0 + delay);
+    };
+    for (const double zero : roots.zeros) {
+        response *= factor(zero);
+    }
+    for (const double pole : roots.poles) {
+        response /= factor(pole);
+    }
+    return response;
+}
+
+TunedRational tune_rational(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles) {
+    struct Start {
+        double low;  // decades of the edges in rad/s
+        double high;
+        TunedRational found;
+    };
+    constexpr std::size_t starts = 6;
+    const Tuner tuner(rule, goal, poles);
+    const double first = std::log10(2.0 * std::numbers::pi * goal.band->low_hz);
+    const double last = std::log10(2.0 * std::numbers::pi * goal.band->high_hz);
+    std::vector<Start> best;
+    for (const Mapping mapping : {Mapping::matched, Mapping::tustin, Mapping::impulse_invariant}) {
+        for (double low = first - 2.5; low < first + 0.6; low += 0.25) {
+            for (double high = last - 0.6; high < last + 3.1; high += 0.25) {
+                if (low < high) {
+                    best.push_back({low, high, tuner.at(low, high, mapping)});
+                }
+            }
+        }
+    }
+    const auto errs_less = [](const Start& a, const Start& b) { return a.found.error < b.found.error; };
+    std::stable_sort(best.begin(), best.end(), errs_less);
+    best.resize(std::min(best.size(), starts));
+    constexpr std::pair<int, int> ways[] = {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}};
+    for (Start& start : best) {
+        for (double step = 0.125; step > 5e-4;) {
+            Start nearest = start;
+            for (const auto& [low_steps, high_steps] : ways) {
+                const double low = start.low + low_steps * step;
+                const double high = start.high + high_steps * step;
+                if (low < high) {
+                    const Start tried{low, high, tuner.at(low, high, start.found.mapping)};
+                    nearest = errs_less(tried, nearest) ? tried : nearest;
+                }
+            }
+            step = errs_less(nearest, start) ? step : 0.5 * step;
+            start = nearest;
+        }
+    }
+    return std::min_element(best.begin(), best.end(), errs_less)->found;
+}
+
+}  // namespace bench

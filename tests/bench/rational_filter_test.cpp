@@ -1,0 +1,77 @@
+// Oustaloup's and Charef's filters: roots by their rules, mappings by closed forms, tuned no worse than by hand.
+#include "bench/studies/rational_filter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace {
+
+using bench::Mapping;
+using bench::RationalRule;
+using bench::response_of;
+using bench::Roots;
+using bench::roots_of;
+
+TEST(RationalFilter, RootsAreEvenInTheLogarithm) {
+    // Of s^0.5 over a decade with one pole: zero at 10^0.25, pole at 10^0.75.
+    const Roots one = roots_of(RationalRule::oustaloup, 0.5, 1, {1.0, 10.0});
+    ASSERT_EQ(one.zeros.size(), 1U);
+    EXPECT_DOUBLE_EQ(one.zeros[0], std::pow(10.0, 0.25));
+    EXPECT_DOUBLE_EQ(one.poles[0], std::pow(10.0, 0.75));
+    const Roots many = roots_of(RationalRule::oustaloup, -0.3, 4, {1.0, 1e4});
+    for (std::size_t k = 0; k < 4; ++k) {
+        EXPECT_NEAR(std::log10(many.poles[k]), static_cast<double>(k) + 0.35, 1e-12) << k;
+        EXPECT_NEAR(std::log10(many.zeros[k]), static_cast<double>(k) + 0.65, 1e-12) << k;
+    }
+    // The singularity function of an integrator ends with a pole; of a derivative it is Oustaloup's.
+    EXPECT_EQ(roots_of(RationalRule::charef, -0.3, 4, {1.0, 1e4}).zeros.size(), 3U);
+    EXPECT_EQ(roots_of(RationalRule::charef, 0.3, 4, {1.0, 1e4}).zeros,
+              roots_of(RationalRule::oustaloup, 0.3, 4, {1.0, 1e4}).zeros);
+}
+
+TEST(RationalFilter, MappingsAreTheTextbooks) {
+    // 1 / (s + 2), h = 0.1, at w h = 0.3.
+    const Roots lag{{}, {2.0}};
+    const double angle = 0.3;
+    const std::complex<double> delay = std::polar(1.0, -angle);
+    const std::complex<double> exact = 1.0 / std::complex<double>(2.0, 3.0);
+    EXPECT_LT(std::abs(response_of(lag, Mapping::matched, 0.1, angle) - 1.0 / (1.0 - std::exp(-0.2) * delay)), 1e-14);
+    const std::complex<double> tustin = 1.0 / (2.0 + std::complex<double>(0.0, 20.0 * std::tan(0.15)));
+    EXPECT_LT(std::abs(response_of(lag, Mapping::tustin, 0.1, angle) - tustin), 1e-14);
+    EXPECT_LT(std::abs(response_of(lag, Mapping::impulse_invariant, 0.1, angle) - exact), 0.01 * std::abs(exact));
+    // (s + 1)/(s + 2) = 1 - 1/(s + 2), sampled.
+    const std::complex<double> sampled = 1.0 - 0.1 * (1.0 / (1.0 - std::exp(-0.2) * delay) - 0.5);
+    EXPECT_LT(std::abs(response_of({{1.0}, {2.0}}, Mapping::impulse_invariant, 0.1, angle) - sampled), 1e-14);
+}
+
+TEST(RationalFilter, TunedIsNoWorseThanTheBandItself) {
+    for (const double order : {0.5, -0.5, 1.5}) {
+        const glsum::design::DerivativeGoal goal{order, 0.001, glsum::design::Band{0.8, 80.0}, {}};
+        double before = INFINITY;
+        for (const std::size_t poles : {2U, 4U, 6U}) {
+            const auto tuned = tune_rational(RationalRule::oustaloup, goal, poles);
+            EXPECT_LT(tuned.error, before) << order << ", " << poles;
+            before = tuned.error;
+            // What it says is what it is.
+            const double v = order > 1.0 ? order - 1.0 : order;
+            const Roots roots = roots_of(RationalRule::oustaloup, v, poles, tuned.band);
+            double largest = 0.0;
+            for (const double hz : frequencies_of(goal)) {
+                const double angle = 2.0 * std::numbers::pi * hz * 0.001;
+                std::complex<double> response = tuned.gain * response_of(roots, tuned.mapping, 0.001, angle);
+                if (order > 1.0) {
+                    response *= (1.0 - std::polar(1.0, -angle)) / 0.001;
+                }
+                const auto exact = glsum::design::exact_response(order, hz);
+                largest = std::max(largest, std::abs(response - exact) / std::abs(exact));
+            }
+            EXPECT_NEAR(largest, tuned.error, 1e-6 * tuned.error);
+        }
+        // Six poles over two decades, by MATLAB's users' own rule of a decade more on either side, reach a tenth.
+        EXPECT_LT(before, 0.1) << order;
+    }
+}
+
+}  // namespace
