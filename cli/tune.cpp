@@ -65,7 +65,7 @@ void add_options(Command& command, const Words&) {
     command.footer(
         "With --margin and --crossover the phase is flat at the crossover where that can be had, so that the margin\n"
         "holds when the plant's gain changes. What is left free is chosen for the least integral of |error| after a\n"
-        "step of the load. The integer PID is searched for as long as the fractional one, and stands beside it.\n"
+        "step of the load. The best integer PID for the same wish stands beside it, with what the fraction saves.\n"
         "Exit status: 0 found; 1 nothing meets the wish, with what would; 2 wrong use.\n"
         "Example: glsum tune --model drive/models/fopdt.json --margin 60 --crossover 0.6 --out pid.json --plot tuned\n"
         "         glsum tune --model drive/models/niopdt.json --sensitivity 1.6 --low 0 --high 2");

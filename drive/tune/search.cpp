@@ -53,7 +53,7 @@ std::optional<drive::Gains> Search::gains_at(const Space& space, const double* x
     return gains_for(target, orders, space.point ? *space.point : point_of(plant_, target.crossover), plant_.step_s());
 }
 
-double Search::score_of(const Wish& wish, const drive::Gains& gains, double w) const {
+Search::Trouble Search::trouble_of(const Wish& wish, const drive::Gains& gains, double w) const {
     const Parts parts = controller_parts(gains, plant_.step_s(), w);
     const double sign = plant_.sign();
     const double shares[] = {sign * gains.kp, sign * gains.ki * std::abs(parts.value[1]),
@@ -61,24 +61,28 @@ double Search::score_of(const Wish& wish, const drive::Gains& gains, double w) c
     const double size = std::fabs(shares[0]) + std::fabs(shares[1]) + std::fabs(shares[2]);
     const double worst = std::min({shares[0], shares[1] - 1e-6 * size, shares[2]}) / size;
     if (worst < -1e-9) {
-        return wrong_sign * (1.0 - worst);
+        return {wrong_sign * (1.0 - worst), 0.0};
     }
     const Grid::Answer answer = grid_(gains);
     if (answer.unstable_poles != 0) {
-        return unstable * (1.0 + std::abs(answer.unstable_poles));
+        return {unstable * (1.0 + std::abs(answer.unstable_poles)), 0.0};
     }
     const double short_of = wish.margin_rad ? *wish.margin_rad - answer.phase_rad : 0.0;
     const double excess = answer.sensitivity / wish.sensitivity - 1.0;
     if (short_of > 0.02 || excess > 0.2) {
-        return not_enough * (1.0 + std::max(short_of, 0.0) + std::max(excess, 0.0));
+        return {not_enough * (1.0 + std::max(short_of, 0.0) + std::max(excess, 0.0)), excess};
     }
-    return std::log(load_.iae(gains)) + 40.0 * std::max(excess, 0.0);
+    return {0.0, excess};
 }
 
 double Search::score(const Space& space, const double* x) const {
     const std::optional<drive::Gains> gains = gains_at(space, x);
-    return gains ? score_of(space.wish, *gains, space.wish.crossover ? *space.wish.crossover : std::exp(x[0]))
-                 : no_gains;
+    if (!gains) {
+        return no_gains;
+    }
+    const double w = space.wish.crossover ? *space.wish.crossover : std::exp(x[0]);
+    const Trouble trouble = trouble_of(space.wish, *gains, w);
+    return trouble.size > 0.0 ? trouble.size : std::log(load_.iae(*gains)) + 40.0 * std::max(trouble.excess, 0.0);
 }
 
 std::optional<Found> Search::explore(const Space& space, const std::optional<Found>& beside) const {
@@ -198,7 +202,7 @@ std::optional<Found> Search::best(const Wish& wish, Orders orders, const std::op
         return ranges;
     };
     const std::vector<Space::Range> before = space.ranges;
-    if (wish.crossover) {
+    if (wish.crossover && wish.flat) {
         space.flat = true;
         space.ranges = with_orders(before);
         if (std::optional<Found> found = explore(space, beside)) {
@@ -220,7 +224,9 @@ bool Search::reachable(const Wish& wish, Orders orders) const {
         for (const double integral : some) {
             for (const double derivative : some) {
                 const double x[] = {slope, integral, derivative};
-                if (score(space, x) < not_enough) {
+                const std::optional<drive::Gains> gains = gains_at(space, x);
+                const Trouble trouble = gains ? trouble_of(wish, *gains, *wish.crossover) : Trouble{no_gains, 0.0};
+                if (trouble.size == 0.0 && trouble.excess <= 0.0) {
                     return true;
                 }
             }

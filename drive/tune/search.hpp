@@ -15,6 +15,7 @@ struct Wish {
     std::optional<double> crossover;   ///< rad/s; with a margin
     std::optional<double> margin_rad;  ///< of phase, the least of all crossings
     double sensitivity;                ///< largest |S|
+    bool flat = true;                  ///< a flat phase, where one can be had
 };
 
 enum class Orders { integer, fractional };
@@ -45,7 +46,12 @@ private:
     struct Space;
     [[nodiscard]] std::optional<drive::Gains> gains_at(const Space& space, const double* x) const;
     [[nodiscard]] double score(const Space& space, const double* x) const;
-    [[nodiscard]] double score_of(const Wish& wish, const drive::Gains& gains, double w) const;
+    // What keeps gains from being an answer: 0, or how bad that is; and how far |S| is above the wish, as a part of it.
+    struct Trouble {
+        double size;
+        double excess;
+    };
+    [[nodiscard]] Trouble trouble_of(const Wish& wish, const drive::Gains& gains, double w) const;
     [[nodiscard]] std::optional<Found> explore(const Space& space, const std::optional<Found>& beside) const;
 
     const SampledPlant& plant_;

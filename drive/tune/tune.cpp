@@ -157,7 +157,7 @@ double Tuned::saving() const { return 1.0 - fractional->course.load_iae / intege
 
 Tuned tune(const drive::Model& model, const Request& request, const std::string& name) {
     const SampledPlant plant(model, request.sample_time_s, name);
-    Tuned tuned{model, request, wish_of(request, plant), {}, {}, {}, {}};
+    Tuned tuned{model, request, wish_of(request, plant), {}, {}, {}, {}, {}};
     const double scale = request.crossover.value_or(plant.scale());
     tuned.trial = trial_of(request, plant, scale);
     const double filter_s = request.filter_s.value_or(std::max(0.1 / scale, request.sample_time_s));
@@ -170,6 +170,13 @@ Tuned tune(const drive::Model& model, const Request& request, const std::string&
     }
     if (fractional) {
         tuned.fractional = judge(plant, request, tuned.trial, *fractional);
+    }
+    if (integer && integer->flat) {
+        Wish wish = tuned.wish;
+        wish.flat = false;
+        if (const std::optional<Found> steep = find(search, plant, wish, Orders::integer, {})) {
+            tuned.steep = judge(plant, request, tuned.trial, *steep);
+        }
     }
     if (!integer && !fractional) {
         tuned.nearest = nearest_of(search, plant, tuned.wish);

@@ -44,7 +44,8 @@ struct Tuned {
     Trial trial;
     std::optional<Design> fractional;  ///< nothing: the wish cannot be met
     std::optional<Design> integer;
-    std::string nearest;  ///< where neither is there: what could be reached
+    std::optional<Design> steep;  ///< where the integer PID's phase is flat: the best one that need not be
+    std::string nearest;          ///< where neither is there: what could be reached
     /// The part of the integer PID's load error that the fraction saves, limits included. \pre both are there
     [[nodiscard]] double saving() const;
 };

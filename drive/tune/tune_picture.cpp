@@ -14,6 +14,8 @@ struct Shown {
     const Design* design;
     const char* name;
     const char* style;
+    const char* colour = base::palette[0];
+    const char* title = name;
 };
 
 // Frequency, |L|, phase in degrees, |S|.
@@ -46,8 +48,11 @@ std::string course(const Course& course) {
 base::Picture picture_of(const Tuned& tuned, const std::string& name) {
     const SampledPlant plant(tuned.plant, tuned.request.sample_time_s, name);
     std::vector<Shown> shown;
+    if (tuned.steep) {
+        shown.push_back({&*tuned.steep, "steep", "dt 3 lc rgb", base::palette[2], "integer, not flat"});
+    }
     if (tuned.integer) {
-        shown.push_back({&*tuned.integer, "integer", "dt 2 lc rgb"});
+        shown.push_back({&*tuned.integer, "integer", "dt 2 lc rgb", base::palette[1]});
     }
     if (tuned.fractional) {
         shown.push_back({&*tuned.fractional, "fractional", "lc rgb"});
@@ -64,7 +69,7 @@ base::Picture picture_of(const Tuned& tuned, const std::string& name) {
         std::vector<std::string> curves;
         for (const Shown& one : shown) {
             curves.push_back(fmt::format("${}{} using 1:{} with lines lw 2 {} \"{}\" title \"{}\"", block, one.name,
-                                         column, one.style, base::palette[one.name[0] == 'f' ? 0 : 1], one.name));
+                                         column, one.style, one.colour, one.title));
         }
         return fmt::format("plot {}\n", fmt::join(curves, ", \\\n  "));
     };
@@ -88,7 +93,10 @@ base::Picture picture_of(const Tuned& tuned, const std::string& name) {
     script +=
         "unset arrow 1\nunset logscale x\nset format x \"%g\"\nset xrange [0:*]\nset yrange [*:*]\nset xlabel \"t "
         "[s]\" offset 0,0.5\nset key bottom right\nset title \"output: set point, then load\"\n" +
-        plot("t", 2) + "set title \"input\"\n" + plot("t", 3) + "unset multiplot\n";
+        plot("t", 2) + "set key top right\nset title \"input\"\n" + plot("t", 3) +
+        fmt::format("set title \"output: the load\"\nset xrange [{:.6g}:{:.6g}]\n", tuned.trial.until_s,
+                    1.6 * tuned.trial.until_s) +
+        plot("t", 2) + "unset multiplot\n";
     return {script, 1200, 680};
 }
 

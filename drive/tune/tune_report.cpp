@@ -12,7 +12,10 @@ using Json = nlohmann::ordered_json;
 
 std::string row(const Tuned& tuned, const std::string& words, const std::function<std::string(const Design&)>& value) {
     std::string line = fmt::format("  {:<44}", words);
-    for (const auto* design : {&tuned.fractional, &tuned.integer}) {
+    for (const auto* design : {&tuned.fractional, &tuned.integer, &tuned.steep}) {
+        if (design == &tuned.steep && !tuned.steep) {
+            break;
+        }
         line += fmt::format("{:>14}", *design ? value(**design) : std::string("-"));
     }
     return line + '\n';
@@ -43,26 +46,16 @@ Json to_json(const Design& design) {
     return json;
 }
 
-}  // namespace
-
-std::string wish_text(const Tuned& tuned) {
-    const Request& request = tuned.request;
-    return fmt::format(
-        "{}|S| at most {:.3g}",
-        request.crossover ? fmt::format("a margin of {} degrees at {} rad/s, ", *request.margin_deg, *request.crossover)
-                          : "",
-        tuned.wish.sensitivity);
-}
-
-std::string conclusion(const Tuned& tuned) {
+std::string saving_text(const Tuned& tuned) {
     if (!tuned.integer) {
         return "No integer PID with a stable loop meets this; the fractional one does.";
     }
     if (!tuned.fractional) {
         return "No fractional PID was found; the integer one meets this.";
     }
-    const double percent = 100.0 * tuned.saving();
-    const double setpoint = 100.0 * (1.0 - tuned.fractional->course.setpoint_iae / tuned.integer->course.setpoint_iae);
+    const auto tenths = [](double part) { return std::round(1000.0 * part) / 10.0 + 0.0; };  // no -0.0
+    const double percent = tenths(tuned.saving());
+    const double setpoint = tenths(1.0 - tuned.fractional->course.setpoint_iae / tuned.integer->course.setpoint_iae);
     const std::string flat =
         tuned.fractional->flat && !tuned.integer->flat
             ? " It has a flat phase, which no integer PID within this wish has: its margin holds when the gain changes."
@@ -80,14 +73,34 @@ std::string conclusion(const Tuned& tuned) {
         percent, setpoint, 100.0 * worthwhile_saving);
 }
 
+}  // namespace
+
+std::string wish_text(const Tuned& tuned) {
+    const Request& request = tuned.request;
+    return fmt::format(
+        "{}|S| at most {:.3g}",
+        request.crossover ? fmt::format("a margin of {} degrees at {} rad/s, ", *request.margin_deg, *request.crossover)
+                          : "",
+        tuned.wish.sensitivity);
+}
+
+std::string conclusion(const Tuned& tuned) {
+    std::string text = saving_text(tuned);
+    if (tuned.steep) {
+        text += fmt::format(" An integer PID whose phase need not be flat (steep) errs {:.2f} times the flat one's.",
+                            tuned.steep->course.load_iae / tuned.integer->course.load_iae);
+    }
+    return text;
+}
+
 std::string to_text(const Tuned& tuned, const std::string& name) {
     const Trial& trial = tuned.trial;
     std::string text = fmt::format("{}: {}\nwished: {}\n", name, drive::to_text(tuned.plant), wish_text(tuned));
     text += fmt::format(
         "sampled each {} s, with hold and aliases in every number below; filter {:.4g} s; what is computed is put out "
-        "at "
-        "once\n\n  {:<44}{:>14}{:>14}\n",
-        tuned.request.sample_time_s, *tuned.request.filter_s, "", "fractional", "integer");
+        "at once\n\n  {:<44}{:>14}{:>14}{}\n",
+        tuned.request.sample_time_s, *tuned.request.filter_s, "", "fractional", "integer",
+        tuned.steep ? " integer, steep" : "");
     const auto gains = [](const Design& design) { return design.controller.gains; };
     text += row(tuned, "kp", [&](const Design& d) { return number(gains(d).kp); });
     text += row(tuned, "ki", [&](const Design& d) { return number(gains(d).ki); });
@@ -135,6 +148,9 @@ std::string to_json(const Tuned& tuned, const std::string& model) {
     }
     if (tuned.integer) {
         json["integer"] = to_json(*tuned.integer);
+    }
+    if (tuned.steep) {
+        json["integer_steep"] = to_json(*tuned.steep);
     }
     json["conclusion"] = conclusion(tuned);
     return json.dump(2) + "\n";
