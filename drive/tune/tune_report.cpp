@@ -68,7 +68,7 @@ std::string saving_text(const Tuned& tuned) {
         return fmt::format("The fraction costs {:.1f} % of the load's error.{}", -percent, flat);
     }
     return fmt::format(
-        "The fraction buys nothing: {:.1f} % of the load's error, {:.1f} % of the set point's; below {:.0f} % "
+        "The fraction buys nothing against a load: {:.1f} % of its error ({:.1f} % of the set point's); below {:.0f} % "
         "take the integer PID (--integer).",
         percent, setpoint, 100.0 * worthwhile_saving);
 }
