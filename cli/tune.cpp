@@ -39,12 +39,12 @@ void run(const Options& options) {
     const tune::Tuned tuned = tune::tune(model, request, options.model.string());
     if (!tuned.fractional && !tuned.integer) {
         throw glsum::Failure(glsum::Exit::check_failed,
-                             fmt::format("{}: no PID, fractional or not, has {} with a stable loop; {}",
+                             fmt::format("{}: no PID, fractional or not, was found with {} and a stable loop; {}",
                                          options.model.string(), wish_text(tuned), tuned.nearest));
     }
     if (options.integer && !tuned.integer) {
         throw glsum::Failure(glsum::Exit::check_failed,
-                             fmt::format("{}: no integer PID has {} with a stable loop; a fractional one does",
+                             fmt::format("{}: no integer PID was found with {} and a stable loop; a fractional one was",
                                          options.model.string(), wish_text(tuned)));
     }
     put(options.json ? to_json(tuned, options.model.string()) : to_text(tuned, options.model.string()), {});

@@ -191,7 +191,7 @@ std::optional<Found> Search::best(const Wish& wish, Orders orders, const std::op
     if (wish.crossover) {
         space.point = point_of(plant_, *wish.crossover);
     } else {
-        space.ranges = {{std::log(0.05 * plant_.scale()), std::log(std::min(4.0 * plant_.scale(), plant_.nyquist()))},
+        space.ranges = {{std::log(0.01 * plant_.scale()), std::log(std::min(4.0 * plant_.scale(), plant_.nyquist()))},
                         {pi / 12.0, pi / 1.5}};
     }
     const std::vector<Space::Range> free_orders = {{least_order, 1.0}, {least_order, 1.0}};

@@ -48,7 +48,7 @@ Json to_json(const Design& design) {
 
 std::string saving_text(const Tuned& tuned) {
     if (!tuned.integer) {
-        return "No integer PID with a stable loop meets this; the fractional one does.";
+        return "No integer PID with a stable loop was found for this; a fractional one was.";
     }
     if (!tuned.fractional) {
         return "No fractional PID was found; the integer one meets this.";
