@@ -118,14 +118,14 @@ TEST(Margins, AgreeWithADenseSweep) {
     EXPECT_NEAR(degrees(tune::Grid(plant)(gains).phase_rad), phase, 0.5);
 }
 
-// (z - 1)(z - a) z^d + K (1 - a)(kp (z - 1) + ki h z) = 0
-int poles_outside(double a, int d, double gain, double kp, double ki_h) {
+// (z - 1)(z - a) z^d + jump (kp (z - 1) + ki h z) = 0, the plant's held step beginning with `jump`
+int poles_outside(double a, int d, double jump, double kp, double ki_h) {
     Eigen::VectorXd polynomial = Eigen::VectorXd::Zero(d + 3);  // rising powers
     polynomial(d) += a;
     polynomial(d + 1) += -(1.0 + a);
     polynomial(d + 2) += 1.0;
-    polynomial(0) += gain * (1.0 - a) * -kp;
-    polynomial(1) += gain * (1.0 - a) * (kp + ki_h);
+    polynomial(0) += jump * -kp;
+    polynomial(1) += jump * (kp + ki_h);
     Eigen::MatrixXd companion = Eigen::MatrixXd::Zero(d + 2, d + 2);
     companion.diagonal(-1).setOnes();
     companion.col(d + 1) = -polynomial.head(d + 2);
@@ -147,7 +147,8 @@ TEST(Stability, ByTheArgumentAsByRoots) {
         const int d = static_cast<int>(12.0 * share(chance));
         const SampledPlant plant(drive::make_fopdt(1.5, time_s, d * h), h, "plant");
         const drive::Gains gains{.kp = 4.0 * share(chance), .ki = 4.0 * share(chance)};
-        const int roots = poles_outside(std::exp(-h / time_s), d, 1.5, gains.kp, gains.ki * h);
+        const int roots =
+            poles_outside(std::exp(-h / time_s), d, -1.5 * std::expm1(-h / time_s), gains.kp, gains.ki * h);
         const Margins margins = tune::margins_of({&plant, gains});
         EXPECT_EQ(margins.unstable_poles, roots) << i;
         if (margins.sensitivity < 5.0) {
@@ -157,6 +158,19 @@ TEST(Stability, ByTheArgumentAsByRoots) {
     }
     EXPECT_GT(unstable, 15);
     EXPECT_LT(unstable, 50);
+}
+
+// Two integrations: where L begins, beyond -180 degrees or short of it, decides.
+TEST(Stability, OfTwoIntegrationsAsByRoots) {
+    const double h = 0.1;
+    const SampledPlant plant(integrator(1.0, 5 * h), h, "plant");
+    for (const auto& [kp, ki] : {std::pair(0.5, 0.05), std::pair(0.5, 1.5), std::pair(0.1, 0.4), std::pair(3.5, 0.1)}) {
+        const int roots = poles_outside(1.0, 5, h, kp, ki * h);
+        EXPECT_EQ(tune::margins_of({&plant, {.kp = kp, .ki = ki}}).unstable_poles, roots) << kp << ' ' << ki;
+        EXPECT_EQ(tune::Grid(plant)({.kp = kp, .ki = ki}).unstable_poles, roots) << kp << ' ' << ki;
+    }
+    EXPECT_EQ(poles_outside(1.0, 5, h, 0.5, 0.005), 0);
+    EXPECT_EQ(poles_outside(1.0, 5, h, 0.5, 0.15), 2);
 }
 
 // Without dead time, and sampled fast: zeros of s^lambda (P + kp) + ki by the argument principle on the orders as they
