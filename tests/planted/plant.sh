@@ -51,6 +51,7 @@ library_of() {
         bench/generate/*) echo bench/libglsum_generate.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
+        drive/tune/*) echo drive/tune/libglsum_tune.a ;;
         drive/*) echo drive/libglsum_drive.a ;;
         gap/cycles/*) echo gap/cycles/libglsum_gap_cycles.a ;;
         gap/exam/*) echo gap/exam/libglsum_exam.a ;;
@@ -76,6 +77,7 @@ tests_of() {
         bench/report/*) echo bench_tests browser_tests ;;
         bench/studies/horizon* | bench/studies/model* | bench/studies/record*) echo studies_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
+        drive/tune/*) echo tune_tests ;;
         drive/*) echo drive_tests ;;
         gap/cycles/*) echo gap_cycles_tests ;;
         gap/*) echo gap_parts_tests gap_tests ;;

@@ -1,0 +1,168 @@
+// Controllers found for wishes: they meet them by a dense sweep, nothing near is better, and what cannot be is said.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "base/failure.hpp"
+#include "drive/tune/tune.hpp"
+#include "drive/tune/tune_picture.hpp"
+#include "drive/tune/tune_report.hpp"
+#include "tests/drive/plants.hpp"
+
+namespace {
+
+using tune::Request;
+using tune::Tuned;
+
+Request with_margin(double degrees, double crossover, double h) {
+    Request request;
+    request.margin_deg = degrees;
+    request.crossover = crossover;
+    request.sample_time_s = h;
+    return request;
+}
+
+drive::Model motor() {  // 1 / (s (0.4 s + 1))
+    drive::Model model;
+    model.denominator = {{0.4, 2.0}, {1.0, 1.0}};
+    return model;
+}
+
+std::string said(const drive::Model& plant, const Request& request) {
+    try {
+        (void)tune::tune(plant, request, "plant");
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+        return failure.what();
+    }
+    return "nothing";
+}
+
+TEST(Tune, MarginAndCrossoverOnAFopdt) {
+    const Tuned tuned = tune::tune(plants::fopdt(), with_margin(60.0, 0.6, 0.01), "plant");
+    ASSERT_TRUE(tuned.fractional && tuned.integer);
+    for (const tune::Design* design : {&*tuned.fractional, &*tuned.integer}) {
+        EXPECT_NEAR(design->margins.phase_deg, 60.0, 0.1);
+        EXPECT_NEAR(design->margins.crossover, 0.6, 1e-3);
+        EXPECT_EQ(design->margins.unstable_poles, 0);
+        EXPECT_LE(design->margins.sensitivity, 2.001);
+        EXPECT_GT(design->controller.gains.ki, 0.0);
+        EXPECT_GE(design->controller.gains.kd, -1e-9);
+    }
+    EXPECT_EQ(tuned.integer->controller.gains.integral_order, 1.0);
+    EXPECT_EQ(tuned.integer->controller.gains.derivative_order, 1.0);
+    // A dead time of twice the lag: what the literature says of such plants, and so does the command.
+    EXPECT_LT(tuned.saving(), tune::worthwhile_saving);
+    EXPECT_NE(conclusion(tuned).find("The fraction buys nothing"), std::string::npos) << conclusion(tuned);
+    drive::check_fopid(tuned.fractional->controller, "pid");
+}
+
+TEST(Tune, FlatPhaseKeepsTheMargin) {
+    const Tuned tuned = tune::tune(motor(), with_margin(50.0, 10.0, 0.01), "plant");
+    ASSERT_TRUE(tuned.fractional && tuned.integer);
+    EXPECT_TRUE(tuned.fractional->flat);
+    EXPECT_FALSE(tuned.integer->flat);
+    EXPECT_GE(tuned.fractional->controller.gains.kp, -1e-6);  // one of the gains that it would like below 0
+    EXPECT_NEAR(tuned.fractional->margins.phase_slope, 0.0, 1e-3);
+    EXPECT_LT(std::fabs(tuned.fractional->weak_deg - 50.0), 2.0);
+    EXPECT_GT(std::fabs(tuned.integer->weak_deg - 50.0), 4.0);
+    EXPECT_NE(conclusion(tuned).find("has a flat phase, which no integer PID"), std::string::npos);
+}
+
+// Where both are flat, the integer PID that need not be stands beside them.
+TEST(Tune, RivalsAtTheirBest) {
+    const Tuned tuned = tune::tune(motor(), with_margin(60.0, 2.0, 0.01), "plant");
+    ASSERT_TRUE(tuned.fractional && tuned.integer && tuned.steep);
+    EXPECT_TRUE(tuned.integer->flat);
+    EXPECT_LE(tuned.steep->load_iae, tuned.integer->load_iae);
+    EXPECT_LE(tuned.fractional->load_iae, tuned.integer->load_iae);
+    EXPECT_NE(to_text(tuned, "plant").find("integer, steep"), std::string::npos);
+}
+
+TEST(Tune, LeastErrorWithinASensitivity) {
+    Request request;
+    request.sensitivity = 1.6;
+    request.sample_time_s = 0.01;
+    const Tuned tuned = tune::tune(plants::fopdt(), request, "plant");
+    ASSERT_TRUE(tuned.fractional && tuned.integer);
+    EXPECT_NEAR(tuned.integer->margins.sensitivity, 1.6, 0.01);
+    EXPECT_LE(tuned.integer->margins.sensitivity, 1.6008);
+    EXPECT_LE(tuned.fractional->load_iae, tuned.integer->load_iae * (1.0 + 1e-9));
+    // No gains near, or far, have less error within the same |S|: asked of the sweep, not of the grid.
+    const tune::SampledPlant plant(plants::fopdt(), 0.01, "plant");
+    const tune::LoadError load(plant, tuned.trial.until_s);
+    const drive::Gains best = tuned.integer->controller.gains;
+    std::mt19937 chance(3);
+    std::uniform_real_distribution<double> spread(-1.0, 1.0);
+    for (int i = 0; i < 400; ++i) {
+        const double width = i % 2 == 0 ? 0.1 : 0.7;
+        drive::Gains other = best;
+        other.kp *= std::exp(width * spread(chance));
+        other.ki *= std::exp(width * spread(chance));
+        other.kd *= std::exp(width * spread(chance));
+        if (load.iae(other) < 0.995 * tuned.integer->load_iae) {
+            const tune::Margins margins = tune::margins_of({&plant, other});
+            EXPECT_FALSE(margins.stable() && margins.sensitivity <= 1.6)
+                << other.kp << ' ' << other.ki << ' ' << other.kd;
+        }
+    }
+}
+
+TEST(Tune, APlantOfTheOtherSign) {
+    drive::Model plant = plants::fopdt();
+    plant.gain = -1.0;
+    const Tuned tuned = tune::tune(plant, with_margin(60.0, 0.6, 0.01), "plant");
+    ASSERT_TRUE(tuned.integer);
+    EXPECT_LT(tuned.integer->controller.gains.ki, 0.0);
+    EXPECT_NEAR(tuned.integer->margins.phase_deg, 60.0, 0.1);
+    EXPECT_EQ(tuned.integer->margins.unstable_poles, 0);
+}
+
+TEST(Tune, SaysWhatCouldBeReached) {
+    const Tuned tuned = tune::tune(plants::fopdt(), with_margin(60.0, 5.0, 0.01), "plant");
+    EXPECT_FALSE(tuned.fractional || tuned.integer);
+    const auto at = tuned.nearest.find("--crossover ");
+    ASSERT_NE(at, std::string::npos) << tuned.nearest;
+    const double reached = std::stod(tuned.nearest.substr(at + 12));
+    EXPECT_LT(reached, 5.0);
+    const Tuned again = tune::tune(plants::fopdt(), with_margin(60.0, 0.99 * reached, 0.01), "plant");
+    EXPECT_TRUE(again.fractional || again.integer) << reached;
+}
+
+TEST(Tune, RefusesContradictions) {
+    Request request = with_margin(30.0, 0.6, 0.01);
+    request.sensitivity = 1.5;
+    EXPECT_NE(said(plants::fopdt(), request).find("contradict each other: that margin has |S| = 1.93"),
+              std::string::npos);
+    request = with_margin(60.0, 0.6, 0.01);
+    request.low = 1.0;
+    request.high = 1.0;
+    EXPECT_NE(said(plants::fopdt(), request).find("--low 1 and --high 1 contradict each other"), std::string::npos);
+    request.low = 0.0;
+    request.high = 0.8;
+    EXPECT_NE(said(plants::fopdt(), request).find("needs an input of 1"), std::string::npos);
+    request = with_margin(60.0, 200.0, 0.01);
+    EXPECT_NE(said(plants::fopdt(), request).find("expected less than 157.1 rad/s"), std::string::npos);
+    request = with_margin(60.0, 0.6, 0.01);
+    request.margin_deg.reset();
+    EXPECT_NE(said(plants::fopdt(), request).find("expected both or neither"), std::string::npos);
+    Request nothing;
+    nothing.sample_time_s = 0.01;
+    EXPECT_NE(said(plants::fopdt(), nothing).find("expected --margin DEGREES with"), std::string::npos);
+}
+
+TEST(Tune, DrawsAndWritesWhatWasFound) {
+    Request request = with_margin(60.0, 0.6, 0.01);
+    request.low = 0.0;
+    request.high = 1.1;
+    const Tuned tuned = tune::tune(plants::fopdt(), request, "plant");
+    const std::string script = picture_of(tuned, "plant").script;
+    for (const char* word : {"$ffractional", "$finteger", "$tfractional", "open loop: phase", "|S|"}) {
+        EXPECT_NE(script.find(word), std::string::npos) << word;
+    }
+    EXPECT_NE(to_json(tuned, "m.json").find("\"schema\": \"glsum-tune-1\""), std::string::npos);
+    EXPECT_TRUE(tuned.integer->course.limited);
+}
+
+}  // namespace
