@@ -2,80 +2,28 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-#include <nlohmann/json.hpp>
-
-#include "base/failure.hpp"
 #include "drive/controller.hpp"
+#include "drive/controller_file.hpp"
+#include "drive/json_fields.hpp"
+#include "drive/refusal.hpp"
 
 namespace drive {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-[[noreturn]] void refuse(const std::string& message) { throw glsum::Failure(glsum::Exit::bad_input, message); }
-
-std::string shortened(const Json& value) { return value.dump().substr(0, 60); }
-
-// The object's fields; each that is taken is gone, so that what is left is not ours.
-class Fields {
-public:
-    Fields(Json object, std::string name) : object_(std::move(object)), name_(std::move(name)) {
-        if (!object_.is_object()) {
-            refuse(fmt::format("{}: expected an object, found {}", name_, shortened(object_)));
-        }
+std::vector<Term> take_terms(Fields& fields, const char* key) {
+    const Json list = fields.take(key);
+    if (!list.is_array()) {
+        refuse(fmt::format("{}: {}: expected an array of {{\"coefficient\", \"order\"}}, found {}", fields.name(), key,
+                           shortened(list)));
     }
-
-    [[nodiscard]] bool has(const char* key) const { return object_.contains(key); }
-    [[nodiscard]] const std::string& name() const { return name_; }
-
-    Json take(const char* key) {
-        if (!has(key)) {
-            refuse(fmt::format("{}: expected the field {}", name_, key));
-        }
-        Json value = object_[key];
-        object_.erase(key);
-        return value;
+    std::vector<Term> terms;
+    for (const Json& item : list) {
+        Fields term(item, fmt::format("{}: {}[{}]", fields.name(), key, terms.size()));
+        terms.push_back({term.number("coefficient"), term.number("order")});
+        term.refuse_rest("coefficient and order");
     }
-
-    double number(const char* key) {
-        const Json value = take(key);
-        if (!value.is_number()) {
-            refuse(fmt::format("{}: {}: expected a number, found {}", name_, key, shortened(value)));
-        }
-        return value.get<double>();
-    }
-
-    double number_or(const char* key, double otherwise) { return has(key) ? number(key) : otherwise; }
-
-    std::vector<Term> terms(const char* key) {
-        const Json list = take(key);
-        if (!list.is_array()) {
-            refuse(fmt::format("{}: {}: expected an array of {{\"coefficient\", \"order\"}}, found {}", name_, key,
-                               shortened(list)));
-        }
-        std::vector<Term> terms;
-        for (const Json& item : list) {
-            Fields fields(item, fmt::format("{}: {}[{}]", name_, key, terms.size()));
-            terms.push_back({fields.number("coefficient"), fields.number("order")});
-            fields.refuse_rest();
-        }
-        return terms;
-    }
-
-    void refuse_rest() const {
-        if (!object_.empty()) {
-            refuse(fmt::format("{}: expected coefficient and order alone, found {}", name_, object_.begin().key()));
-        }
-    }
-
-    [[nodiscard]] std::string rest() const { return object_.empty() ? "" : object_.dump(); }
-
-private:
-    Json object_;
-    std::string name_;
-};
+    return terms;
+}
 
 Kind take_kind(Fields& fields) {
     const Json value = fields.has("kind") ? fields.take("kind") : Json("fotf");
@@ -102,30 +50,10 @@ Json to_json(const std::vector<Term>& terms) {
     return list;
 }
 
-Json parse_file(const std::string& text, const std::string& name) {
-    try {
-        return Json::parse(text, [&](int depth, Json::parse_event_t, const Json&) {
-            if (depth > 8) {
-                refuse(fmt::format("{}: expected a model, found values nested {} deep", name, depth));
-            }
-            return true;
-        });
-    } catch (const Json::parse_error& error) {
-        const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(error.byte, text.size()));
-        const bool cut = text.find_last_not_of(" \t\r\n") == std::string::npos || error.byte > text.size();
-        refuse(fmt::format(
-            "{}:{}: {}", name, 1 + std::count(text.begin(), end, '\n'),
-            cut ? "the file ends in the middle; expected a model in JSON"
-                : fmt::format("expected JSON, found '{}'", text.substr(error.byte < 12 ? 0 : error.byte - 12, 20))));
-    } catch (const Json::out_of_range&) {
-        refuse(fmt::format("{}: expected finite numbers, found one beyond double precision", name));
-    }
-}
-
 }  // namespace
 
 Model parse_model(const std::string& text, const std::string& name) {
-    Fields fields(parse_file(text, name), name);
+    Fields fields(parse_json(text, name, "a model"), name);
     Model model;
     model.kind = take_kind(fields);
     const double gain = fields.number_or("gain", 1.0);
@@ -144,9 +72,9 @@ Model parse_model(const std::string& text, const std::string& name) {
         if (model.kind == Kind::niopdt) {
             refuse_field(fields, "numerator", model.kind);
         } else if (fields.has("numerator")) {
-            model.numerator = fields.terms("numerator");
+            model.numerator = take_terms(fields, "numerator");
         }
-        model.denominator = fields.terms("denominator");
+        model.denominator = take_terms(fields, "denominator");
         model.gain = gain;
         model.delay_s = delay_s;
     }
@@ -159,8 +87,12 @@ Model parse_model(const std::string& text, const std::string& name) {
 }
 
 Model parse_controller(const std::string& text, const std::string& name) {
-    Fields fields(parse_file(text, name), name);
-    if (!fields.has("kind") || fields.take("kind") != "pid") {
+    Fields fields(parse_json(text, name, "a controller"), name);
+    const Json kind = fields.has("kind") ? fields.take("kind") : Json();
+    if (kind == "fopid") {
+        return to_model(parse_fopid(text, name).gains, name);
+    }
+    if (kind != "pid") {
         return parse_model(text, name);
     }
     const Gains gains{fields.number_or("kp", 0.0),
