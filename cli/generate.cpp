@@ -223,7 +223,7 @@ void add_options(Command& command, const Words& words) {
         "generated\n"
         "(all but the host's vector kernels); or a kernel by name, at h = 1 ms unless --step-s says otherwise.\n"
         "--controller pid.json takes gains, orders, filter, limits and setpoint weight from a file; --max-error then "
-        "bounds the weights of its sums (1e-4)\nover --samples (a million).\n"
+        "bounds the weights of its sums (5e-4)\nover --samples (a million).\n"
         "Exit status: 0 written; 1 nothing fits, or --verify failed; 2 wrong use; 3 something is missing.\n"
         "Example: glsum generate --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --out half_derivative.h\n"
         "         glsum generate --order 0.5 --kernel ring_plain_q31 --taps 300 --out half_derivative.h --verify\n"

@@ -114,6 +114,28 @@ static int behaves(void)
     return after < 1.0F ? 1 : (printf("wound up: %g after three seconds of the other error\n", (double)after), 0);
 }
 
+/* Of orders (1, 1) without a filter: the usual PID of three coefficients, in velocity form. */
+static int is_three_coefficients(void)
+{
+    static pid_f32_instance line;
+    const double h = 0.001;
+    double x[3] = {0.0, 0.0, 0.0};
+    double u = 0.0;
+    int k;
+    pid_init_f32(&line);
+    for (k = 0; k < 20000; ++k) {
+        const float own = pid_step_f32(&line, 0.1F * (float)sin(0.01 * k), 0.0F);
+        x[2] = x[1];
+        x[1] = x[0];
+        x[0] = (double)(0.1F * (float)sin(0.01 * k));
+        u += (KP + KI * h + KD / h) * x[0] - (KP + 2.0 * KD / h) * x[1] + KD / h * x[2];
+        if (fabs((double)own - u) > 1e-6) {
+            return printf("sample %d: %.9g where three coefficients give %.9g\n", k, (double)own, u), 0;
+        }
+    }
+    return 1;
+}
+
 int main(void)
 {
     static double exact[samples];
@@ -123,7 +145,7 @@ int main(void)
     double sampling = 0.0;
     double largest = 0.0;
     int k;
-    if (!behaves()) {
+    if (!behaves() || (LAMBDA == 1 && MU == 1 && FILTER == 0 && !is_three_coefficients())) {
         return 1;
     }
     run(0.001, samples, 0, exact);

@@ -30,10 +30,10 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-std::string sum_header(const ControllerSpec& spec, double order, const std::string& prefix,
+std::string sum_header(const ControllerSpec& spec, const char* kernel, double order, const std::string& prefix,
                        const std::string& licence) {
     Spec sum;
-    sum.kernel = controller_kernel;
+    sum.kernel = kernel;
     sum.order = order;
     sum.taps = taps_for(order, spec);
     sum.step_s = spec.controller.sample_time_s;
@@ -55,10 +55,11 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     std::string upper = prefix + "_f32";
     std::transform(upper.begin(), upper.end(), upper.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    const std::string integral = sum_header(spec, 1.0 - gains.integral_order, prefix + "_integral", licence);
+    const std::string integral =
+        sum_header(spec, integral_kernel, 1.0 - gains.integral_order, prefix + "_integral", licence);
     const bool derives = gains.kd != 0.0;
     const std::string derivative =
-        derives ? sum_header(spec, gains.derivative_order, prefix + "_derivative", licence) : "";
+        derives ? sum_header(spec, derivative_kernel, gains.derivative_order, prefix + "_derivative", licence) : "";
 
     SteppedController stepped(spec);
     const std::vector<double> inputs = check_signal();
@@ -83,13 +84,10 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
         {"derivative_field", derives ? "    " + prefix + "_derivative_f32_instance derivative;\n" : ""},
         {"derivative_init", derives ? "    " + prefix + "_derivative_init_f32(&S->derivative);\n" : ""},
         {"derivative_index", derives ? "    size_t i;\n" : ""},
-        {"derivative_start", derives
-                                 ? fmt::format("    for (i = 0U; i < {0}_SAMPLES; ++i) {{\n"
-                                               "        S->derivative.past[i] = weighted;\n    }}\n"
-                                               "    for (i = {0}_PAST + 1U; i < {0}_SAMPLES; i += 2U) {{\n"
-                                               "        S->derivative.past[i] = 0; /* what a mode lost */\n    }}\n",
-                                               upper.substr(0, upper.size() - 4) + "_DERIVATIVE_F32")
-                                 : ""},
+        {"derivative_start", derives ? fmt::format("    for (i = 0U; i < {0}_SAMPLES; ++i) {{\n"
+                                                   "        S->derivative.past[i] = weighted;\n    }}\n",
+                                                   upper.substr(0, upper.size() - 4) + "_DERIVATIVE_F32")
+                                     : ""},
         {"kd_note", derives ? "" : " There is no derivative part: kd is not used."},
         {"kd_scaled", fmt::format("{}_pid_product(kd, {}_DERIVATIVE)", prefix, upper)},
         {"derivative_sum", derives ? prefix + "_derivative_step_f32(&S->derivative, weighted)" : std::string("0.0F")},
@@ -103,7 +101,7 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
         " *   float u = {}_step_f32(&pid, r, y);   once a sample\n *\n"
         " * {}_set_gains_f32 changes kp, ki, kd without a bump. At a limit the integral waits while it would drive\n"
         " * the output beyond it. NaN and infinities pass through and stay, until init.\n"
-        " * The weights of each sum are off by at most {} (the sum of the magnitudes over {} samples).\n",
+        " * The weights of the integral's sum are off by at most {} (the sum of the magnitudes over {} samples).\n",
         controller.sample_time_s, gains.kp, gains.ki, gains.integral_order, gains.kd, gains.derivative_order,
         gains.filter_s, controller.setpoint_weight, limit_text(controller.low), limit_text(controller.high), prefix,
         prefix, prefix, prefix, prefix, spec.max_error, spec.horizon);

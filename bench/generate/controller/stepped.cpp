@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 
 #include "base/failure.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
 #include "glsum/design/modes.hpp"
+#include "glsum/design/projection.hpp"
 #include "glsum/registry.hpp"
 
 namespace generate {
@@ -23,11 +25,14 @@ namespace {
 #undef GLSUM_KEEP
 #undef GLSUM_REAL
 
-using Kernel = glsum::Sum<glsum::Modes, glsum::Compensated, glsum::F32>;
+using Integral = glsum::Sum<glsum::Modes, glsum::Compensated, glsum::F32>;
+using Derivative = glsum::Sum<glsum::Modes, glsum::Plain, glsum::F32>;
 
+template <class Kernel>
 bench::HostLine<Kernel> line_of(double order, const ControllerSpec& spec) {
-    const bench::Length length = bench::length_of(controller_kernel, order, taps_for(order, spec), spec.horizon);
-    return bench::HostLine<Kernel>(bench::design_of(controller_kernel, order, length, spec.horizon));
+    const std::string name(Kernel::name());
+    const bench::Length length = bench::length_of(name, order, taps_for(order, spec), spec.horizon);
+    return bench::HostLine<Kernel>(bench::design_of(name, order, length, spec.horizon));
 }
 
 float limited(double real) {
@@ -41,13 +46,16 @@ std::size_t taps_for(double order, const ControllerSpec& spec) {
     if (!glsum::design::has_tail(order)) {
         return static_cast<std::size_t>(order) + 1;  // a whole order's weights end
     }
-    const auto found = glsum::design::design_modes({order, spec.horizon}, spec.max_error);
+    const bool derivative = order == spec.controller.gains.derivative_order;
+    const auto found =
+        glsum::design::design_modes({order, spec.horizon}, spec.max_error * (derivative ? derivative_share : 1.0));
     if (!found) {
         throw glsum::Failure(glsum::Exit::check_failed,
                              fmt::format("--max-error: no sum of order {} over {} samples keeps {}", order,
                                          spec.horizon, spec.max_error));
     }
-    return found->length();
+    // A second near tap costs more than one more mode.
+    return found->near_taps == 2 && glsum::design::least_near_taps(order) == 1 ? found->length() + 1 : found->length();
 }
 
 Factors factors_of(const drive::Fopid& controller) {
@@ -59,14 +67,14 @@ Factors factors_of(const drive::Fopid& controller) {
 struct SteppedController::State {
     glsum_pid pid{};
     float weight;
-    bench::HostLine<Kernel> integral;
-    std::optional<bench::HostLine<Kernel>> derivative;
+    bench::HostLine<Integral> integral;
+    std::optional<bench::HostLine<Derivative>> derivative;
 };
 
 SteppedController::SteppedController(const ControllerSpec& spec)
     : state_(new State{{},
                        static_cast<float>(spec.controller.setpoint_weight),
-                       line_of(1.0 - spec.controller.gains.integral_order, spec),
+                       line_of<Integral>(1.0 - spec.controller.gains.integral_order, spec),
                        {}}) {
     const drive::Gains& gains = spec.controller.gains;
     const Factors factors = factors_of(spec.controller);
@@ -81,7 +89,7 @@ SteppedController::SteppedController(const ControllerSpec& spec)
                    0.0F,
                    0.0F};
     if (gains.kd != 0.0) {
-        state_->derivative.emplace(line_of(gains.derivative_order, spec));
+        state_->derivative.emplace(line_of<Derivative>(gains.derivative_order, spec));
     }
     glsum_pid_start(&state_->pid, 0.0F, 0.0F);
     (void)glsum_pid_change;

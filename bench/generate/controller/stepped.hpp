@@ -11,15 +11,20 @@ namespace generate {
 /// What a controller is made for.
 struct ControllerSpec {
     drive::Fopid controller;
-    double max_error = 1e-4;          ///< of each sum's weights, the sum of magnitudes, before powers of h
+    double max_error = 5e-4;          ///< of the integral's weights, the sum of magnitudes, before powers of h
     std::size_t horizon = 1'000'000;  ///< samples that it counts over
 };
+
+/// What the derivative's weights may be off by, times `max_error`: nothing adds their errors up.
+inline constexpr double derivative_share = 2.0;
 
 /// Length of the sum of this order, within the error. \throws glsum::Failure (check failed) where none is
 [[nodiscard]] std::size_t taps_for(double order, const ControllerSpec& spec);
 
-/// The kernel of both sums: each state carries what its steps lost, or slow ones would stop.
-inline constexpr const char* controller_kernel = "modes_compensated_f32";
+/// The kernel of the integral's sum: each state carries what its steps lost, or slow ones would stop.
+inline constexpr const char* integral_kernel = "modes_compensated_f32";
+/// And of the derivative's, whose slow states weigh next to nothing.
+inline constexpr const char* derivative_kernel = "modes_plain_f32";
 
 class SteppedController {
 public:
