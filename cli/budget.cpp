@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <thread>
 
@@ -99,10 +100,15 @@ std::optional<glsum::design::DerivativeGoal> to_goal(const Budget& budget) {
 
 }  // namespace
 
-std::shared_ptr<Budget> add_budget(Command& command) {
+std::shared_ptr<Budget> add_budget(Command& command, bool needs_order) {
     auto budget = std::make_shared<Budget>();
     budget->jobs = std::max(1U, std::thread::hardware_concurrency());
-    command.add_option("--order", budget->order, "Order v in (-2, 2]").within(-2, 2).required();
+    Option order = command.add_option("--order", budget->order, "Order v in (-2, 2]").within(-2, 2);
+    if (needs_order) {
+        order.required();
+    } else {
+        budget->order = std::numeric_limits<double>::quiet_NaN();
+    }
     command
         .add_option("--step-s", budget->step_s,
                     "Seconds from sample to sample: the sines and the drive's response are sampled there")

@@ -34,8 +34,9 @@ struct Budget {
     unsigned jobs = 1;
 };
 
-/// Adds the options. \return the budget that they fill.
-std::shared_ptr<Budget> add_budget(Command& command);
+/// Adds the options. \param needs_order  else the order may be left out, and is then not a number
+/// \return the budget that they fill.
+std::shared_ptr<Budget> add_budget(Command& command, bool needs_order = true);
 
 /// Samples of the records.
 [[nodiscard]] std::size_t samples_of(const Budget& budget);

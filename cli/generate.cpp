@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <optional>
 
@@ -19,6 +20,7 @@
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
+#include "cli/generate_controller.hpp"
 
 namespace cli {
 namespace {
@@ -32,6 +34,8 @@ struct Options {
     std::string prefix;
     std::string licence;
     std::string out;
+    std::string controller;
+    std::string plant;
     bool verify = false;
 };
 
@@ -113,6 +117,23 @@ generate::Spec to_spec(const Options& options, const Budget& budget, const std::
 }
 
 void run(const Options& options, Budget budget, const std::string& command) {
+    if (!options.controller.empty()) {
+        if (options.verify || !options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
+            refuse(
+                "--controller: expected --out, --plant, --prefix, --licence, --max-error and --samples alone beside "
+                "it");
+        }
+        generate_controller({options.controller, options.plant, options.out, options.prefix, options.licence,
+                             budget.max_error, budget.samples},
+                            command);
+        return;
+    }
+    if (!options.plant.empty()) {
+        refuse("--plant: expected --controller beside it");
+    }
+    if (std::isnan(budget.order)) {
+        refuse("--order is required");
+    }
     if (options.out.empty() && !options.verify) {
         refuse("--out: expected a file to write (or --verify alone)");
     }
@@ -180,7 +201,7 @@ void run(const Options& options, Budget budget, const std::string& command) {
 }  // namespace
 
 void add_options(Command& command, const Words& words) {
-    auto budget = add_budget(command);
+    auto budget = add_budget(command, false);
     auto options = std::make_shared<Options>();
     command.add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
     command.add_option("--taps", options->taps,
@@ -189,6 +210,10 @@ void add_options(Command& command, const Words& words) {
                        "Begins every identifier of the header (default: the name of its file)");
     command.add_option("--licence", options->licence, "The header's licence line");
     command.add_option("--out", options->out, "The header");
+    command.add_option("--controller", options->controller,
+                       "A controller file instead of a sum: a fractional PID with limits as one header");
+    command.add_option("--plant", options->plant,
+                       "With --controller: a model file; the loop is measured beside full memory in double");
     command.add_flag("--verify", options->verify,
                      "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
                      "modelled cycles and the kernel's");
@@ -197,9 +222,12 @@ void add_options(Command& command, const Words& words) {
         "chooses, among the kernels that can be "
         "generated\n"
         "(all but the host's vector kernels); or a kernel by name, at h = 1 ms unless --step-s says otherwise.\n"
+        "--controller pid.json takes gains, orders, filter, limits and setpoint weight from a file; --max-error then "
+        "bounds the weights of its sums (5e-4)\nover --samples (a million).\n"
         "Exit status: 0 written; 1 nothing fits, or --verify failed; 2 wrong use; 3 something is missing.\n"
         "Example: glsum generate --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --out half_derivative.h\n"
-        "         glsum generate --order 0.5 --kernel ring_plain_q31 --taps 300 --out half_derivative.h --verify");
+        "         glsum generate --order 0.5 --kernel ring_plain_q31 --taps 300 --out half_derivative.h --verify\n"
+        "         glsum generate --controller pid.json --out pid.h");
     command.callback([options, budget, &words] { run(*options, *budget, words.line); });
 }
 

@@ -1,0 +1,107 @@
+#include "bench/generate/controller/stepped.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "base/failure.hpp"
+#include "bench/sweep/designs.hpp"
+#include "bench/sweep/host_line.hpp"
+#include "glsum/design/modes.hpp"
+#include "glsum/design/projection.hpp"
+#include "glsum/registry.hpp"
+
+namespace generate {
+namespace {
+
+// Compiled without fused products.
+#define GLSUM_REAL float
+#define GLSUM_KEEP(value) ((void)(value))
+#include "glsum/model/pid.h"
+#undef GLSUM_KEEP
+#undef GLSUM_REAL
+
+using Integral = glsum::Sum<glsum::Modes, glsum::Compensated, glsum::F32>;
+using Derivative = glsum::Sum<glsum::Modes, glsum::Plain, glsum::F32>;
+
+template <class Kernel>
+bench::HostLine<Kernel> line_of(double order, const ControllerSpec& spec) {
+    const std::string name(Kernel::name());
+    const bench::Length length = bench::length_of(name, order, taps_for(order, spec), spec.horizon);
+    return bench::HostLine<Kernel>(bench::design_of(name, order, length, spec.horizon));
+}
+
+float limited(double real) {
+    constexpr double most = std::numeric_limits<float>::max();
+    return static_cast<float>(std::clamp(real, -most, most));
+}
+
+}  // namespace
+
+std::size_t taps_for(double order, const ControllerSpec& spec) {
+    if (!glsum::design::has_tail(order)) {
+        return static_cast<std::size_t>(order) + 1;  // a whole order's weights end
+    }
+    const bool derivative = order == spec.controller.gains.derivative_order;
+    const auto found =
+        glsum::design::design_modes({order, spec.horizon}, spec.max_error * (derivative ? derivative_share : 1.0));
+    if (!found) {
+        throw glsum::Failure(glsum::Exit::check_failed,
+                             fmt::format("--max-error: no sum of order {} over {} samples keeps {}", order,
+                                         spec.horizon, spec.max_error));
+    }
+    // A second near tap costs more than one more mode.
+    return found->near_taps == 2 && glsum::design::least_near_taps(order) == 1 ? found->length() + 1 : found->length();
+}
+
+Factors factors_of(const drive::Fopid& controller) {
+    const double h = controller.sample_time_s;
+    return {h / (h + controller.gains.filter_s), std::pow(h, controller.gains.integral_order),
+            std::pow(h, -controller.gains.derivative_order)};
+}
+
+struct SteppedController::State {
+    glsum_pid pid{};
+    float weight;
+    bench::HostLine<Integral> integral;
+    std::optional<bench::HostLine<Derivative>> derivative;
+};
+
+SteppedController::SteppedController(const ControllerSpec& spec)
+    : state_(new State{{},
+                       static_cast<float>(spec.controller.setpoint_weight),
+                       line_of<Integral>(1.0 - spec.controller.gains.integral_order, spec),
+                       {}}) {
+    const drive::Gains& gains = spec.controller.gains;
+    const Factors factors = factors_of(spec.controller);
+    state_->pid = {static_cast<float>(gains.kp),
+                   static_cast<float>(gains.ki * factors.integral),
+                   static_cast<float>(gains.kd * factors.derivative),
+                   static_cast<float>(factors.passes),
+                   limited(spec.controller.low),
+                   limited(spec.controller.high),
+                   0.0F,
+                   0.0F,
+                   0.0F,
+                   0.0F};
+    if (gains.kd != 0.0) {
+        state_->derivative.emplace(line_of<Derivative>(gains.derivative_order, spec));
+    }
+    glsum_pid_start(&state_->pid, 0.0F, 0.0F);
+    (void)glsum_pid_change;
+}
+
+SteppedController::~SteppedController() = default;
+
+float SteppedController::step(float setpoint, float measured) {
+    const float weighted = glsum_pid_product(state_->weight, setpoint) - measured;
+    const float integral = state_->integral.step(setpoint - measured);
+    return glsum_pid_step(&state_->pid, weighted, integral,
+                          state_->derivative ? state_->derivative->step(weighted) : 0.0F);
+}
+
+}  // namespace generate

@@ -1,0 +1,51 @@
+// A fractional PID in single precision as a generated header steps it, here: the same kernels, the same statements.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+
+#include "drive/controller_file.hpp"
+
+namespace generate {
+
+/// What a controller is made for.
+struct ControllerSpec {
+    drive::Fopid controller;
+    double max_error = 5e-4;          ///< of the integral's weights, the sum of magnitudes, before powers of h
+    std::size_t horizon = 1'000'000;  ///< samples that it counts over
+};
+
+/// What the derivative's weights may be off by, times `max_error`: nothing adds their errors up.
+inline constexpr double derivative_share = 2.0;
+
+/// Length of the sum of this order, within the error. \throws glsum::Failure (check failed) where none is
+[[nodiscard]] std::size_t taps_for(double order, const ControllerSpec& spec);
+
+/// The kernel of the integral's sum: each state carries what its steps lost, or slow ones would stop.
+inline constexpr const char* integral_kernel = "modes_compensated_f32";
+/// And of the derivative's, whose slow states weigh next to nothing.
+inline constexpr const char* derivative_kernel = "modes_plain_f32";
+
+class SteppedController {
+public:
+    explicit SteppedController(const ControllerSpec& spec);
+    ~SteppedController();
+    SteppedController(const SteppedController&) = delete;
+    SteppedController& operator=(const SteppedController&) = delete;
+    /// u for the setpoint and what was measured, from rest.
+    float step(float setpoint, float measured);
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// h / (h + filter_s), h^lambda, h^-mu.
+struct Factors {
+    double passes;
+    double integral;
+    double derivative;
+};
+[[nodiscard]] Factors factors_of(const drive::Fopid& controller);
+
+}  // namespace generate

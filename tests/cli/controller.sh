@@ -1,0 +1,54 @@
+#!/bin/sh
+# generate --controller: what is refused, and the header in a loop around plant (12) beside full memory in double.
+# Arguments: the glsum program, the sources' folder.
+set -u
+program=$1 sources=$2
+. "$(dirname "$0")/expect.sh"
+cat >"$folder/pid.json" <<'END'
+{"kind": "fopid", "kp": 0.3, "ki": 0.5, "kd": 0.02, "integral_order": 0.9, "derivative_order": 0.7,
+ "filter_s": 0.01, "sample_time_s": 0.001, "low": -2, "high": 2, "setpoint_weight": 0.8}
+END
+echo '{"kind": "fopid", "kp": 0.3, "ki": 0.5, "kd": 0.001, "sample_time_s": 0.001, "low": -2, "high": 2}' >"$folder/whole.json"
+echo '{"kind": "fopid", "kp": 0.3, "ki": 0.5, "integral_order": 0.8, "sample_time_s": 0.001, "low": -2, "high": 2}' >"$folder/pi.json"
+echo '{"kind": "fopid", "kp": 0.3}' >"$folder/broken.json"
+expect 2 "broken.json: expected the field sample_time_s" generate --controller "$folder/broken.json" --out "$folder/no.h"
+expect 2 "--out: expected a file to write" generate --controller "$folder/pid.json"
+expect 2 "--controller: expected --out" generate --controller "$folder/pid.json" --kernel ring_plain_f32 --out "$folder/no.h"
+expect 2 "--order is required" generate --kernel ring_plain_f32 --taps 3 --out "$folder/no.h"
+[ ! -e "$folder/no.h" ] || { echo "a refused header was written"; failures=$((failures + 1)); }
+
+# NAME DEFINITIONS: generates NAME.h under one prefix, compiles it here and for the target, and runs the loop.
+try() {
+    expect 0 "sums of" generate --controller "$folder/$1.json" --prefix pid --out "$folder/$1.h"
+    shift_name=$1
+    shift
+    for compiler in gcc clang; do
+        command -v $compiler >/dev/null 2>&1 || continue
+        if ! $compiler -std=c99 -D_GNU_SOURCE -O2 -Wall -Wextra -Wconversion -Werror -DHEADER="\"$shift_name.h\"" "$@" \
+            -I"$folder" "$sources/tests/cli/controller_loop.c" -lm -o "$folder/run" 2>"$folder/compiled"; then
+            echo "$compiler refuses $shift_name.h:"; head -n 10 "$folder/compiled"
+            failures=$((failures + 1))
+        elif ! "$folder/run" >"$folder/loop"; then
+            echo "$compiler, $shift_name: expected a loop within 1e-4 of full memory, found:"; cat "$folder/loop"
+            failures=$((failures + 1))
+        else
+            cat "$folder/loop"
+        fi
+    done
+    printf '#include "%s.h"\nvoid step_all(pid_f32_instance *S, float *u);\nvoid step_all(pid_f32_instance *S, float *u) { *u = pid_step_f32(S, *u, 0.0F); pid_start_f32(S, 0.0F, 0.0F, *u); pid_set_gains_f32(S, 1.0F, 1.0F, 1.0F); }\n' "$shift_name" >"$folder/unit.c"
+    for line in "arm-none-eabi-gcc -std=c99 -mcpu=cortex-m7 -mfpu=fpv5-sp-d16 -mfloat-abi=hard" "g++ -x c++"; do
+        command -v ${line%% *} >/dev/null 2>&1 || continue
+        $line -O2 -Wall -Wextra -Wconversion -Werror -c "$folder/unit.c" -o "$folder/unit.o" ||
+            { echo "$line refuses $shift_name.h"; failures=$((failures + 1)); }
+    done
+}
+
+try_with() {
+    name=$1 kd=$2 lambda=$3 mu=$4 filter=$5 weight=$6
+    set -- "$name" -DKP=0.3 -DKI=0.5 "-DKD=$kd" "-DLAMBDA=$lambda" "-DMU=$mu" "-DFILTER=$filter" "-DWEIGHT=$weight"
+    try "$@"
+}
+try_with pid 0.02 0.9 0.7 0.01 0.8
+try_with pi 0 0.8 1 0 1
+try_with whole 0.001 1 1 0 1
+[ "$failures" -eq 0 ]
