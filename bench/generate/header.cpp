@@ -10,6 +10,7 @@
 #include "base/failure.hpp"
 #include "base/rounded_up.hpp"
 #include "bench/generate/kernel_data.hpp"
+#include "bench/generate/shared.hpp"
 #include "bench/generate/text.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
@@ -363,8 +364,13 @@ std::string step_body(const KernelData& data, std::size_t past) {
                              (waits ? push + technique.closing : technique.closing + history.behind + push) +
                              "    return @name@_finish(S, sum);\n";
     const bool has_head = history.fields.find(" head;") != std::string::npos;
-    const bool has_index = body.find("i = ") != std::string::npos;
-    return std::string(has_head ? "    size_t head = S->head;\n" : "") + (has_index ? "    size_t i;\n" : "") + body;
+    // The kernels' loops bring an index of their own.
+    std::size_t indices = 0;
+    for (std::size_t at = 0; (at = body.find("(i = ", at)) != std::string::npos; ++at) {
+        ++indices;
+    }
+    const bool has_index = indices > 0 || body.find("    i = ") != std::string::npos;
+    return std::string(has_head ? "    uint32_t head = S->head;\n" : "") + (has_index ? "    size_t i;\n" : "") + body;
 }
 
 // The Cortex-M7's own loop of this name, where the body takes one.
@@ -390,7 +396,10 @@ std::string m7_loop_of(const std::string& name) {
 std::string helpers_of(const KernelData& data, const std::string& body) {
     std::string used = body;
     std::string text;
-    const auto& all = data.format_text.helpers;
+    auto all = data.format_text.helpers;
+    all.emplace_back(
+        "next_head",
+        shared("next_head", {{"[[nodiscard]] constexpr", "@NAME@_HELPER"}, {"next_head", "@name@_next_head"}}, 0));
     for (auto helper = all.rbegin(); helper != all.rend(); ++helper) {
         if (used.find("@name@_" + helper->first + "(") != std::string::npos) {
             text = "\n" + helper->second + text;

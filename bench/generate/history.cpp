@@ -1,4 +1,5 @@
 #include "bench/generate/parts.hpp"
+#include "bench/generate/shared.hpp"
 
 namespace generate {
 namespace {
@@ -18,44 +19,43 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
+const Words in_window = {{"samples", "S->past"}, {"T", "@sample@"}};
+const Words in_push = {
+    {"samples", "S->past"}, {"past", "@NAME@_PAST"}, {"T", "@sample@"}, {"next_head", "@name@_next_head"}};
+
 }  // namespace
 
-// The value passes through an empty instruction: without it compilers make the loop a call of memmove, which small C
-// libraries copy byte by byte.
 HistoryText history_text(glsum::Shift) {
     return {.summary = "every sample moves one place on at each step",
             .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ... */\n",
             .reset = clear,
             .pieces = {{"S->past", "S->past + @NAME@_PAST", "", "@NAME@_PAST"}},
-            .push = R"(    for (i = @NAME@_PAST - 1U; i > 0U; --i) {
-        @moved@ moved = S->past[i - 1U];
-        @NAME@_KEEP_WORD(moved);
-        S->past[i] = (@sample@)moved;
-    }
-    S->past[0] = newest;
-)"};
+            .window = shared("shift window", in_window),
+            .push = shared("shift push", in_push)};
 }
 
 HistoryText history_text(glsum::Ring) {
     return {.summary = "samples stay in place, the head moves down and wraps",
             .fields =
-                "    size_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
+                "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES];\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
             .pieces = {{"S->past + head", "S->past + @NAME@_PAST", "", "(@NAME@_PAST - head)"},
                        {"S->past", "S->past + head", "(@NAME@_PAST - head)", "@NAME@_PAST", "head != 0U"}},
-            .push = std::string(next_head) + "    S->head = head;\n    S->past[head] = newest;\n"};
+            .window = shared("ring window", in_window),
+            .two_pieces = true,
+            .push = shared("ring push", in_push) + "    S->head = head;\n"};
 }
 
 HistoryText history_text(glsum::Mirror) {
     return {.summary = "a ring kept twice, so that the past is one piece",
             .fields =
-                "    size_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
+                "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES]; /* twice the same */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
             .pieces = {{"S->past + head", "S->past + head + @NAME@_PAST", "", "@NAME@_PAST"}},
-            .push = std::string(next_head) +
-                    "    S->head = head;\n    S->past[head] = newest;\n    S->past[head + @NAME@_PAST] = newest;\n"};
+            .window = shared("mirror window", in_window),
+            .push = shared("mirror push", in_push) + "    S->head = head;\n"};
 }
 
 HistoryText history_text(glsum::Modes) {
@@ -91,7 +91,7 @@ HistoryText history_text(glsum::Nested) {
                 "  s_b the sum of x_(k-j), w_b the mean of a_j over the lags j of block b\n\n"
                 "one sum a sample;",
             .fields =
-                "    size_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
+                "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES]; /* behind the samples the sums of 2, of 4, ...: one ring */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
             .pieces = {},

@@ -47,7 +47,7 @@ TechniqueText text_of(const HistoryText& history, std::size_t past, const std::v
     using namespace glsum;
     constexpr bool f32 = std::is_same_v<Format, F32>;
     if constexpr (one_of<Technique, Plain, PlainFma>) {
-        return plain_text(history, std::is_same_v<Technique, PlainFma>);
+        return plain_text(history, std::is_same_v<Technique, PlainFma>, std::is_same_v<Format, Q15C31>);
     } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
         return oldest_text(history, std::is_same_v<Technique, OldestFma>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "glsum/lookahead/block.hpp"
-#include "glsum/window/mirror.hpp"
 #include "glsum/exponentials/modes.hpp"
 #include "glsum/logmemory/nested.hpp"
+#include "glsum/lookahead/block.hpp"
+#include "glsum/window/mirror.hpp"
 #include "glsum/window/ring.hpp"
 #include "glsum/window/shift.hpp"
 
@@ -30,10 +30,12 @@ struct Piece {
 /// How a history is written.
 struct HistoryText {
     std::string summary;
-    std::string formula = {};       ///< of the sum, in the opening comment; empty: that of a window
-    std::string fields;             ///< of the instance
-    std::string reset;              ///< statements of `init`
-    std::vector<Piece> pieces;      ///< newest first
+    std::string formula = {};   ///< of the sum, in the opening comment; empty: that of a window
+    std::string fields;         ///< of the instance
+    std::string reset;          ///< statements of `init`
+    std::vector<Piece> pieces;  ///< newest first
+    std::string window = {};    ///< declarations of the same pieces, as the kernels call them
+    bool two_pieces = false;
     std::string push;               ///< statements that store `newest`
     std::string before = {};        ///< statements before the sum, which may change `newest`
     std::string behind_start = {};  ///< a statement between a sum's start and its loops
@@ -81,7 +83,8 @@ struct FormatText {
 /// A window of `past` samples and a guess of what it dropped; with `to_first` on the line to the first sample.
 [[nodiscard]] HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first);
 
-[[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused);
+/// \param mixed  samples of half a word, coefficients of a whole one
+[[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused, bool mixed);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
 /// \param in_software  on some targets, of a history in one piece \param m7  the loop that gives the same bits; empty:
 /// none

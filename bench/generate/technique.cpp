@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bench/generate/parts.hpp"
+#include "bench/generate/shared.hpp"
 #include "bench/generate/text.hpp"
 
 namespace generate {
@@ -41,6 +42,16 @@ std::string oldest_first(const HistoryText& history, const std::string& body, co
     return text;
 }
 
+// What a kernel's sum is given. Of a known length GCC 12 counts the turns over an older piece, and unrolls four loads
+// of half a word into more instructions than their loop has.
+std::string window_of(const HistoryText& history, bool mixed) {
+    return std::string("    size_t past = @NAME@_PAST;\n") +
+           (history.two_pieces || mixed ? "    @NAME@_KEEP_WORD(past);\n" : "") +
+           "    const @coefficient@ *table = @name@_table;\n" + history.window;
+}
+
+Words of(bool fused) { return {{"accumulate<Format, fused>", accumulate(fused)}}; }
+
 std::string nest(bool fused) { return fused ? "@name@_fused_nest" : "@name@_nest"; }
 // `body`, but on a Cortex-M7 what gives the same by a loop of its own.
 std::string or_on_m7(const std::string& on_m7, const std::string& body) {
@@ -54,10 +65,10 @@ std::string unrolled(int turns) {
 
 }  // namespace
 
-TechniqueText plain_text(const HistoryText& history, bool fused) {
+TechniqueText plain_text(const HistoryText& history, bool fused, bool mixed) {
     return {.summary = "newest first, one accumulator" + rounded_once(fused),
-            .sum = std::string("    @accumulator@ sum = @name@_start(newest);\n") + history.behind_start +
-                   newest_first(history, "            sum = " + accumulate(fused) + "(sum, *a, *x);\n"),
+            .sum = window_of(history, mixed) + shared("plain", of(fused)) + history.behind_start +
+                   shared("plain newer", of(fused)) + (history.two_pieces ? shared("plain older", of(fused)) : ""),
             .fused = fused};
 }
 
@@ -371,8 +382,8 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
             .pushes = true};
 }
 
-// kernels/glsum/logmemory/nested.hpp. In fixed point GCC 12 must not know that `past` lies behind other members: it would
-// add their size in every turn. In software double it must not know how many turns there are.
+// kernels/glsum/logmemory/nested.hpp. In fixed point GCC 12 must not know that `past` lies behind other members: it
+// would add their size in every turn. In software double it must not know how many turns there are.
 TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed, bool in_software) {
     std::string text = "    @accumulator@ sum = @name@_start(newest);\n";
     if (near_samples > 0) {

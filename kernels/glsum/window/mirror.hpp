@@ -18,7 +18,11 @@ struct Mirror {
 
     template <class T>
     static Window<T> window(const T* samples, std::size_t past, std::uint32_t head) {
-        return {samples + head, past, samples, 0, head};
+        // C99: mirror window
+        const T* const newer = samples + head;
+        const std::size_t newer_count = past;
+        // C99 end
+        return {newer, newer_count, samples, 0, head};
     }
 
     template <class T>
@@ -26,9 +30,12 @@ struct Mirror {
         if (past == 0) {
             return;
         }
+        // C99: mirror push
         head = next_head(head, past);
+        GLSUM_KEEP_WORD(head);
         samples[head] = newest;
         samples[head + past] = newest;
+        // C99 end
     }
 
     /// Of `past` samples held the oldest, from `kept` on, meet zeros: what is not finite must not.

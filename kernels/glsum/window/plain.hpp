@@ -31,14 +31,21 @@ protected:
     [[gnu::always_inline]] static inline typename Format::Accumulator newest_first(
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
-        auto sum = Format::start(newest, scale);
+        using Accumulator = typename Format::Accumulator;
+        // C99: plain
+        Accumulator sum = Format::start(newest, scale);
+        // C99: plain newer
+        GLSUM_ROLLED
         for (std::size_t i = 0; i < window.newer_count; ++i) {
             sum = accumulate<Format, fused>(sum, table[i], window.newer[i]);
         }
+        // C99: plain older
         table += window.newer_count;
+        GLSUM_ROLLED
         for (std::size_t i = 0; i < window.older_count; ++i) {
             sum = accumulate<Format, fused>(sum, table[i], window.older[i]);
         }
+        // C99 end
         return sum;
     }
 };

@@ -18,7 +18,13 @@ struct Ring {
 
     template <class T>
     static Window<T> window(const T* samples, std::size_t past, std::uint32_t head) {
-        return {samples + head, past - head, samples, head, head};
+        // C99: ring window
+        const T* const newer = samples + head;
+        const std::size_t newer_count = past - head;
+        const T* const older = samples;
+        const std::size_t older_count = head;
+        // C99 end
+        return {newer, newer_count, older, older_count, head};
     }
 
     template <class T>
@@ -26,8 +32,11 @@ struct Ring {
         if (past == 0) {
             return;
         }
+        // C99: ring push
         head = next_head(head, past);
+        GLSUM_KEEP_WORD(head);
         samples[head] = newest;
+        // C99 end
     }
 };
 

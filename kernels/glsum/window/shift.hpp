@@ -18,7 +18,11 @@ struct Shift {
 
     template <class T>
     static Window<T> window(const T* samples, std::size_t past, std::uint32_t) {
-        return {samples, past, samples, 0, 0};
+        // C99: shift window
+        const T* const newer = samples;
+        const std::size_t newer_count = past;
+        // C99 end
+        return {newer, newer_count, samples, 0, 0};
     }
 
     template <class T>
@@ -26,10 +30,15 @@ struct Shift {
         if (past == 0) {
             return;
         }
+        // C99: shift push
+        // Where its flags are not ours a compiler would call memmove, which small C libraries copy byte by byte.
         for (std::size_t i = past - 1; i > 0; --i) {
-            samples[i] = samples[i - 1];
+            T moved = samples[i - 1];
+            GLSUM_KEEP_WORD(moved);
+            samples[i] = moved;
         }
         samples[0] = newest;
+        // C99 end
     }
 };
 

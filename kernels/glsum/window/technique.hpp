@@ -23,6 +23,7 @@
 
 #include <cstddef>
 
+#include "glsum/c99.hpp"
 #include "glsum/kernel.hpp"
 #include "glsum/power_of_two.hpp"
 #include "glsum/weights.hpp"

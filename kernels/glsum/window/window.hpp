@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "glsum/c99.hpp"
+
 namespace glsum {
 
 template <class T>
@@ -18,8 +20,10 @@ struct Window {
 
 /// Where the newest of `past` samples of a ring goes when the one before lies at `head`: down, so that rising addresses
 /// run from new to old, as the coefficients do.
+// C99: next_head
 [[nodiscard]] constexpr std::uint32_t next_head(std::uint32_t head, std::size_t past) {
     return (head == 0 ? static_cast<std::uint32_t>(past) : head) - 1;
 }
+// C99 end
 
 }  // namespace glsum

@@ -1,0 +1,71 @@
+// Statements of the kernels in the words of a header: what is taken, what is left out, what is called otherwise.
+#include "bench/generate/shared.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include "base/build_info.hpp"
+#include "bench/generate/header.hpp"
+
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+TEST(Shared, IsTheKernelsTextInTheHeadersWords) {
+    EXPECT_EQ(generate::shared("plain older", {{"accumulate<Format, fused>", "@name@_multiply_add"}}),
+              "    table += newer_count;\n"
+              "@rolled@"
+              "    for (size_t i = 0; i < older_count; ++i) {\n"
+              "        sum = @name@_multiply_add(sum, table[i], older[i]);\n"
+              "    }\n");
+    EXPECT_EQ(generate::shared("plain"), "    @accumulator@ sum = @name@_start(newest);\n");
+    EXPECT_EQ(generate::shared("ring push", {{"samples", "S->past"}, {"past", "P"}}, 8),
+              "        head = next_head(head, P);\n"
+              "        @NAME@_KEEP_WORD(head);\n"
+              "        S->past[head] = newest;\n");
+    // A cast of C++ becomes one of C.
+    EXPECT_THAT(generate::shared("next_head"), HasSubstr("(head == 0 ? (uint32_t)(past) : head) - 1;"));
+    EXPECT_THROW((void)generate::shared("plain old"), std::out_of_range);
+    EXPECT_THROW((void)generate::shared(""), std::out_of_range);
+}
+
+// Each text is there once: a second one of its name would never be read.
+TEST(Shared, EveryNameIsTakenOnce) {
+    const std::string_view mark = "// C99: ";
+    for (std::size_t at = 0; (at = generate::kernel_sources.find(mark, at)) != std::string_view::npos; ++at) {
+        const std::string_view line =
+            generate::kernel_sources.substr(at, generate::kernel_sources.find('\n', at) + 1 - at);
+        EXPECT_EQ(generate::kernel_sources.find(line), generate::kernel_sources.rfind(line)) << line;
+    }
+}
+
+// The build takes today's files.
+TEST(Shared, TextsAreThoseOfTheSources) {
+    std::ifstream file(std::string(build_info::source_folder) + "/kernels/glsum/window/plain.hpp");
+    std::ostringstream text;
+    text << file.rdbuf();
+    ASSERT_FALSE(text.str().empty());
+    EXPECT_NE(generate::kernel_sources.find(text.str()), std::string_view::npos);
+}
+
+// A length that is known is told to the compiler but where that costs: over two pieces, and with mixed words.
+TEST(Shared, LengthsAreConstantsWhereThatDoesNotCost) {
+    const auto header = [](const char* kernel) {
+        return generate::make_header(
+            {.kernel = kernel, .order = 0.5, .taps = 20, .step_s = {}, .prefix = "my", .provenance = {}});
+    };
+    for (const char* kernel : {"shift_plain_f32", "mirror_plain_f32", "mirrordelta_plain_q31"}) {
+        EXPECT_THAT(header(kernel), Not(HasSubstr("_KEEP_WORD(past)"))) << kernel;
+    }
+    for (const char* kernel : {"ring_plain_f32", "ring_plain_q31", "mirror_plain_q15c31"}) {
+        EXPECT_THAT(header(kernel), HasSubstr("_KEEP_WORD(past)")) << kernel;
+    }
+}
+
+}  // namespace
