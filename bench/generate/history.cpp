@@ -19,7 +19,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-const Words in_window = {{"samples", "S->past"}, {"T", "@sample@"}};
+const Words in_window = {{"T", "@sample@"}};
 const Words in_push = {
     {"samples", "S->past"}, {"past", "@NAME@_PAST"}, {"T", "@sample@"}, {"next_head", "@name@_next_head"}};
 

@@ -42,11 +42,10 @@ std::string oldest_first(const HistoryText& history, const std::string& body, co
     return text;
 }
 
-// What a kernel's sum is given. Of a known length GCC 12 counts the turns over an older piece, and unrolls four loads
-// of half a word into more instructions than their loop has.
-std::string window_of(const HistoryText& history, bool mixed) {
-    return std::string("    size_t past = @NAME@_PAST;\n") +
-           (history.two_pieces || mixed ? "    @NAME@_KEEP_WORD(past);\n" : "") +
+// What a kernel's sum is given. The word that is named is hidden from the compiler.
+std::string window_of(const HistoryText& history, const std::string& hidden) {
+    return "    @sample@ *samples = S->past;\n    size_t past = @NAME@_PAST;\n" +
+           (hidden.empty() ? "" : "    @NAME@_KEEP_WORD(" + hidden + ");\n") +
            "    const @coefficient@ *table = @name@_table;\n" + history.window;
 }
 
@@ -66,17 +65,21 @@ std::string unrolled(int turns) {
 }  // namespace
 
 TechniqueText plain_text(const HistoryText& history, bool fused, bool mixed) {
+    // Of a known length GCC 12 counts the turns over an older piece, and unrolls four loads of half a word into more
+    // instructions than their loop has.
     return {.summary = "newest first, one accumulator" + rounded_once(fused),
-            .sum = window_of(history, mixed) + shared("plain", of(fused)) + history.behind_start +
-                   shared("plain newer", of(fused)) + (history.two_pieces ? shared("plain older", of(fused)) : ""),
+            .sum = window_of(history, history.two_pieces || mixed ? "past" : "") + shared("plain", of(fused)) +
+                   history.behind_start + shared("plain newer", of(fused)) +
+                   (history.two_pieces ? shared("plain older", of(fused)) : ""),
             .fused = fused};
 }
 
 TechniqueText oldest_text(const HistoryText& history, bool fused) {
+    // Where the samples are known to lie GCC 12 makes up addresses of their own for the ends of both pieces.
     return {.summary = "oldest first, one accumulator" + rounded_once(fused),
-            .sum = "    @accumulator@ sum = 0;\n" +
-                   oldest_first(history, "            sum = " + accumulate(fused) + "(sum, *a, *x);\n"),
-            .closing = "    sum = @name@_start(newest) + sum;\n",
+            .sum = window_of(history, history.two_pieces ? "samples" : "") + shared("oldest") +
+                   (history.two_pieces ? shared("oldest older", of(fused)) : "") + shared("oldest newer", of(fused)),
+            .closing = shared("oldest closing"),
             .fused = fused};
 }
 

@@ -28,20 +28,20 @@
  * Measured cost a sample of the kernel that this is made from: 1227.6 model cycles, at most 1289.2, for stm32f746-itcm
  *
  * Command: glsum generate --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
- * glsum 0.1.0, commit 396701dd9fba91b5897e003ce55b13f7d06376cc with changes
+ * glsum 0.1.0, commit 7c68522ab636a1f5de72ecc4a35841c965061413 with changes
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
  * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -falign-functions=8 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
  *
  * Licence: the terms of glsum itself.
  */
-#if defined(HALF_F32_H) && !defined(HALF_F32_IS_8C26F12306EAFCE1)
+#if defined(HALF_F32_H) && !defined(HALF_F32_IS_FBF1373D57B055E8)
 #define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"
 #error "half_f32: another design of this prefix was included before (see the two DESIGN); make one with another --prefix"
 #endif
 #ifndef HALF_F32_H
 #define HALF_F32_H
-#define HALF_F32_IS_8C26F12306EAFCE1
+#define HALF_F32_IS_FBF1373D57B055E8
 #define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"
 
 #include <stddef.h>
@@ -181,12 +181,13 @@ HALF_F32_STEP_ATTRIBUTES
 static inline float half_step_f32(half_f32_instance *S, float newest)
 {
     uint32_t head = S->head;
+    float *samples = S->past;
     size_t past = HALF_F32_PAST;
     HALF_F32_KEEP_WORD(past);
     const float *table = half_f32_table;
-    const float* const newer = S->past + head;
+    const float* const newer = samples + head;
     const size_t newer_count = past - head;
-    const float* const older = S->past;
+    const float* const older = samples;
     const size_t older_count = head;
     float sum = half_f32_start(newest);
     for (size_t i = 0; i < newer_count; ++i) {

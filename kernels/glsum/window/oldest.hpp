@@ -31,14 +31,23 @@ protected:
     [[gnu::always_inline]] static inline typename Format::Accumulator oldest_first(
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
-        auto sum = Format::zero();
+        using Accumulator = typename Format::Accumulator;
+        // C99: oldest
+        Accumulator sum = Format::zero();
+        // C99: oldest older
+        GLSUM_ROLLED
         for (std::size_t i = window.older_count; i > 0; --i) {
             sum = accumulate<Format, fused>(sum, table[window.newer_count + i - 1], window.older[i - 1]);
         }
+        // C99: oldest newer
+        GLSUM_ROLLED
         for (std::size_t i = window.newer_count; i > 0; --i) {
             sum = accumulate<Format, fused>(sum, table[i - 1], window.newer[i - 1]);
         }
-        return Format::start(newest, scale) + sum;
+        // C99: oldest closing
+        sum = Format::start(newest, scale) + sum;
+        // C99 end
+        return sum;
     }
 };
 
