@@ -52,8 +52,8 @@ void generate_controller(const ControllerOptions& options, const std::string& co
     base::write_file(options.out, header);
     const drive::Gains& gains = spec.controller.gains;
     fmt::print("{} in {}: sums of {}{} coefficients\n", options.controller, options.out,
-               generate::taps_for(1.0 - gains.integral_order, spec),
-               gains.kd != 0.0 ? fmt::format(" and {}", generate::taps_for(gains.derivative_order, spec)) : "");
+               generate::integral_sum(spec).taps,
+               gains.kd != 0.0 ? fmt::format(" and {}", generate::derivative_sum(spec).taps) : "");
 }
 
 }  // namespace cli

@@ -30,12 +30,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
-std::string sum_header(const ControllerSpec& spec, const char* kernel, double order, const std::string& prefix,
-                       const std::string& licence) {
+std::string sum_header(const ControllerSpec& spec, const char* kernel, const SumOfController& of,
+                       const std::string& prefix, const std::string& licence) {
     Spec sum;
     sum.kernel = kernel;
-    sum.order = order;
-    sum.taps = taps_for(order, spec);
+    sum.order = of.order;
+    sum.taps = of.taps;
     sum.step_s = spec.controller.sample_time_s;
     sum.prefix = prefix;
     sum.licence = licence;
@@ -55,11 +55,10 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     std::string upper = prefix + "_f32";
     std::transform(upper.begin(), upper.end(), upper.begin(),
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    const std::string integral =
-        sum_header(spec, integral_kernel, 1.0 - gains.integral_order, prefix + "_integral", licence);
+    const std::string integral = sum_header(spec, integral_kernel, integral_sum(spec), prefix + "_integral", licence);
     const bool derives = gains.kd != 0.0;
     const std::string derivative =
-        derives ? sum_header(spec, derivative_kernel, gains.derivative_order, prefix + "_derivative", licence) : "";
+        derives ? sum_header(spec, derivative_kernel, derivative_sum(spec), prefix + "_derivative", licence) : "";
 
     SteppedController stepped(spec);
     const std::vector<double> inputs = check_signal();
@@ -112,7 +111,7 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
             "\n" + derivative + "\n";
     std::string statements = replaced(std::string(pid_text), "glsum_pid", prefix + "_pid");
     statements = replaced(statements, "GLSUM_REAL", "float");
-    statements = replaced(statements, "GLSUM_KEEP", upper.substr(0, upper.size() - 4) + "_INTEGRAL_F32_KEEP");
+    statements = replaced(statements, "GLSUM_PID_KEEP", upper.substr(0, upper.size() - 4) + "_INTEGRAL_F32_KEEP");
     return text + statements + fill(controller_text, places);
 }
 

@@ -10,7 +10,7 @@
 namespace generate {
 
 /// \param prefix  begins every identifier \param lines  of the opening comment: where it comes from, what was measured
-/// \throws glsum::Failure (bad input) for a prefix that is no identifier, (check failed) as `taps_for`
+/// \throws glsum::Failure (bad input) for a prefix that is no identifier, (check failed) as `integral_sum`
 [[nodiscard]] std::string make_controller_header(const ControllerSpec& spec, const std::string& prefix,
                                                  const std::string& licence, const std::vector<std::string>& lines);
 

@@ -13,9 +13,9 @@ namespace generate {
 namespace {
 
 #define GLSUM_REAL double
-#define GLSUM_KEEP(value) ((void)(value))
+#define GLSUM_PID_KEEP(value) ((void)(value))
 #include "glsum/model/pid.h"
-#undef GLSUM_KEEP
+#undef GLSUM_PID_KEEP
 #undef GLSUM_REAL
 
 // A sum whose newest sample comes last, all of its past in memory.

@@ -20,19 +20,19 @@ namespace {
 
 // Compiled without fused products.
 #define GLSUM_REAL float
-#define GLSUM_KEEP(value) ((void)(value))
+#define GLSUM_PID_KEEP(value) ((void)(value))
 #include "glsum/model/pid.h"
-#undef GLSUM_KEEP
+#undef GLSUM_PID_KEEP
 #undef GLSUM_REAL
 
 using Integral = glsum::Sum<glsum::Modes, glsum::Compensated, glsum::F32>;
 using Derivative = glsum::Sum<glsum::Modes, glsum::Plain, glsum::F32>;
 
 template <class Kernel>
-bench::HostLine<Kernel> line_of(double order, const ControllerSpec& spec) {
+bench::HostLine<Kernel> line_of(const SumOfController& sum, const ControllerSpec& spec) {
     const std::string name(Kernel::name());
-    const bench::Length length = bench::length_of(name, order, taps_for(order, spec), spec.horizon);
-    return bench::HostLine<Kernel>(bench::design_of(name, order, length, spec.horizon));
+    const bench::Length length = bench::length_of(name, sum.order, sum.taps, spec.horizon);
+    return bench::HostLine<Kernel>(bench::design_of(name, sum.order, length, spec.horizon));
 }
 
 float limited(double real) {
@@ -40,22 +40,29 @@ float limited(double real) {
     return static_cast<float>(std::clamp(real, -most, most));
 }
 
-}  // namespace
-
-std::size_t taps_for(double order, const ControllerSpec& spec) {
+SumOfController sum_within(double order, double max_error, std::size_t horizon) {
     if (!glsum::design::has_tail(order)) {
-        return static_cast<std::size_t>(order) + 1;  // a whole order's weights end
+        return {order, static_cast<std::size_t>(order) + 1};  // a whole order's weights end
     }
-    const bool derivative = order == spec.controller.gains.derivative_order;
-    const auto found =
-        glsum::design::design_modes({order, spec.horizon}, spec.max_error * (derivative ? derivative_share : 1.0));
+    const auto found = glsum::design::design_modes({order, horizon}, max_error);
     if (!found) {
-        throw glsum::Failure(glsum::Exit::check_failed,
-                             fmt::format("--max-error: no sum of order {} over {} samples keeps {}", order,
-                                         spec.horizon, spec.max_error));
+        throw glsum::Failure(
+            glsum::Exit::check_failed,
+            fmt::format("--max-error: no sum of order {} over {} samples keeps {}", order, horizon, max_error));
     }
     // A second near tap costs more than one more mode.
-    return found->near_taps == 2 && glsum::design::least_near_taps(order) == 1 ? found->length() + 1 : found->length();
+    const bool one_will_do = found->near_taps == 2 && glsum::design::least_near_taps(order) == 1;
+    return {order, found->length() + (one_will_do ? 1 : 0)};
+}
+
+}  // namespace
+
+SumOfController integral_sum(const ControllerSpec& spec) {
+    return sum_within(1.0 - spec.controller.gains.integral_order, spec.max_error, spec.horizon);
+}
+
+SumOfController derivative_sum(const ControllerSpec& spec) {
+    return sum_within(spec.controller.gains.derivative_order, derivative_share * spec.max_error, spec.horizon);
 }
 
 Factors factors_of(const drive::Fopid& controller) {
@@ -72,10 +79,8 @@ struct SteppedController::State {
 };
 
 SteppedController::SteppedController(const ControllerSpec& spec)
-    : state_(new State{{},
-                       static_cast<float>(spec.controller.setpoint_weight),
-                       line_of<Integral>(1.0 - spec.controller.gains.integral_order, spec),
-                       {}}) {
+    : state_(new State{
+          {}, static_cast<float>(spec.controller.setpoint_weight), line_of<Integral>(integral_sum(spec), spec), {}}) {
     const drive::Gains& gains = spec.controller.gains;
     const Factors factors = factors_of(spec.controller);
     state_->pid = {static_cast<float>(gains.kp),
@@ -89,7 +94,7 @@ SteppedController::SteppedController(const ControllerSpec& spec)
                    0.0F,
                    0.0F};
     if (gains.kd != 0.0) {
-        state_->derivative.emplace(line_of<Derivative>(gains.derivative_order, spec));
+        state_->derivative.emplace(line_of<Derivative>(derivative_sum(spec), spec));
     }
     glsum_pid_start(&state_->pid, 0.0F, 0.0F);
     (void)glsum_pid_change;

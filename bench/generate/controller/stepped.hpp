@@ -18,8 +18,14 @@ struct ControllerSpec {
 /// What the derivative's weights may be off by, times `max_error`: nothing adds their errors up.
 inline constexpr double derivative_share = 2.0;
 
-/// Length of the sum of this order, within the error. \throws glsum::Failure (check failed) where none is
-[[nodiscard]] std::size_t taps_for(double order, const ControllerSpec& spec);
+/// The two sums of a controller: of order 1 - lambda over the error, of order mu over the weighted one.
+struct SumOfController {
+    double order;
+    std::size_t taps;  ///< within the error
+};
+/// \throws glsum::Failure (check failed) where no length keeps the error
+[[nodiscard]] SumOfController integral_sum(const ControllerSpec& spec);
+[[nodiscard]] SumOfController derivative_sum(const ControllerSpec& spec);
 
 /// The kernel of the integral's sum: each state carries what its steps lost, or slow ones would stop.
 inline constexpr const char* integral_kernel = "modes_compensated_f32";

@@ -8,7 +8,7 @@
  * It carries what its additions lost [Dekker1971]. D^mu w passes d <- d + passes (D^mu w - d), the backward Euler form
  * of 1 / (filter_s s + 1): passes = h / (h + filter_s).
  *
- * Before the inclusion: GLSUM_REAL, the type of all numbers; GLSUM_KEEP(value), which lets nobody fuse what made it. */
+ * Before the inclusion: GLSUM_REAL, the type of all numbers; GLSUM_PID_KEEP(value), which lets nobody fuse what made it. */
 typedef struct {
     GLSUM_REAL kp;
     GLSUM_REAL ki; /* times h^lambda */
@@ -25,7 +25,7 @@ typedef struct {
 static inline GLSUM_REAL glsum_pid_product(GLSUM_REAL a, GLSUM_REAL b)
 {
     GLSUM_REAL product = a * b;
-    GLSUM_KEEP(product);
+    GLSUM_PID_KEEP(product);
     return product;
 }
 
