@@ -48,8 +48,9 @@ void plot_bands(const BandStudy& study, const std::vector<BandPoint>& points, co
         most = std::max(most, point.model_cycles);
     }
     std::string script = fmt::format(
-        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title \"At equal cycles "
-        "fitted filters err least: error over the band, over modelled Cortex-M7 cycles a sample\"\nset logscale y\nset "
+        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title \"Error over the "
+        "band, over modelled Cortex-M7 cycles a sample: filters fitted to it, and those of others tuned to it\"\nset "
+        "logscale y\nset "
         "format y \"%g %%\"\nset xrange [0:{:.0f}]\nset ytics nomirror\nset mytics 1\nset xtics nomirror\nset grid lc "
         "rgb \"#dddddd\"\n",
         study.orders.size(), study.bands.size(), 90.0 / wide, 1.0 - 20.0 / wide, 60.0 / tall, 1.0 - 110.0 / tall,
