@@ -51,7 +51,7 @@ struct BandRival {
 };
 [[nodiscard]] std::vector<BandRival> compare_bands(const std::vector<BandPoint>& points);
 
-/// Rows `band/<way>/order:<v>/taps:<L>/hz:<low>..<high>` with `band_error`, cycles and bytes.
+/// Rows `band/<way>/order:<v>/taps:<L>/hz:<low>..<high>` with `band_error` and cycles.
 [[nodiscard]] std::vector<Json> rows_of_bands(const std::vector<BandPoint>& points);
 
 /// A table for each order, and in how many of all comparisons ours err less, by which factor.
