@@ -44,6 +44,7 @@ describe(glsum "Kernels of the Grünwald-Letnikov sum, in C++20"
     "Cflags: -I\${prefix}/${CMAKE_INSTALL_INCLUDEDIR} ${defines}" "Libs: -L\${prefix}/${libraries} -lglsum")
 set(what_model "Fractional models and controllers stepped with glsum's kernels")
 set(what_design "Tables for glsum's kernels, with certificates")
+set(what_filters "Filters for glsum's kernels, fitted to a derivative over a band")
 foreach(library IN LISTS beside)
     describe(glsum-${library} ${what_${library}} "Requires: glsum" "Libs: -L\${prefix}/${libraries} -lglsum_${library}")
 endforeach()
