@@ -52,4 +52,33 @@ program=./glsum
 found=$("$program" indices --no-run 2>&1)
 [ -z "$found" ] || { echo "--no-run: expected no word, found $found"; failures=$((failures + 1)); }
 expect 3 "glsum-resample: not built; ./glsum resample --no-run builds it" resample
+
+# The firmware's compiler is missing. Here it is found once the host's programs are built, as on a machine where both go on at once,
+# or after ten seconds, never; the command runs after both.
+cat >"$folder/dpkg-query" <<'end'
+#!/bin/sh
+case $* in *arm-none-eabi*) exit 1 ;; esac
+echo install ok installed
+end
+cat >"$folder/apt-get" <<end
+#!/bin/sh
+[ "\$1" != update ] || exit 0
+for second in 1 2 3 4 5 6 7 8 9 10; do
+    [ ! -e "$folder/built" ] || exit \$(cat "$folder/status")
+    sleep 1
+done
+echo "nothing was built beside"
+exit 1
+end
+printf '#!/bin/sh\nexec "$@"\n' >"$folder/sudo"
+printf '#!/bin/sh\ncase $* in *"preset host"*) touch "%s/built" ;; esac\n' "$folder" >"$folder/cmake"
+chmod +x "$folder/apt-get" "$folder/sudo"
+mkdir "$folder/project/targets"
+echo mps2-an500 >"$folder/project/targets/emulated"
+cp "$folder/project/build/host/cli/glsum-indices" "$folder/project/build/host/cli/glsum-time"
+echo 0 >"$folder/status"
+expect 0 "in $folder/my logs: --jobs 2" time --jobs 2
+rm "$folder/built"
+echo 1 >"$folder/status"
+expect 3 "could not install: gcc-arm-none-eabi" time --jobs 2
 [ "$failures" -eq 0 ]

@@ -35,14 +35,18 @@ project host-package -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_FLAGS="$flags"
 says host-package "$folder/host-package/outside"
 cat "$folder/first"
 "$folder/host-package/designed"
+"$folder/host-package/filtered"
 export PKG_CONFIG_LIBDIR="$prefix/lib/pkgconfig"
 quietly c++ $flags -std=c++20 $(pkg-config --cflags glsum-model) -o "$folder/by-pkg-config" "$here/outside.cpp" "$here/say.cpp" $(pkg-config --libs glsum-model)
 says host-pkg-config "$folder/by-pkg-config"
 quietly c++ $flags -std=c++20 $(pkg-config --cflags glsum-design) -o "$folder/designed" "$here/designed.cpp" $(pkg-config --libs glsum-design)
 "$folder/designed"
+quietly c++ $flags -std=c++20 $(pkg-config --cflags glsum-filters) -o "$folder/filtered" "$here/filtered.cpp" $(pkg-config --libs glsum-filters)
+"$folder/filtered"
 project host-folder -DGLSUM_SOURCE="$source" -DCMAKE_CXX_FLAGS="$flags"
 says host-folder "$folder/host-folder/outside"
 "$folder/host-folder/designed"
+"$folder/host-folder/filtered"
 
 # A combination without a body is refused by the compiler, and in one line.
 if c++ -std=c++20 $(pkg-config --cflags glsum) -fsyntax-only "$here/unregistered.cpp" 2>"$folder/refused"; then
