@@ -10,6 +10,7 @@ namespace cli {
 struct ControllerOptions {
     std::string controller;
     std::string plant;  ///< a model file; empty: no loop is measured
+    std::string json;   ///< empty: none is written
     std::string out;
     std::string prefix;
     std::string licence;
