@@ -119,14 +119,15 @@ generate::Spec to_spec(const Options& options, const Budget& budget, const std::
 
 void run(const Options& options, Budget budget, const std::string& command) {
     if (!options.controller.empty()) {
-        if (options.verify || !options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
+        if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
             refuse(
-                "--controller: expected --out, --plant, --json, --prefix, --licence, --max-error and --samples alone "
-                "beside it");
+                "--controller: expected --out, --plant, --verify, --core, --json, --prefix, --licence, --max-error and "
+                "--samples alone beside it");
         }
-        generate_controller({options.controller, options.plant, options.json, options.out, options.prefix,
-                             options.licence, budget.max_error, budget.samples},
-                            command);
+        generate_controller(
+            {options.controller, options.plant, options.json, options.out, options.prefix, options.licence,
+             budget.core.empty() ? default_core : budget.core, options.verify, budget.max_error, budget.samples},
+            command);
         return;
     }
     for (const auto& [option, value] : {std::pair("--plant", &options.plant), std::pair("--json", &options.json)}) {
@@ -219,9 +220,10 @@ void add_options(Command& command, const Words& words) {
                        "With --controller: a model file; the loop is measured beside full memory in double, and its "
                        "margins are told; an unstable one is refused");
     command.add_option("--json", options->json, "With --controller: what was found, schema glsum-controller-1");
-    command.add_flag("--verify", options->verify,
-                     "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
-                     "modelled cycles and the kernel's");
+    command.add_flag(
+        "--verify", options->verify,
+        "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
+        "modelled cycles and the kernel's; of a controller, steps it here and there and compares its bits");
     command.footer(
         "Takes the budget of `choose` (see there), --derivative-error and --band included, and writes what that "
         "chooses, among the kernels that can be "

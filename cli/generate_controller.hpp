@@ -14,6 +14,8 @@ struct ControllerOptions {
     std::string out;
     std::string prefix;
     std::string licence;
+    std::string core;  ///< of the timing model
+    bool verify = false;
     double max_error = 0.0;   ///< 0: the usual one
     std::size_t samples = 0;  ///< 0: a million
 };

@@ -29,7 +29,8 @@ expect 2 "growing.json: expected a plant that is stable or integrates, found 1 p
 
 # NAME DEFINITIONS: generates NAME.h under one prefix, compiles it here and for the target, and runs the loop.
 try() {
-    expect 0 "sums of" generate --controller "$folder/$1.json" --prefix pid --out "$folder/$1.h"
+    expect 0 "here, compiled by cc: the library's" generate --controller "$folder/$1.json" --prefix pid --out "$folder/$1.h" --verify
+    grep -q "not compared: \|on the emulated Cortex-M7: the library's" "$folder/said" || { echo "$1: the target is not told of"; failures=$((failures + 1)); }
     shift_name=$1
     shift
     for compiler in gcc clang; do
@@ -61,6 +62,18 @@ try_with() {
 try_with pid 0.02 0.9 0.7 0.01 0.8
 try_with pi 0 0.8 1 0 1
 try_with whole 0.001 1 1 0 1
+
+# A compiler that computes something else, and one that refuses.
+mkdir "$folder/bin"
+real=$(command -v cc)
+printf '#!/bin/sh\nfor word; do case $word in *check.c) sed -i "s/kp = 0.3F/kp = 0.25F/" "${word%%check.c}pid.h" ;; esac; done\nexec %s "$@"\n' "$real" >"$folder/bin/cc"
+chmod +x "$folder/bin/cc"
+usual=$PATH PATH=$folder/bin:$PATH
+expect 1 "changed.h: expected the bits of the library's float stepper, found others here" \
+    generate --controller "$folder/pid.json" --prefix pid --out "$folder/changed.h" --verify
+printf '#!/bin/sh\nexit 1\n' >"$folder/bin/cc"
+expect 1 "this machine's C compiler refuses" generate --controller "$folder/pid.json" --prefix pid --out "$folder/refused.h" --verify
+PATH=$usual
 
 # The margins are told, and stand in the file and in the header's comment.
 said='gain margin 2.3 at 1.44 rad/s, phase margin 68.7 degrees (crossover 0.499 rad/s), largest |S| 1.841 at 1.27 rad/s.'

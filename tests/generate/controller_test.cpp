@@ -9,7 +9,9 @@
 
 #include "base/failure.hpp"
 #include "bench/generate/controller/certificate.hpp"
+#include "bench/generate/controller/controller_header.hpp"
 #include "bench/generate/controller/report.hpp"
+#include "bench/generate/controller/verify.hpp"
 #include "drive/tune/margins.hpp"
 #include "tests/drive/plants.hpp"
 
@@ -162,7 +164,51 @@ TEST(ControllerReport, HasMarginsAsAFileAndInWords) {
         EXPECT_NE(json.find(field), std::string::npos) << field;
     }
     EXPECT_EQ(generate::to_lines(loop, 7).back(), generate::margins_text(margins) + ".");
-    EXPECT_EQ(generate::to_json({"pid.json", "pid.h", {}}, spec).find("loop"), std::string::npos);
+    EXPECT_EQ(generate::to_json({"pid.json", "pid.h"}, spec).find("loop"), std::string::npos);
+}
+
+// The record meets both limits, or they are not compared.
+TEST(CheckedBits, RecordMeetsTheLimits) {
+    ControllerSpec spec = spec_of();
+    spec.controller.low = -2.0;
+    spec.controller.high = 2.0;
+    generate::SteppedController stepped(spec);
+    const generate::CheckRecord record = generate::check_record();
+    int low = 0;
+    int high = 0;
+    for (std::size_t k = 0; k < record.setpoint.size(); ++k) {
+        const float output = stepped.step(record.setpoint[k], record.measured[k]);
+        low += output == -2.0F ? 1 : 0;
+        high += output == 2.0F ? 1 : 0;
+    }
+    EXPECT_GT(low, 10);
+    EXPECT_GT(high, 10);
+    EXPECT_LT(low + high, 2000);
+}
+
+TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
+    ControllerSpec spec = spec_of();
+    spec.controller.low = -2.0;
+    spec.controller.high = 2.0;
+    const std::string text = generate::make_controller_header(spec, "own", "none", {});
+    const auto checked = [&](const std::string& what, const std::string& with) {
+        std::string other = text;
+        const std::size_t at = other.find(what);
+        EXPECT_NE(at, std::string::npos) << what;
+        other.replace(at, what.size(), with);
+        return generate::check_bits_here({"own", other, spec});
+    };
+    EXPECT_TRUE(checked("kp = 0.3F", "kp = 0.3F").good());
+    EXPECT_EQ(checked("kp = 0.3F", "kp = 0.30000004F").first_wrong, 1U);
+    // What only a limit shows, behind the first quarter of a thousand samples.
+    const generate::CheckedBits limit = checked("high = 2.0F", "high = 2.0000002F");
+    EXPECT_GT(limit.first_wrong, 3000U);
+    EXPECT_LT(limit.first_wrong, 4000U);
+    EXPECT_EQ(checked("? 0U : 1U;\n}\n\n#endif /* OWN_F32_H */", "? 1U : 0U;\n}\n\n#endif /* OWN_F32_H */").first_wrong,
+              generate::self_check_failed);
+    EXPECT_THROW((void)checked("static inline float own_step_f32", "static inline int own_step_f32"), glsum::Failure);
+    EXPECT_EQ(generate::to_text({"there", 4000, 17}),
+              "bits of 4000 steps and of the self-check, there: others from step 17 on");
 }
 
 }  // namespace

@@ -60,6 +60,12 @@ std::string to_json(const ControllerReport& report, const ControllerSpec& spec) 
     if (report.loop) {
         json["loop"] = to_json(*report.loop);
     }
+    for (const CheckedBits& checked : report.checked) {
+        json["checked"].push_back({{"where", checked.where},
+                                   {"steps", checked.steps},
+                                   {"first_wrong", checked.first_wrong},
+                                   {"good", checked.good()}});
+    }
     return json.dump(2) + "\n";
 }
 

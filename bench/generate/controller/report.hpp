@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "bench/generate/controller/loop.hpp"
+#include "bench/generate/controller/verify.hpp"
 #include "drive/tune/margins.hpp"
 
 namespace generate {
@@ -21,7 +22,8 @@ struct LoopReport {
 struct ControllerReport {
     std::string controller;  ///< its file
     std::string header;      ///< the one that was written
-    std::optional<LoopReport> loop;
+    std::optional<LoopReport> loop = {};
+    std::vector<CheckedBits> checked = {};
 };
 
 /// Lines without an indentation.
