@@ -36,6 +36,7 @@ struct Options {
     std::string out;
     std::string controller;
     std::string plant;
+    std::string json;
     bool verify = false;
 };
 
@@ -118,18 +119,21 @@ generate::Spec to_spec(const Options& options, const Budget& budget, const std::
 
 void run(const Options& options, Budget budget, const std::string& command) {
     if (!options.controller.empty()) {
-        if (options.verify || !options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
+        if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
             refuse(
-                "--controller: expected --out, --plant, --prefix, --licence, --max-error and --samples alone beside "
-                "it");
+                "--controller: expected --out, --plant, --verify, --core, --json, --prefix, --licence, --max-error and "
+                "--samples alone beside it");
         }
-        generate_controller({options.controller, options.plant, options.out, options.prefix, options.licence,
-                             budget.max_error, budget.samples},
-                            command);
+        generate_controller(
+            {options.controller, options.plant, options.json, options.out, options.prefix, options.licence,
+             budget.core.empty() ? default_core : budget.core, options.verify, budget.max_error, budget.samples},
+            command);
         return;
     }
-    if (!options.plant.empty()) {
-        refuse("--plant: expected --controller beside it");
+    for (const auto& [option, value] : {std::pair("--plant", &options.plant), std::pair("--json", &options.json)}) {
+        if (!value->empty()) {
+            refuse(fmt::format("{}: expected --controller beside it", option));
+        }
     }
     if (std::isnan(budget.order)) {
         refuse("--order is required");
@@ -213,10 +217,13 @@ void add_options(Command& command, const Words& words) {
     command.add_option("--controller", options->controller,
                        "A controller file instead of a sum: a fractional PID with limits as one header");
     command.add_option("--plant", options->plant,
-                       "With --controller: a model file; the loop is measured beside full memory in double");
-    command.add_flag("--verify", options->verify,
-                     "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
-                     "modelled cycles and the kernel's");
+                       "With --controller: a model file; the loop is measured beside full memory in double, and its "
+                       "margins are told; an unstable one is refused");
+    command.add_option("--json", options->json, "With --controller: what was found, schema glsum-controller-1");
+    command.add_flag(
+        "--verify", options->verify,
+        "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
+        "modelled cycles and the kernel's; of a controller, steps it here and there and compares its bits");
     command.footer(
         "Takes the budget of `choose` (see there), --derivative-error and --band included, and writes what that "
         "chooses, among the kernels that can be "
@@ -224,7 +231,10 @@ void add_options(Command& command, const Words& words) {
         "(all but the host's vector kernels); or a kernel by name, at h = 1 ms unless --step-s says otherwise.\n"
         "--controller pid.json takes gains, orders, filter, limits and setpoint weight from a file; --max-error then "
         "bounds the weights of its sums (5e-4)\nover --samples (a million).\n"
-        "Exit status: 0 written; 1 nothing fits, or --verify failed; 2 wrong use; 3 something is missing.\n"
+        "With --plant no header is written for a loop that is unstable: its sums as single precision holds them, the "
+        "plant\nbehind hold and dead time.\n"
+        "Exit status: 0 written; 1 nothing fits, or --verify failed; 2 wrong use, or an unstable loop; 3 something is "
+        "missing.\n"
         "Example: glsum generate --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --out half_derivative.h\n"
         "         glsum generate --order 0.5 --kernel ring_plain_q31 --taps 300 --out half_derivative.h --verify\n"
         "         glsum generate --controller pid.json --out pid.h");

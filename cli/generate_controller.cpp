@@ -6,18 +6,54 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "bench/generate/controller/certificate.hpp"
 #include "bench/generate/controller/controller_header.hpp"
-#include "bench/generate/controller/loop.hpp"
+#include "bench/generate/controller/report.hpp"
+#include "bench/generate/controller/verify.hpp"
 #include "bench/generate/header.hpp"
+#include "bench/target/target_rows.hpp"
+#include "cli/board.hpp"
 #include "drive/model_file.hpp"
 
 namespace cli {
+namespace {
+
+generate::LoopReport report_of_loop(const generate::ControllerSpec& spec, const ControllerOptions& options) {
+    const drive::Model plant =
+        drive::parse_model(base::read_file(options.plant, drive::most_model_bytes), options.plant);
+    const tune::Margins margins = generate::certify(spec, plant, options.controller, options.plant);
+    return {options.plant, drive::to_text(plant), generate::measure_loop(spec, plant, spec.horizon), margins};
+}
+
+// Here, and on the target where it was built.
+std::vector<generate::CheckedBits> verify(const generate::WrittenController& written, const std::string& core) {
+    std::vector<generate::CheckedBits> checked = {generate::check_bits_here(written)};
+    try {
+        const qemu::Board board = built_board();
+        checked.push_back(
+            generate::check_bits_on_target(written, board, bench::timing_request(cores_folder(), {core})));
+    } catch (const glsum::Failure& failure) {
+        if (failure.status() != glsum::Exit::missing) {
+            throw;
+        }
+        fmt::print("bits on the emulated Cortex-M7: not compared: {}\n", failure.what());
+    }
+    for (const generate::CheckedBits& one : checked) {
+        fmt::print("{}\n", generate::to_text(one));
+    }
+    return checked;
+}
+
+}  // namespace
 
 void generate_controller(const ControllerOptions& options, const std::string& command) {
     if (options.out.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input, "--out: expected a file to write");
     }
     base::check_writable(options.out);
+    if (!options.json.empty()) {
+        base::check_writable(options.json);
+    }
     generate::ControllerSpec spec;
     spec.controller =
         drive::parse_fopid(base::read_file(options.controller, drive::most_model_bytes), options.controller);
@@ -31,19 +67,13 @@ void generate_controller(const ControllerOptions& options, const std::string& co
     spec.horizon = options.samples != 0 ? options.samples : spec.horizon;
     const std::string prefix = options.prefix.empty() ? generate::prefix_of_file(options.out) : options.prefix;
     const std::string licence = options.licence.empty() ? generate::Spec{}.licence : options.licence;
+    generate::ControllerReport report{options.controller, options.out};
     std::vector<std::string> lines = {""};
     if (!options.plant.empty()) {
-        const drive::Model plant =
-            drive::parse_model(base::read_file(options.plant, drive::most_model_bytes), options.plant);
-        const generate::LoopDeviation loop = generate::measure_loop(spec, plant, spec.horizon);
-        lines.push_back(fmt::format("In a loop with {}, {} samples, the set point 1, then 0.4:", drive::to_text(plant),
-                                    spec.horizon));
-        lines.push_back(
-            fmt::format("within {:.2g} of the same loop in double with full memory, as a part of the largest output;",
-                        loop.header));
-        lines.push_back(fmt::format("the sampling's own error, by halving the step: {:.2g}.", loop.sampling));
-        for (std::size_t i = 1; i < lines.size(); ++i) {
-            fmt::print("{}\n", lines[i]);
+        report.loop = report_of_loop(spec, options);
+        for (const std::string& line : generate::to_lines(*report.loop, spec.horizon)) {
+            fmt::print("{}\n", line);
+            lines.push_back(line);
         }
         lines.emplace_back();
     }
@@ -54,6 +84,19 @@ void generate_controller(const ControllerOptions& options, const std::string& co
     fmt::print("{} in {}: sums of {}{} coefficients\n", options.controller, options.out,
                generate::integral_sum(spec).taps,
                gains.kd != 0.0 ? fmt::format(" and {}", generate::derivative_sum(spec).taps) : "");
+    if (options.verify) {
+        report.checked = verify({prefix, header, spec}, options.core);
+    }
+    if (!options.json.empty()) {
+        base::write_file(options.json, generate::to_json(report, spec));
+    }
+    for (const generate::CheckedBits& checked : report.checked) {
+        if (!checked.good()) {
+            throw glsum::Failure(glsum::Exit::check_failed,
+                                 fmt::format("{}: expected the bits of the library's float stepper, found others {}",
+                                             options.out, checked.where));
+        }
+    }
 }
 
 }  // namespace cli

@@ -10,9 +10,12 @@ namespace cli {
 struct ControllerOptions {
     std::string controller;
     std::string plant;  ///< a model file; empty: no loop is measured
+    std::string json;   ///< empty: none is written
     std::string out;
     std::string prefix;
     std::string licence;
+    std::string core;  ///< of the timing model
+    bool verify = false;
     double max_error = 0.0;   ///< 0: the usual one
     std::size_t samples = 0;  ///< 0: a million
 };

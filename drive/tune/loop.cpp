@@ -110,9 +110,11 @@ Parts controller_parts(const drive::Gains& orders, double step_s, double w) {
              (orders.derivative_order - orders.filter_s * d / (orders.filter_s * d + 1.0)) * turn * derivative}};
 }
 
-Complex Loop::operator()(double w) const {
+Complex Loop::controller(double w) const {
     const Parts parts = controller_parts(gains, plant->step_s(), w);
-    return (gains.kp + gains.ki * parts.value[1] + gains.kd * parts.value[2]) * (*plant)(w);
+    return gains.kp + gains.ki * parts.value[1] + gains.kd * parts.value[2];
 }
+
+Complex Loop::operator()(double w) const { return controller(w) * (*plant)(w); }
 
 }  // namespace tune

@@ -7,7 +7,9 @@
 // What the controller computes is put out at once; a latency of its own belongs to the plant's dead time.
 #pragma once
 
+#include <cmath>
 #include <complex>
+#include <functional>
 #include <numbers>
 
 #include "drive/controller.hpp"
@@ -57,7 +59,15 @@ struct Parts {
 struct Loop {
     const SampledPlant* plant;
     drive::Gains gains;
+    [[nodiscard]] Complex controller(double w) const;  ///< C
     [[nodiscard]] Complex operator()(double w) const;
+};
+
+/// A sampled controller of any make, by what it makes of sines.
+struct Response {
+    std::function<Complex(double)> at;  ///< C at 0 < w <= pi / step_s, in rad/s
+    double integrations;                ///< of s in the limit s -> 0
+    double from = INFINITY;             ///< rad/s: below, its phase is that of the limit; infinite: the plant decides
 };
 
 }  // namespace tune

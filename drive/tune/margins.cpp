@@ -10,15 +10,21 @@ namespace {
 constexpr double quiet = 0.05;  // |L| that neither crosses nor turns anything
 constexpr std::size_t most_points = 400'000;
 
-std::vector<double> frequencies_of(const Loop& loop) {
-    const double top = loop.plant->nyquist();
+struct Open {
+    const SampledPlant& plant;
+    const Response& controller;
+    Complex operator()(double w) const { return controller.at(w) * plant(w); }
+};
+
+std::vector<double> frequencies_of(const Open& loop) {
+    const double top = loop.plant.nyquist();
     double loud = top;
     while (loud > 1e-6 * top && std::abs(loop(loud)) < quiet) {
         loud /= 1.05;
     }
-    const double delay_s = loop.plant->model().delay_s + loop.plant->step_s();
+    const double delay_s = loop.plant.model().delay_s + loop.plant.step_s();
     std::vector<double> frequencies;
-    double w = 1e-4 * loop.plant->scale();
+    double w = std::min(1e-4 * loop.plant.scale(), loop.controller.from);
     while (std::abs(loop(w)) < 20.0 && w > 1e-9 * top) {  // weak integrals: from where L is large
         w /= 10.0;
     }
@@ -54,11 +60,21 @@ double peak_near(double a, double b, const std::function<double(double)>& f) {
 }  // namespace
 
 Margins margins_of(const Loop& loop) {
+    const drive::Gains& gains = loop.gains;
+    return margins_of(*loop.plant,
+                      {[&](double w) { return loop.controller(w); }, gains.ki != 0.0 ? gains.integral_order : 0.0});
+}
+
+Margins margins_of(const SampledPlant& plant, const Response& controller) {
+    const Open loop{plant, controller};
     const std::vector<double> frequencies = frequencies_of(loop);
     Margins margins;
-    const double integrations = (loop.gains.ki != 0.0 ? loop.gains.integral_order : 0.0) + loop.plant->integrations();
-    double phase = -0.5 * pi * integrations;   // of L, followed
-    double turned = -0.5 * pi * integrations;  // of 1 + L
+    const double integrations = controller.integrations + plant.integrations();
+    const Complex first = loop(frequencies.front());
+    const bool against = std::cos(std::arg(first) + 0.5 * pi * integrations) < 0.0;
+    const double on = against && (integrations > 0.0 || std::abs(first) > 1.0) ? pi : 0.0;
+    double phase = -0.5 * pi * integrations;       // of L, followed
+    double turned = on - 0.5 * pi * integrations;  // of 1 + L
     Complex before = 0.0;
     double before_phase = phase;
     std::size_t peak = 0;
@@ -104,7 +120,7 @@ Margins margins_of(const Loop& loop) {
         const double w = margins.crossover;
         margins.phase_slope = std::arg(loop(w * 1.001) / loop(w / 1.001)) / (2.0 * std::log(1.001));
     }
-    margins.unstable_poles = through ? -1 : static_cast<int>(std::lround(-turned / pi));
+    margins.unstable_poles = through ? -1 : static_cast<int>(std::lround((on - turned) / pi));
     return margins;
 }
 

@@ -20,10 +20,12 @@ struct Margins {
 };
 
 /// From a dense sweep: steps of a hundredth of the frequency and of 0.05 rad of the dead time's phase, as long as |L|
-/// can matter. Peaks and crossings are found between them to 1e-9. \pre the integral gain has the plant's sign
+/// can matter. Peaks and crossings are found between them to 1e-9.
 ///
 /// Unstable poles: the turn of arg (1 + L) along the axis, from -pi/2 times the integrations at 0 to Nyquist's
-/// frequency, over -pi. The plant has none of its own.
+/// frequency, over -pi. Where 1 + L is below 0 just right of z = 1, for gains against the plant's sign, it begins half
+/// a turn on. Plant and controller have no poles outside the circle of their own.
+[[nodiscard]] Margins margins_of(const SampledPlant& plant, const Response& controller);
 [[nodiscard]] Margins margins_of(const Loop& loop);
 
 }  // namespace tune

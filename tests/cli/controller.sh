@@ -15,11 +15,22 @@ expect 2 "broken.json: expected the field sample_time_s" generate --controller "
 expect 2 "--out: expected a file to write" generate --controller "$folder/pid.json"
 expect 2 "--controller: expected --out" generate --controller "$folder/pid.json" --kernel ring_plain_f32 --out "$folder/no.h"
 expect 2 "--order is required" generate --kernel ring_plain_f32 --taps 3 --out "$folder/no.h"
+expect 2 "--json: expected --controller beside it" generate --order 0.5 --kernel ring_plain_f32 --taps 3 --json "$folder/no.json" --out "$folder/no.h"
+# Ten times the gains: no header of a loop that grows, and none of a plant that does by itself.
+sed 's/"kp": 0.3, "ki": 0.5/"kp": 3, "ki": 5/' "$folder/pid.json" >"$folder/ten.json"
+echo '{"kind": "fotf", "denominator": [{"coefficient": 1, "order": 1}, {"coefficient": -1, "order": 0}]}' >"$folder/growing.json"
+plant=$sources/drive/models/niopdt.json
+expect 2 "ten.json: expected a stable loop with $plant, sampled every 0.001 s, found 2 poles outside the unit circle" \
+    generate --controller "$folder/ten.json" --plant "$plant" --out "$folder/no.h" --json "$folder/no.json"
+expect 2 "growing.json: expected a plant that is stable or integrates, found 1 poles with a positive real part" \
+    generate --controller "$folder/pid.json" --plant "$folder/growing.json" --out "$folder/no.h"
+[ ! -e "$folder/no.json" ] || { echo "what a refused header was found to do was written"; failures=$((failures + 1)); }
 [ ! -e "$folder/no.h" ] || { echo "a refused header was written"; failures=$((failures + 1)); }
 
 # NAME DEFINITIONS: generates NAME.h under one prefix, compiles it here and for the target, and runs the loop.
 try() {
-    expect 0 "sums of" generate --controller "$folder/$1.json" --prefix pid --out "$folder/$1.h"
+    expect 0 "here, compiled by cc: the library's" generate --controller "$folder/$1.json" --prefix pid --out "$folder/$1.h" --verify
+    grep -q "not compared: \|on the emulated Cortex-M7: the library's" "$folder/said" || { echo "$1: the target is not told of"; failures=$((failures + 1)); }
     shift_name=$1
     shift
     for compiler in gcc clang; do
@@ -51,4 +62,22 @@ try_with() {
 try_with pid 0.02 0.9 0.7 0.01 0.8
 try_with pi 0 0.8 1 0 1
 try_with whole 0.001 1 1 0 1
+
+# A compiler that computes something else, and one that refuses.
+mkdir "$folder/bin"
+real=$(command -v cc)
+printf '#!/bin/sh\nfor word; do case $word in *check.c) sed -i "s/kp = 0.3F/kp = 0.25F/" "${word%%check.c}pid.h" ;; esac; done\nexec %s "$@"\n' "$real" >"$folder/bin/cc"
+chmod +x "$folder/bin/cc"
+usual=$PATH PATH=$folder/bin:$PATH
+expect 1 "changed.h: expected the bits of the library's float stepper, found others here" \
+    generate --controller "$folder/pid.json" --prefix pid --out "$folder/changed.h" --verify
+printf '#!/bin/sh\nexit 1\n' >"$folder/bin/cc"
+expect 1 "this machine's C compiler refuses" generate --controller "$folder/pid.json" --prefix pid --out "$folder/refused.h" --verify
+PATH=$usual
+
+# The margins are told, and stand in the file and in the header's comment.
+said='gain margin 2.3 at 1.44 rad/s, phase margin 68.7 degrees (crossover 0.499 rad/s), largest |S| 1.841 at 1.27 rad/s.'
+expect 0 "$said" generate --controller "$folder/pid.json" --plant "$plant" --out "$folder/certified.h" --json "$folder/said.json"
+grep -qF " * $said" "$folder/certified.h" || { echo "the margins are not in the header"; failures=$((failures + 1)); }
+grep -q '"phase_margin_deg": 68.72' "$folder/said.json" || { echo "the margins are not in the file"; failures=$((failures + 1)); }
 [ "$failures" -eq 0 ]

@@ -132,7 +132,7 @@ int poles_outside(double a, int d, double jump, double kp, double ki_h) {
     const Eigen::VectorXcd roots = companion.eigenvalues();
     int outside = 0;
     for (const Complex& root : roots) {
-        outside += std::abs(root) > 1.0 ? 1 : 0;
+        outside += std::abs(root) > 1.0 + 1e-9 ? 1 : 0;
     }
     return outside;
 }
@@ -171,6 +171,24 @@ TEST(Stability, OfTwoIntegrationsAsByRoots) {
     }
     EXPECT_EQ(poles_outside(1.0, 5, h, 0.5, 0.005), 0);
     EXPECT_EQ(poles_outside(1.0, 5, h, 0.5, 0.15), 2);
+}
+
+// Where 1 + L is below 0 right of z = 1, the real axis has a pole there.
+TEST(Stability, OfGainsAgainstThePlantAsByRoots) {
+    const double h = 0.1;
+    const double time_s = 0.7;
+    const SampledPlant resting(drive::make_fopdt(1.5, time_s, 3 * h), h, "plant");
+    const SampledPlant integrating(integrator(1.0, 5 * h), h, "plant");
+    for (const auto& [kp, ki] :
+         {std::pair(0.5, -0.05), std::pair(-0.1, -0.2), std::pair(-3.0, -4.0), std::pair(-0.4, 0.1),
+          std::pair(3.0, -0.1), std::pair(-1.0, 0.0), std::pair(-0.5, 0.0), std::pair(-4.0, 0.0)}) {
+        const double a = std::exp(-h / time_s);
+        const int of_resting = poles_outside(a, 3, -1.5 * std::expm1(-h / time_s), kp, ki * h);
+        EXPECT_EQ(tune::margins_of({&resting, {.kp = kp, .ki = ki}}).unstable_poles, of_resting) << kp << ' ' << ki;
+        const int of_integrating = poles_outside(1.0, 5, h, kp, ki * h);
+        EXPECT_EQ(tune::margins_of({&integrating, {.kp = kp, .ki = ki}}).unstable_poles, of_integrating)
+            << kp << ' ' << ki;
+    }
 }
 
 // Without dead time, and sampled fast: zeros of s^lambda (P + kp) + ki by the argument principle on the orders as they

@@ -11,6 +11,7 @@
 #include "base/failure.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
+#include "glsum/design/held.hpp"
 #include "glsum/design/modes.hpp"
 #include "glsum/design/projection.hpp"
 #include "glsum/registry.hpp"
@@ -76,11 +77,17 @@ struct SteppedController::State {
     float weight;
     bench::HostLine<Integral> integral;
     std::optional<bench::HostLine<Derivative>> derivative;
+    glsum::design::Filter held_integral;
+    glsum::design::Filter held_derivative;
 };
 
 SteppedController::SteppedController(const ControllerSpec& spec)
-    : state_(new State{
-          {}, static_cast<float>(spec.controller.setpoint_weight), line_of<Integral>(integral_sum(spec), spec), {}}) {
+    : state_(new State{{},
+                       static_cast<float>(spec.controller.setpoint_weight),
+                       line_of<Integral>(integral_sum(spec), spec),
+                       {},
+                       {},
+                       {}}) {
     const drive::Gains& gains = spec.controller.gains;
     const Factors factors = factors_of(spec.controller);
     state_->pid = {static_cast<float>(gains.kp),
@@ -95,7 +102,9 @@ SteppedController::SteppedController(const ControllerSpec& spec)
                    0.0F};
     if (gains.kd != 0.0) {
         state_->derivative.emplace(line_of<Derivative>(derivative_sum(spec), spec));
+        state_->held_derivative = glsum::design::held<glsum::Plain, glsum::F32>(state_->derivative->state());
     }
+    state_->held_integral = glsum::design::held<glsum::Compensated, glsum::F32>(state_->integral.state());
     glsum_pid_start(&state_->pid, 0.0F, 0.0F);
     (void)glsum_pid_change;
 }
@@ -107,6 +116,28 @@ float SteppedController::step(float setpoint, float measured) {
     const float integral = state_->integral.step(setpoint - measured);
     return glsum_pid_step(&state_->pid, weighted, integral,
                           state_->derivative ? state_->derivative->step(weighted) : 0.0F);
+}
+
+std::complex<double> SteppedController::response(double angle) const {
+    namespace design = glsum::design;
+    const auto term = [&](float gain, const design::Filter& sum, double decay) {
+        return static_cast<double>(gain) * frequency_response(sum, angle) * design::mode_response(decay, 0, angle);
+    };
+    const glsum_pid& pid = state_->pid;
+    const std::complex<double> integral = term(pid.ki, state_->held_integral, 0.0);
+    const std::complex<double> derivative =
+        state_->derivative ? term(pid.kd * pid.passes, state_->held_derivative, pid.passes) : 0.0;
+    return static_cast<double>(pid.kp) + integral + derivative;
+}
+
+double SteppedController::slowest() const {
+    double slowest = state_->derivative ? state_->pid.passes : 1.0;
+    for (const auto* sum : {&state_->held_integral, &state_->held_derivative}) {
+        for (const glsum::Mode& mode : sum->modes) {
+            slowest = std::min(slowest, mode.decay);
+        }
+    }
+    return slowest;
 }
 
 }  // namespace generate

@@ -1,6 +1,7 @@
 // A fractional PID in single precision as a generated header steps it, here: the same kernels, the same statements.
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <memory>
 
@@ -40,6 +41,11 @@ public:
     SteppedController& operator=(const SteppedController&) = delete;
     /// u for the setpoint and what was measured, from rest.
     float step(float setpoint, float measured);
+    /// What it makes of e^(i angle k) as set point of weight 1, where no limit is met: by tables and gains as they are
+    /// held, without the rounding of its steps. \param angle  w h in (0, pi]
+    [[nodiscard]] std::complex<double> response(double angle) const;
+    /// What its slowest state decays by a sample, in (0, 1]; the integral's, which does not decay, apart.
+    [[nodiscard]] double slowest() const;
 
 private:
     struct State;

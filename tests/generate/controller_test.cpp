@@ -1,0 +1,214 @@
+// Generated controllers: what their tables make of sines, and the certificate of a loop with a plant.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <string>
+#include <vector>
+
+#include "base/failure.hpp"
+#include "bench/generate/controller/certificate.hpp"
+#include "bench/generate/controller/controller_header.hpp"
+#include "bench/generate/controller/report.hpp"
+#include "bench/generate/controller/verify.hpp"
+#include "drive/tune/margins.hpp"
+#include "tests/drive/plants.hpp"
+
+namespace {
+
+using generate::ControllerSpec;
+using tune::Complex;
+
+ControllerSpec spec_of(double scale = 1.0) {
+    ControllerSpec spec;
+    spec.controller.gains = {.kp = 0.3 * scale,
+                             .ki = 0.5 * scale,
+                             .kd = 0.02 * scale,
+                             .filter_s = 0.01,
+                             .integral_order = 0.9,
+                             .derivative_order = 0.7};
+    spec.controller.sample_time_s = 0.001;
+    return spec;
+}
+
+// The increments of the answer to an impulse fall; their transform is (1 - z^-1) C.
+TEST(ControllerResponse, IsTheTransformOfItsSteps) {
+    for (const double kd : {0.0, 0.02}) {
+        ControllerSpec spec = spec_of();
+        spec.controller.gains.kd = kd;
+        generate::SteppedController stepped(spec);
+        const std::size_t count = 400'000;
+        std::vector<double> increments;
+        double before = 0.0;
+        for (std::size_t k = 0; k < count; ++k) {
+            const double now = stepped.step(k == 0 ? 1.0F : 0.0F, 0.0F);
+            increments.push_back(now - before);
+            before = now;
+        }
+        for (const double angle : {0.003, 0.1, 1.0, 3.0}) {
+            Complex sum;
+            for (std::size_t k = 0; k < count; ++k) {
+                sum += increments[k] * std::polar(1.0, -angle * static_cast<double>(k));
+            }
+            const Complex expected = (1.0 - std::polar(1.0, -angle)) * stepped.response(angle);
+            EXPECT_LT(std::abs(sum - expected), 1e-3 * std::abs(expected)) << kd << ' ' << angle;
+        }
+    }
+}
+
+// The integral's weights are off by 5e-4 in all, the derivative's by twice that.
+TEST(ControllerResponse, IsNearThatOfTheOrders) {
+    const ControllerSpec spec = spec_of();
+    const drive::Gains& gains = spec.controller.gains;
+    const generate::SteppedController stepped(spec);
+    for (const double angle : {1e-4, 1e-3, 0.01, 0.1, 1.0, 3.0}) {
+        const tune::Parts parts = tune::controller_parts(gains, 0.001, angle / 0.001);
+        const Complex exact = gains.kp + gains.ki * parts.value[1] + gains.kd * parts.value[2];
+        const double loss = gains.ki * std::pow(0.001, 0.9) * 5e-4 / std::abs(1.0 - std::polar(1.0, -angle)) +
+                            gains.kd * std::pow(0.001, -0.7) * 1e-3 / 11.0;
+        EXPECT_LT(std::abs(stepped.response(angle) - exact), 1.1 * loss + 1e-6) << angle;
+    }
+}
+
+TEST(Certificate, HasTheMarginsOfTheOrders) {
+    const ControllerSpec spec = spec_of();
+    const tune::Margins margins = generate::certify(spec, plants::niopdt(), "pid", "plant");
+    const tune::SampledPlant plant(plants::niopdt(), 0.001, "plant");
+    const tune::Margins exact = tune::margins_of({&plant, spec.controller.gains});
+    EXPECT_TRUE(margins.stable());
+    EXPECT_NEAR(margins.gain, exact.gain, 1e-3 * exact.gain);
+    EXPECT_NEAR(margins.phase_deg, exact.phase_deg, 0.1);
+    EXPECT_NEAR(margins.sensitivity, exact.sensitivity, 2e-3);
+}
+
+// Coarse tables have margins of their own, and lose a loop that the orders hold.
+TEST(Certificate, IsOfTheTablesAndNotOfTheOrders) {
+    ControllerSpec spec = spec_of();
+    const double fine = generate::certify(spec, plants::niopdt(), "pid", "plant").gain;
+    spec.max_error = 0.1;
+    EXPECT_LT(generate::certify(spec, plants::niopdt(), "pid", "plant").gain, 0.8 * fine);
+    spec.max_error = 0.5;
+    try {
+        (void)generate::certify(spec, plants::niopdt(), "pid", "plant");
+        FAIL() << "an unstable loop has a certificate";
+    } catch (const glsum::Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("a smaller --max-error may do"), std::string::npos);
+    }
+}
+
+// Largest |y| of the last eighth of 40 000 samples over that of the eighth before it, after a kick of the set point:
+// y_(k+1) = a y_k + (1-a) u_(k-d), a first order behind a hold.
+double growth(const ControllerSpec& spec, double time_s, std::size_t d) {
+    const double a = std::exp(-spec.controller.sample_time_s / time_s);
+    generate::SteppedController stepped(spec);
+    const std::size_t count = 40'000;
+    std::vector<double> u;
+    double y = 0.0;
+    double largest[2] = {0.0, 0.0};
+    for (std::size_t k = 0; k < count; ++k) {
+        if (k >= count / 4 * 3) {
+            double& here = largest[k >= count / 8 * 7 ? 1 : 0];
+            here = std::max(here, std::fabs(y));
+        }
+        u.push_back(stepped.step(k < 100 ? 1.0F : 0.0F, static_cast<float>(y)));
+        y = a * y + (1.0 - a) * (k >= d ? u[k - d] : 0.0);
+    }
+    return largest[1] / largest[0];
+}
+
+TEST(Certificate, EndsWhereTheStepsBeginToGrow) {
+    const drive::Model plant = drive::make_fopdt(1.0, 0.5, 1.2);
+    for (const double max_error : {5e-4, 0.1}) {
+        ControllerSpec spec = spec_of();
+        spec.controller.sample_time_s = 0.01;
+        spec.max_error = max_error;
+        const double gain = generate::certify(spec, plant, "pid", "plant").gain;
+        const auto with = [&](double factor) {
+            ControllerSpec other = spec;
+            other.controller.gains.kp *= factor * gain;
+            other.controller.gains.ki *= factor * gain;
+            other.controller.gains.kd *= factor * gain;
+            return other;
+        };
+        EXPECT_TRUE(generate::certify(with(0.98), plant, "pid", "plant").stable());
+        EXPECT_LT(growth(with(0.98), 0.5, 120), 0.9) << max_error;
+        EXPECT_GT(growth(with(1.02), 0.5, 120), 1.1) << max_error;
+        try {
+            (void)generate::certify(with(1.02), plant, "pid.json", "plant.json");
+            FAIL() << "an unstable loop has a certificate";
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+            EXPECT_EQ(std::string(failure.what())
+                          .find("pid.json: expected a stable loop with plant.json, sampled every 0.01 s, found 2 poles "
+                                "outside the unit circle (by the argument principle)"),
+                      0U);
+        }
+    }
+}
+
+TEST(Certificate, RefusesGainsAgainstThePlant) {
+    EXPECT_THROW((void)generate::certify(spec_of(-0.1), plants::niopdt(), "pid", "plant"), glsum::Failure);
+    drive::Model other = plants::niopdt();
+    other.gain = -1.0;
+    EXPECT_TRUE(generate::certify(spec_of(-1.0), other, "pid", "plant").stable());
+}
+
+TEST(ControllerReport, HasMarginsAsAFileAndInWords) {
+    const ControllerSpec spec = spec_of();
+    const tune::Margins margins = generate::certify(spec, plants::niopdt(), "pid", "plant");
+    const generate::LoopReport loop{"plant.json", "a plant", {1e-4, 2e-4}, margins};
+    const std::string json = generate::to_json({"pid.json", "pid.h", loop}, spec);
+    for (const char* field : {"\"schema\": \"glsum-controller-1\"", "\"gain_margin\": ", "\"phase_margin_deg\": ",
+                              "\"sensitivity\": ", "\"unstable_poles\": 0", "\"deviation\": 0.0001"}) {
+        EXPECT_NE(json.find(field), std::string::npos) << field;
+    }
+    EXPECT_EQ(generate::to_lines(loop, 7).back(), generate::margins_text(margins) + ".");
+    EXPECT_EQ(generate::to_json({"pid.json", "pid.h"}, spec).find("loop"), std::string::npos);
+}
+
+// The record meets both limits, or they are not compared.
+TEST(CheckedBits, RecordMeetsTheLimits) {
+    ControllerSpec spec = spec_of();
+    spec.controller.low = -2.0;
+    spec.controller.high = 2.0;
+    generate::SteppedController stepped(spec);
+    const generate::CheckRecord record = generate::check_record();
+    int low = 0;
+    int high = 0;
+    for (std::size_t k = 0; k < record.setpoint.size(); ++k) {
+        const float output = stepped.step(record.setpoint[k], record.measured[k]);
+        low += output == -2.0F ? 1 : 0;
+        high += output == 2.0F ? 1 : 0;
+    }
+    EXPECT_GT(low, 10);
+    EXPECT_GT(high, 10);
+    EXPECT_LT(low + high, 2000);
+}
+
+TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
+    ControllerSpec spec = spec_of();
+    spec.controller.low = -2.0;
+    spec.controller.high = 2.0;
+    const std::string text = generate::make_controller_header(spec, "own", "none", {});
+    const auto checked = [&](const std::string& what, const std::string& with) {
+        std::string other = text;
+        const std::size_t at = other.find(what);
+        EXPECT_NE(at, std::string::npos) << what;
+        other.replace(at, what.size(), with);
+        return generate::check_bits_here({"own", other, spec});
+    };
+    EXPECT_TRUE(checked("kp = 0.3F", "kp = 0.3F").good());
+    EXPECT_EQ(checked("kp = 0.3F", "kp = 0.30000004F").first_wrong, 1U);
+    // What only a limit shows, behind the first quarter of a thousand samples.
+    const generate::CheckedBits limit = checked("high = 2.0F", "high = 2.0000002F");
+    EXPECT_GT(limit.first_wrong, 3000U);
+    EXPECT_LT(limit.first_wrong, 4000U);
+    EXPECT_EQ(checked("? 0U : 1U;\n}\n\n#endif /* OWN_F32_H */", "? 1U : 0U;\n}\n\n#endif /* OWN_F32_H */").first_wrong,
+              generate::self_check_failed);
+    EXPECT_THROW((void)checked("static inline float own_step_f32", "static inline int own_step_f32"), glsum::Failure);
+    EXPECT_EQ(generate::to_text({"there", 4000, 17}),
+              "bits of 4000 steps and of the self-check, there: others from step 17 on");
+}
+
+}  // namespace
