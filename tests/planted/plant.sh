@@ -33,6 +33,8 @@ done
 # The library that a file belongs to, and the tests that are to notice.
 library_of() {
     case $1 in
+        kernels/glsum/design/band.cpp | kernels/glsum/design/derivative.cpp | kernels/glsum/design/filter.cpp)
+            echo kernels/glsum/design/libglsum_filters.a ;;
         kernels/glsum/design/*) echo kernels/glsum/design/libglsum_design.a ;;
         kernels/glsum/model/*) echo kernels/glsum/model/libglsum_model.a ;;
         kernels/*) echo kernels/libglsum.a ;;
@@ -43,6 +45,7 @@ library_of() {
         bench/host/*) echo bench/libglsum_host.a ;;
         bench/target/*) echo bench/libglsum_target.a ;;
         bench/studies/horizons.cpp | bench/studies/model*.cpp | bench/studies/records.cpp) echo bench/libglsum_drive_studies.a ;;
+        bench/studies/bands*) echo bench/libglsum_band_study.a ;;
         bench/studies/*) echo bench/libglsum_studies.a ;;
         bench/report/table.cpp | bench/report/plot.cpp | bench/report/discretisation_table.cpp) echo bench/libglsum_shown.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
