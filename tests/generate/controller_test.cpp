@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "bench/generate/controller/controller_header.hpp"
 #include "bench/generate/controller/report.hpp"
 #include "bench/generate/controller/verify.hpp"
+#include "bench/target/target_rows.hpp"
 #include "drive/tune/margins.hpp"
 #include "tests/drive/plants.hpp"
 
@@ -209,6 +212,75 @@ TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
     EXPECT_THROW((void)checked("static inline float own_step_f32", "static inline int own_step_f32"), glsum::Failure);
     EXPECT_EQ(generate::to_text({"there", 4000, 17}),
               "bits of 4000 steps and of the self-check, there: others from step 17 on");
+}
+
+std::optional<qemu::Board> board_here() {
+    try {
+        qemu::Board board = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
+        (void)qemu::emulator_version();
+        return board;
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(std::getenv("GLSUM_REQUIRE_FIRMWARE"), nullptr) << failure.what();
+        return std::nullopt;
+    }
+}
+
+// 1 + 15 and 1 + 9 taps and modes: two words a compensated mode and one a plain one, behind ten of the statements'.
+TEST(ControllerOnTarget, BitsCyclesAndBytes) {
+    const auto board = board_here();
+    if (!board) {
+        GTEST_SKIP() << "no board is here";
+    }
+    const ControllerSpec spec = spec_of();
+    const ControllerSpec whole = generate::whole_orders(spec);
+    const std::string text = generate::make_controller_header(spec, "own", "none", {});
+    std::string other = generate::make_controller_header(spec, "other", "none", {});
+    other.replace(other.find("kp = 0.3F"), 9, "kp = 0.4F");
+    const auto all =
+        generate::check_on_target({{"own", text, spec},
+                                   {"whole", generate::make_controller_header(whole, "whole", "none", {}), whole},
+                                   {"other", other, spec}},
+                                  *board, bench::timing_request(TEST_CORES, {"stm32f746-itcm"}));
+    ASSERT_EQ(all.size(), 3U);
+    EXPECT_TRUE(all[0].bits.good());
+    EXPECT_TRUE(all[1].bits.good());
+    EXPECT_EQ(all[2].bits.first_wrong, 1U);
+    EXPECT_EQ(generate::integral_sum(spec).taps, 31U);
+    EXPECT_EQ(generate::derivative_sum(spec).taps, 19U);
+    EXPECT_EQ(all[0].cost.state_bytes, 4U * (10 + 2 * 15 + 9));
+    EXPECT_EQ(all[0].cost.table_bytes, 4U * (2 * 15 + 2 * 9));
+    EXPECT_EQ(all[1].cost.table_bytes, 4U);
+    for (const generate::OnTarget& one : all) {
+        EXPECT_LE(one.cost.low, one.cost.cycles);
+        EXPECT_GE(one.cost.high, one.cost.cycles);
+        // Two bytes an instruction or four; no core issues more than two a cycle.
+        EXPECT_GE(static_cast<double>(one.cost.code_bytes), 2.0 * one.cost.instructions);
+        EXPECT_GE(2.0 * one.cost.cycles, one.cost.instructions);
+    }
+    EXPECT_GT(all[0].cost.cycles, 3.0 * all[1].cost.cycles);
+    EXPECT_EQ(all[0].cost.instructions, all[2].cost.instructions);
+}
+
+TEST(ControllerReport, HasTheCost) {
+    generate::ControllerReport report{"pid.json", "pid.h"};
+    EXPECT_EQ(generate::cost_table(report), "");
+    report.core = "some-core";
+    report.cost = {292.0, 271.0, 313.0, 339.0, 1636, 192, 196};
+    report.whole = {46.0, 39.5, 50.5, 47.0, 244, 4, 48};
+    const std::string text = generate::cost_table(report);
+    EXPECT_NE(
+        text.find("  pid.json                        292.0    271.0 to 313.0         339.0     196     192    1636"),
+        std::string::npos)
+        << text;
+    EXPECT_NE(
+        text.find("  integer PID, the same gains      46.0      39.5 to 50.5          47.0      48       4     244"),
+        std::string::npos)
+        << text;
+    const std::string json = generate::to_json(report, spec_of());
+    for (const char* field : {"\"core\": \"some-core\"", "\"model_cycles_low\": 271.0", "\"code_bytes\": 1636",
+                              "\"cost_of_integer_pid\": ", "\"state_bytes\": 48"}) {
+        EXPECT_NE(json.find(field), std::string::npos) << field;
+    }
 }
 
 }  // namespace
