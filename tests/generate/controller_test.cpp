@@ -101,11 +101,11 @@ TEST(Certificate, IsOfTheTablesAndNotOfTheOrders) {
 }
 
 // Largest |y| of the last eighth of 40 000 samples over that of the eighth before it, after a kick of the set point:
-// y_(k+1) = a y_k + (1-a) u_(k-d), a first order behind a hold.
-double growth(const ControllerSpec& spec, double time_s, std::size_t d) {
-    const double a = std::exp(-spec.controller.sample_time_s / time_s);
+// y_(k+1) = stays y_k + comes u_(k-120), an integrator or a first order behind a hold.
+double growth(const ControllerSpec& spec, double stays, double comes) {
     generate::SteppedController stepped(spec);
     const std::size_t count = 40'000;
+    const std::size_t delay = 120;
     std::vector<double> u;
     double y = 0.0;
     double largest[2] = {0.0, 0.0};
@@ -115,18 +115,32 @@ double growth(const ControllerSpec& spec, double time_s, std::size_t d) {
             here = std::max(here, std::fabs(y));
         }
         u.push_back(stepped.step(k < 100 ? 1.0F : 0.0F, static_cast<float>(y)));
-        y = a * y + (1.0 - a) * (k >= d ? u[k - d] : 0.0);
+        y = stays * y + comes * (k >= delay ? u[k - delay] : 0.0);
     }
     return largest[1] / largest[0];
 }
 
 TEST(Certificate, EndsWhereTheStepsBeginToGrow) {
-    const drive::Model plant = drive::make_fopdt(1.0, 0.5, 1.2);
-    for (const double max_error : {5e-4, 0.1}) {
+    const double a = std::exp(-0.01 / 0.5);
+    drive::Model integrator;
+    integrator.denominator = {{1.0, 1.0}};
+    integrator.delay_s = 1.2;
+    struct Case {
+        drive::Model plant;
+        double stays;
+        double comes;
+        double order;
+        double max_error;
+    };
+    const drive::Model resting = drive::make_fopdt(1.0, 0.5, 1.2);
+    for (const Case& one : {Case{resting, a, 1.0 - a, 0.9, 5e-4}, Case{resting, a, 1.0 - a, 0.9, 0.1},
+                            Case{integrator, 1.0, 0.01, 0.9, 5e-4}, Case{integrator, 1.0, 0.01, 0.4, 5e-4}}) {
         ControllerSpec spec = spec_of();
         spec.controller.sample_time_s = 0.01;
-        spec.max_error = max_error;
-        const double gain = generate::certify(spec, plant, "pid", "plant").gain;
+        spec.controller.gains.ki = 0.1;
+        spec.controller.gains.integral_order = one.order;
+        spec.max_error = one.max_error;
+        const double gain = generate::certify(spec, one.plant, "pid", "plant").gain;
         const auto with = [&](double factor) {
             ControllerSpec other = spec;
             other.controller.gains.kp *= factor * gain;
@@ -134,11 +148,11 @@ TEST(Certificate, EndsWhereTheStepsBeginToGrow) {
             other.controller.gains.kd *= factor * gain;
             return other;
         };
-        EXPECT_TRUE(generate::certify(with(0.98), plant, "pid", "plant").stable());
-        EXPECT_LT(growth(with(0.98), 0.5, 120), 0.9) << max_error;
-        EXPECT_GT(growth(with(1.02), 0.5, 120), 1.1) << max_error;
+        EXPECT_TRUE(generate::certify(with(0.98), one.plant, "pid", "plant").stable());
+        EXPECT_LT(growth(with(0.98), one.stays, one.comes), 0.9) << one.order << ' ' << one.max_error;
+        EXPECT_GT(growth(with(1.02), one.stays, one.comes), 1.1) << one.order << ' ' << one.max_error;
         try {
-            (void)generate::certify(with(1.02), plant, "pid.json", "plant.json");
+            (void)generate::certify(with(1.02), one.plant, "pid.json", "plant.json");
             FAIL() << "an unstable loop has a certificate";
         } catch (const glsum::Failure& failure) {
             EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
