@@ -220,10 +220,11 @@ void add_options(Command& command, const Words& words) {
                        "With --controller: a model file; the loop is measured beside full memory in double, and its "
                        "margins are told; an unstable one is refused");
     command.add_option("--json", options->json, "With --controller: what was found, schema glsum-controller-1");
-    command.add_flag(
-        "--verify", options->verify,
-        "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
-        "modelled cycles and the kernel's; of a controller, steps it here and there and compares its bits");
+    command.add_flag("--verify", options->verify,
+                     "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
+                     "modelled cycles and the kernel's; of a controller, steps it here and there, compares its bits, "
+                     "and tells its cycles and "
+                     "bytes beside an integer PID's");
     command.footer(
         "Takes the budget of `choose` (see there), --derivative-error and --band included, and writes what that "
         "chooses, among the kernels that can be "
@@ -237,7 +238,7 @@ void add_options(Command& command, const Words& words) {
         "missing.\n"
         "Example: glsum generate --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --out half_derivative.h\n"
         "         glsum generate --order 0.5 --kernel ring_plain_q31 --taps 300 --out half_derivative.h --verify\n"
-        "         glsum generate --controller pid.json --out pid.h");
+        "         glsum generate --controller pid.json --plant model.json --out pid.h --verify");
     command.callback([options, budget, &words] { run(*options, *budget, words.line); });
 }
 

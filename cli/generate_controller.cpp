@@ -25,23 +25,35 @@ generate::LoopReport report_of_loop(const generate::ControllerSpec& spec, const 
     return {options.plant, drive::to_text(plant), generate::measure_loop(spec, plant, spec.horizon), margins};
 }
 
-// Here, and on the target where it was built.
-std::vector<generate::CheckedBits> verify(const generate::WrittenController& written, const std::string& core) {
-    std::vector<generate::CheckedBits> checked = {generate::check_bits_here(written)};
+// Here, and on the target where it was built, beside the integer PID of the same gains.
+void verify(generate::ControllerReport& report, const generate::WrittenController& written,
+            const std::string& licence) {
+    report.checked = {generate::check_bits_here(written)};
+    std::vector<generate::WrittenController> controllers = {written};
+    const generate::ControllerSpec whole = generate::whole_orders(written.spec);
+    const drive::Gains& gains = written.spec.controller.gains;
+    if (gains.integral_order != 1.0 || (gains.kd != 0.0 && gains.derivative_order != 1.0)) {
+        const std::string prefix = written.prefix + "_whole";
+        controllers.push_back({prefix, generate::make_controller_header(whole, prefix, licence, {}), whole});
+    }
     try {
-        const qemu::Board board = built_board();
-        checked.push_back(
-            generate::check_bits_on_target(written, board, bench::timing_request(cores_folder(), {core})));
+        const auto all =
+            generate::check_on_target(controllers, built_board(), bench::timing_request(cores_folder(), {report.core}));
+        report.checked.push_back(all[0].bits);
+        report.cost = all[0].cost;
+        if (all.size() > 1) {
+            report.whole = all[1].cost;
+        }
     } catch (const glsum::Failure& failure) {
         if (failure.status() != glsum::Exit::missing) {
             throw;
         }
         fmt::print("bits on the emulated Cortex-M7: not compared: {}\n", failure.what());
     }
-    for (const generate::CheckedBits& one : checked) {
+    for (const generate::CheckedBits& one : report.checked) {
         fmt::print("{}\n", generate::to_text(one));
     }
-    return checked;
+    fmt::print("{}", generate::cost_table(report));
 }
 
 }  // namespace
@@ -85,7 +97,8 @@ void generate_controller(const ControllerOptions& options, const std::string& co
                generate::integral_sum(spec).taps,
                gains.kd != 0.0 ? fmt::format(" and {}", generate::derivative_sum(spec).taps) : "");
     if (options.verify) {
-        report.checked = verify({prefix, header, spec}, options.core);
+        report.core = options.core;
+        verify(report, {prefix, header, spec}, licence);
     }
     if (!options.json.empty()) {
         base::write_file(options.json, generate::to_json(report, spec));

@@ -85,12 +85,6 @@ std::vector<std::string> bits(std::span<const std::uint64_t> outputs, bool wide)
     return texts;
 }
 
-std::string upper(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    return text;
-}
-
 // Lines of a comment, which none of them may end.
 std::string comment(const std::string& text) {
     std::string lines;

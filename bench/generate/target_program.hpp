@@ -28,13 +28,14 @@ struct TargetRun {
     std::vector<std::uint32_t> answers;      ///< what each `glsum_verify` returned
     std::vector<std::uint32_t> entries;      ///< addresses of the watched functions
     qemu::CallLog counts;                    ///< of their calls
-    std::vector<timing::TimingLog> timings;  ///< one for each answer
+    std::vector<timing::TimingLog> timings;  ///< one for each of them
 };
 
-/// \param functions  to be counted, one for each answer \param done  called after each
+/// \param functions  to be counted and timed \param answers  how many the program gives \param done  called after each
 /// \throws glsum::Failure (check failed) where the program stops before the last one
 [[nodiscard]] TargetRun run_on_target(const std::filesystem::path& elf, const std::vector<std::string>& functions,
-                                      const qemu::Board& board, const timing::TimingRequest& timing,
-                                      const base::Scratch& scratch, const std::function<void()>& done);
+                                      std::size_t answers, const qemu::Board& board,
+                                      const timing::TimingRequest& timing, const base::Scratch& scratch,
+                                      const std::function<void()>& done);
 
 }  // namespace generate

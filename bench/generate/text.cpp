@@ -1,5 +1,7 @@
 #include "bench/generate/text.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <stdexcept>
 
 namespace generate {
@@ -21,6 +23,12 @@ std::string fill(std::string_view text, const Places& places) {
         text.remove_prefix(end + 1);
     }
     return filled;
+}
+
+std::string upper(std::string word) {
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    return word;
 }
 
 std::string accumulate(bool fused) { return fused ? "@name@_fused_multiply_add" : "@name@_multiply_add"; }

@@ -12,6 +12,9 @@ using Places = std::map<std::string, std::string, std::less<>>;
 /// \throws std::out_of_range for a place that the table does not have.
 [[nodiscard]] std::string fill(std::string_view text, const Places& places);
 
+/// As macros are named.
+[[nodiscard]] std::string upper(std::string word);
+
 /// The name of sum + a x in a header, and what its comment says of a fused one.
 [[nodiscard]] std::string accumulate(bool fused);
 [[nodiscard]] std::string rounded_once(bool fused);

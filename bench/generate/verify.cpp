@@ -8,17 +8,13 @@
 #include "base/progress.hpp"
 #include "base/scratch.hpp"
 #include "bench/generate/target_program.hpp"
+#include "bench/generate/text.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
 #include "glsum/catalogue.hpp"
 
 namespace generate {
 namespace {
-
-std::string upper(std::string word) {
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::toupper(c); });
-    return word;
-}
 
 const char* sample_type(const glsum::CatalogueEntry& kernel) {
     if (kernel.floating_point) {
@@ -131,7 +127,8 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
     for (const Spec& spec : specs) {
         functions.push_back("count_" + spec.prefix);
     }
-    const TargetRun run = run_on_target(path, functions, board, timing, scratch, [&] { progress.advance(); });
+    const TargetRun run =
+        run_on_target(path, functions, functions.size(), board, timing, scratch, [&] { progress.advance(); });
     std::map<std::uint32_t, std::size_t> taps;
     for (std::size_t i = 0; i < specs.size(); ++i) {
         taps[run.entries[i]] = specs[i].taps;

@@ -63,6 +63,22 @@ try_with pid 0.02 0.9 0.7 0.01 0.8
 try_with pi 0 0.8 1 0 1
 try_with whole 0.001 1 1 0 1
 
+# What a step costs, where there is a board: bytes of the state as the compiler here has them, beside an integer PID.
+expect 0 "compiled by cc" generate --controller "$folder/pid.json" --prefix pid --out "$folder/cost.h" --verify --json "$folder/cost.json"
+if ! grep -q "not compared: " "$folder/said"; then
+    grep -q "integer PID, the same gains .* to " "$folder/said" || { echo "no integer PID's cost is told"; failures=$((failures + 1)); }
+    cat >"$folder/size.c" <<'END'
+#include <stdio.h>
+#include "cost.h"
+int main(void) { return printf("\"state_bytes\": %lu,\n", (unsigned long)sizeof(pid_f32_instance)) < 0; }
+END
+    cc -I"$folder" "$folder/size.c" -lm -o "$folder/size" && "$folder/size" >"$folder/size.txt" && grep -qF -f "$folder/size.txt" "$folder/cost.json" ||
+        { echo "the state's bytes are not $(cat "$folder/size.txt")"; failures=$((failures + 1)); }
+fi
+# An integer PID has none beside it.
+expect 0 "compiled by cc" generate --controller "$folder/whole.json" --prefix pid --out "$folder/cost.h" --verify
+! grep -q "integer PID, the same gains" "$folder/said" || { echo "an integer PID stands beside itself"; failures=$((failures + 1)); }
+
 # A compiler that computes something else, and one that refuses.
 mkdir "$folder/bin"
 real=$(command -v cc)

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@
 #include "bench/generate/controller/controller_header.hpp"
 #include "bench/generate/controller/report.hpp"
 #include "bench/generate/controller/verify.hpp"
+#include "bench/target/target_rows.hpp"
 #include "drive/tune/margins.hpp"
 #include "tests/drive/plants.hpp"
 
@@ -98,11 +101,11 @@ TEST(Certificate, IsOfTheTablesAndNotOfTheOrders) {
 }
 
 // Largest |y| of the last eighth of 40 000 samples over that of the eighth before it, after a kick of the set point:
-// y_(k+1) = a y_k + (1-a) u_(k-d), a first order behind a hold.
-double growth(const ControllerSpec& spec, double time_s, std::size_t d) {
-    const double a = std::exp(-spec.controller.sample_time_s / time_s);
+// y_(k+1) = stays y_k + comes u_(k-120), an integrator or a first order behind a hold.
+double growth(const ControllerSpec& spec, double stays, double comes) {
     generate::SteppedController stepped(spec);
     const std::size_t count = 40'000;
+    const std::size_t delay = 120;
     std::vector<double> u;
     double y = 0.0;
     double largest[2] = {0.0, 0.0};
@@ -112,18 +115,32 @@ double growth(const ControllerSpec& spec, double time_s, std::size_t d) {
             here = std::max(here, std::fabs(y));
         }
         u.push_back(stepped.step(k < 100 ? 1.0F : 0.0F, static_cast<float>(y)));
-        y = a * y + (1.0 - a) * (k >= d ? u[k - d] : 0.0);
+        y = stays * y + comes * (k >= delay ? u[k - delay] : 0.0);
     }
     return largest[1] / largest[0];
 }
 
 TEST(Certificate, EndsWhereTheStepsBeginToGrow) {
-    const drive::Model plant = drive::make_fopdt(1.0, 0.5, 1.2);
-    for (const double max_error : {5e-4, 0.1}) {
+    const double a = std::exp(-0.01 / 0.5);
+    drive::Model integrator;
+    integrator.denominator = {{1.0, 1.0}};
+    integrator.delay_s = 1.2;
+    struct Case {
+        drive::Model plant;
+        double stays;
+        double comes;
+        double order;
+        double max_error;
+    };
+    const drive::Model resting = drive::make_fopdt(1.0, 0.5, 1.2);
+    for (const Case& one : {Case{resting, a, 1.0 - a, 0.9, 5e-4}, Case{resting, a, 1.0 - a, 0.9, 0.1},
+                            Case{integrator, 1.0, 0.01, 0.9, 5e-4}, Case{integrator, 1.0, 0.01, 0.4, 5e-4}}) {
         ControllerSpec spec = spec_of();
         spec.controller.sample_time_s = 0.01;
-        spec.max_error = max_error;
-        const double gain = generate::certify(spec, plant, "pid", "plant").gain;
+        spec.controller.gains.ki = 0.1;
+        spec.controller.gains.integral_order = one.order;
+        spec.max_error = one.max_error;
+        const double gain = generate::certify(spec, one.plant, "pid", "plant").gain;
         const auto with = [&](double factor) {
             ControllerSpec other = spec;
             other.controller.gains.kp *= factor * gain;
@@ -131,11 +148,11 @@ TEST(Certificate, EndsWhereTheStepsBeginToGrow) {
             other.controller.gains.kd *= factor * gain;
             return other;
         };
-        EXPECT_TRUE(generate::certify(with(0.98), plant, "pid", "plant").stable());
-        EXPECT_LT(growth(with(0.98), 0.5, 120), 0.9) << max_error;
-        EXPECT_GT(growth(with(1.02), 0.5, 120), 1.1) << max_error;
+        EXPECT_TRUE(generate::certify(with(0.98), one.plant, "pid", "plant").stable());
+        EXPECT_LT(growth(with(0.98), one.stays, one.comes), 0.9) << one.order << ' ' << one.max_error;
+        EXPECT_GT(growth(with(1.02), one.stays, one.comes), 1.1) << one.order << ' ' << one.max_error;
         try {
-            (void)generate::certify(with(1.02), plant, "pid.json", "plant.json");
+            (void)generate::certify(with(1.02), one.plant, "pid.json", "plant.json");
             FAIL() << "an unstable loop has a certificate";
         } catch (const glsum::Failure& failure) {
             EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
@@ -209,6 +226,75 @@ TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
     EXPECT_THROW((void)checked("static inline float own_step_f32", "static inline int own_step_f32"), glsum::Failure);
     EXPECT_EQ(generate::to_text({"there", 4000, 17}),
               "bits of 4000 steps and of the self-check, there: others from step 17 on");
+}
+
+std::optional<qemu::Board> board_here() {
+    try {
+        qemu::Board board = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
+        (void)qemu::emulator_version();
+        return board;
+    } catch (const glsum::Failure& failure) {
+        EXPECT_EQ(std::getenv("GLSUM_REQUIRE_FIRMWARE"), nullptr) << failure.what();
+        return std::nullopt;
+    }
+}
+
+// 1 + 15 and 1 + 9 taps and modes: two words a compensated mode and one a plain one, behind ten of the statements'.
+TEST(ControllerOnTarget, BitsCyclesAndBytes) {
+    const auto board = board_here();
+    if (!board) {
+        GTEST_SKIP() << "no board is here";
+    }
+    const ControllerSpec spec = spec_of();
+    const ControllerSpec whole = generate::whole_orders(spec);
+    const std::string text = generate::make_controller_header(spec, "own", "none", {});
+    std::string other = generate::make_controller_header(spec, "other", "none", {});
+    other.replace(other.find("kp = 0.3F"), 9, "kp = 0.4F");
+    const auto all =
+        generate::check_on_target({{"own", text, spec},
+                                   {"whole", generate::make_controller_header(whole, "whole", "none", {}), whole},
+                                   {"other", other, spec}},
+                                  *board, bench::timing_request(TEST_CORES, {"stm32f746-itcm"}));
+    ASSERT_EQ(all.size(), 3U);
+    EXPECT_TRUE(all[0].bits.good());
+    EXPECT_TRUE(all[1].bits.good());
+    EXPECT_EQ(all[2].bits.first_wrong, 1U);
+    EXPECT_EQ(generate::integral_sum(spec).taps, 31U);
+    EXPECT_EQ(generate::derivative_sum(spec).taps, 19U);
+    EXPECT_EQ(all[0].cost.state_bytes, 4U * (10 + 2 * 15 + 9));
+    EXPECT_EQ(all[0].cost.table_bytes, 4U * (2 * 15 + 2 * 9));
+    EXPECT_EQ(all[1].cost.table_bytes, 4U);
+    for (const generate::OnTarget& one : all) {
+        EXPECT_LE(one.cost.low, one.cost.cycles);
+        EXPECT_GE(one.cost.high, one.cost.cycles);
+        // Two bytes an instruction or four; no core issues more than two a cycle.
+        EXPECT_GE(static_cast<double>(one.cost.code_bytes), 2.0 * one.cost.instructions);
+        EXPECT_GE(2.0 * one.cost.cycles, one.cost.instructions);
+    }
+    EXPECT_GT(all[0].cost.cycles, 3.0 * all[1].cost.cycles);
+    EXPECT_EQ(all[0].cost.instructions, all[2].cost.instructions);
+}
+
+TEST(ControllerReport, HasTheCost) {
+    generate::ControllerReport report{"pid.json", "pid.h"};
+    EXPECT_EQ(generate::cost_table(report), "");
+    report.core = "some-core";
+    report.cost = {292.0, 271.0, 313.0, 339.0, 1636, 192, 196};
+    report.whole = {46.0, 39.5, 50.5, 47.0, 244, 4, 48};
+    const std::string text = generate::cost_table(report);
+    EXPECT_NE(
+        text.find("  pid.json                        292.0    271.0 to 313.0         339.0     196     192    1636"),
+        std::string::npos)
+        << text;
+    EXPECT_NE(
+        text.find("  integer PID, the same gains      46.0      39.5 to 50.5          47.0      48       4     244"),
+        std::string::npos)
+        << text;
+    const std::string json = generate::to_json(report, spec_of());
+    for (const char* field : {"\"core\": \"some-core\"", "\"model_cycles_low\": 271.0", "\"code_bytes\": 1636",
+                              "\"cost_of_integer_pid\": ", "\"state_bytes\": 48"}) {
+        EXPECT_NE(json.find(field), std::string::npos) << field;
+    }
 }
 
 }  // namespace

@@ -2,19 +2,14 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <bit>
-#include <cctype>
 #include <cmath>
 #include <random>
 
+#include "bench/generate/text.hpp"
+
 namespace generate {
 namespace {
-
-std::string upper(std::string word) {
-    std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::toupper(c); });
-    return word;
-}
 
 std::string list_of(const std::vector<float>& numbers) {
     std::string text;
@@ -33,6 +28,18 @@ std::string expected_of(const ControllerSpec& spec, const CheckRecord& record) {
         text += fmt::format("0x{:08X}U,{}", std::bit_cast<std::uint32_t>(output), k % 8 == 7 ? "\n" : " ");
     }
     return text;
+}
+
+// In C. A sum of one coefficient has no table.
+std::string table_bytes(const WrittenController& controller) {
+    std::string sum = "0U";
+    if (integral_sum(controller.spec).taps > 1) {
+        sum += fmt::format(" + sizeof {}_integral_f32_table", controller.prefix);
+    }
+    if (controller.spec.controller.gains.kd != 0.0 && derivative_sum(controller.spec).taps > 1) {
+        sum += fmt::format(" + sizeof {}_derivative_f32_table", controller.prefix);
+    }
+    return sum;
 }
 
 }  // namespace
@@ -91,6 +98,7 @@ std::string target_source(const std::vector<WrittenController>& controllers) {
     std::string text;
     std::string calls;
     std::string entries;
+    std::string sizes;
     for (const WrittenController& controller : controllers) {
         for (const char* sum : {"INTEGRAL", "DERIVATIVE"}) {
             text += fmt::format(
@@ -110,21 +118,28 @@ static void call_{0}(unsigned k)
 )",
                              controller.prefix);
         entries += fmt::format("    call_{},\n", controller.prefix);
+        sizes += fmt::format("    {{sizeof line_{}, {}}},\n", controller.prefix, table_bytes(controller));
     }
     return text + check_source(controllers) + calls + "static void (*const calls[])(unsigned) = {\n" + entries +
+           "};\nstatic const uint32_t sizes[][2] = {\n" + sizes +
            fmt::format(R"(}};
 void glsum_make_calls(unsigned taps, unsigned software_double, void (*make)(unsigned call));
 extern const unsigned glsum_verified_count;
 unsigned glsum_verify(unsigned number);
-const unsigned glsum_verified_count = sizeof entries / sizeof entries[0];
+const unsigned glsum_verified_count = {0}U * (sizeof entries / sizeof entries[0]);
 unsigned glsum_verify(unsigned number)
 {{
-    const uint32_t wrong = entries[number]();
-    glsum_make_calls({}U, 0U, calls[number]);
+    const unsigned controller = number / {0}U;
+    uint32_t wrong;
+    if (number % {0}U != 0U) {{
+        return (unsigned)sizes[controller][number % {0}U - 1U];
+    }}
+    wrong = entries[controller]();
+    glsum_make_calls({1}U, 0U, calls[controller]);
     return (unsigned)wrong;
 }}
 )",
-                       controller_calls.taps);
+                       answers_a_controller, controller_calls.taps);
 }
 
 }  // namespace generate

@@ -36,6 +36,8 @@ struct CheckRecord {
 /// calls of it behind each check. Tables lie in RAM, as a kernel's do.
 [[nodiscard]] std::string target_source(const std::vector<WrittenController>& controllers);
 
+inline constexpr std::size_t answers_a_controller = 3;
+
 /// The calls that it makes: the states have settled behind the first of them.
 inline constexpr firmware::TimedCalls controller_calls{32, false};
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <limits>
 
@@ -52,9 +51,8 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     const drive::Fopid& controller = spec.controller;
     const drive::Gains& gains = controller.gains;
     const Factors factors = factors_of(controller);
-    std::string upper = prefix + "_f32";
-    std::transform(upper.begin(), upper.end(), upper.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+    const std::string sums = upper(prefix);
+    const std::string name = sums + "_F32";
     const std::string integral = sum_header(spec, integral_kernel, integral_sum(spec), prefix + "_integral", licence);
     const bool derives = gains.kd != 0.0;
     const std::string derivative =
@@ -69,7 +67,7 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     }
     const Places places{
         {"prefix", prefix},
-        {"NAME", upper},
+        {"NAME", name},
         {"step", real(controller.sample_time_s)},
         {"weight", real(controller.setpoint_weight)},
         {"per_ki", real(factors.integral)},
@@ -85,10 +83,10 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
         {"derivative_index", derives ? "    size_t i;\n" : ""},
         {"derivative_start", derives ? fmt::format("    for (i = 0U; i < {0}_SAMPLES; ++i) {{\n"
                                                    "        S->derivative.past[i] = weighted;\n    }}\n",
-                                                   upper.substr(0, upper.size() - 4) + "_DERIVATIVE_F32")
+                                                   sums + "_DERIVATIVE_F32")
                                      : ""},
         {"kd_note", derives ? "" : " There is no derivative part: kd is not used."},
-        {"kd_scaled", fmt::format("{}_pid_product(kd, {}_DERIVATIVE)", prefix, upper)},
+        {"kd_scaled", fmt::format("{}_pid_product(kd, {}_DERIVATIVE)", prefix, name)},
         {"derivative_sum", derives ? prefix + "_derivative_step_f32(&S->derivative, weighted)" : std::string("0.0F")},
         {"steps", std::to_string(steps)},
         {"check", std::to_string(inputs.size())},
@@ -107,11 +105,11 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     for (const std::string& line : lines) {
         text += line.empty() ? " *\n" : " * " + replaced(line, "*/", "* /") + "\n";
     }
-    text += fmt::format(" * Licence: {}.\n */\n#ifndef {}_H\n#define {}_H\n\n", licence, upper, upper) + integral +
-            "\n" + derivative + "\n";
+    text += fmt::format(" * Licence: {}.\n */\n#ifndef {}_H\n#define {}_H\n\n", licence, name, name) + integral + "\n" +
+            derivative + "\n";
     std::string statements = replaced(std::string(pid_text), "glsum_pid", prefix + "_pid");
     statements = replaced(statements, "GLSUM_REAL", "float");
-    statements = replaced(statements, "GLSUM_PID_KEEP", upper.substr(0, upper.size() - 4) + "_INTEGRAL_F32_KEEP");
+    statements = replaced(statements, "GLSUM_PID_KEEP", sums + "_INTEGRAL_F32_KEEP");
     return text + statements + fill(controller_text, places);
 }
 

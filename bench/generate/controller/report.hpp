@@ -24,10 +24,16 @@ struct ControllerReport {
     std::string header;      ///< the one that was written
     std::optional<LoopReport> loop = {};
     std::vector<CheckedBits> checked = {};
+    std::string core = {};  ///< of the timing model
+    std::optional<ControllerCost> cost = {};
+    std::optional<ControllerCost> whole = {};  ///< of the integer PID of the same gains
 };
 
 /// Lines without an indentation.
 [[nodiscard]] std::vector<std::string> to_lines(const LoopReport& loop, std::size_t samples);
+
+/// What a step costs beside the integer PID's; nothing without a cost.
+[[nodiscard]] std::string cost_table(const ControllerReport& report);
 
 /// Schema `glsum-controller-1`; what is infinite is left out.
 [[nodiscard]] std::string to_json(const ControllerReport& report, const ControllerSpec& spec);

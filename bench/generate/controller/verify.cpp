@@ -4,11 +4,13 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
+#include <map>
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
 #include "bench/generate/target_program.hpp"
+#include "bench/generate/verify.hpp"
+#include "qemu/emulate/elf.hpp"
 
 namespace generate {
 namespace {
@@ -47,13 +49,43 @@ CheckedBits check_bits_here(const WrittenController& controller) {
     return {"here, compiled by cc", check_record().setpoint.size(), number_from(program)};
 }
 
-CheckedBits check_bits_on_target(const WrittenController& controller, const qemu::Board& board,
-                                 const timing::TimingRequest& timing) {
+std::vector<OnTarget> check_on_target(const std::vector<WrittenController>& controllers, const qemu::Board& board,
+                                      const timing::TimingRequest& timing) {
     const base::Scratch scratch;
-    write_file(scratch.file((controller.prefix + ".h").c_str()), controller.text);
-    const std::filesystem::path elf = link_for_target(target_source({controller}), board, scratch);
-    const TargetRun run = run_on_target(elf, {"count_" + controller.prefix}, board, timing, scratch, [] {});
-    return {"on the emulated Cortex-M7", check_record().setpoint.size(), run.answers.at(0)};
+    std::vector<std::string> functions;
+    for (const WrittenController& controller : controllers) {
+        write_file(scratch.file((controller.prefix + ".h").c_str()), controller.text);
+        functions.push_back("count_" + controller.prefix);
+    }
+    const std::filesystem::path path = link_for_target(target_source(controllers), board, scratch);
+    const TargetRun run =
+        run_on_target(path, functions, answers_a_controller * controllers.size(), board, timing, scratch, [] {});
+    std::map<std::uint32_t, std::size_t> settled;
+    for (const std::uint32_t entry : run.entries) {
+        settled[entry] = controller_calls.taps;
+    }
+    const auto counted = steady_calls_of(run.counts, settled);
+    const qemu::Elf elf(path);
+    std::vector<OnTarget> all;
+    for (std::size_t i = 0; i < controllers.size(); ++i) {
+        const SteadyCalls& step = counted.at(run.entries[i]);
+        const qemu::ModelledCall call =
+            qemu::modelled_calls(run.timings[i], controller_calls, controller_calls.calls(), timing.cores.size(),
+                                 step.first_instructions, controllers[i].prefix)
+                .at(0);
+        const std::uint32_t* const answers = &run.answers[answers_a_controller * i];
+        all.push_back({{"on the emulated Cortex-M7", check_record().setpoint.size(), answers[0]},
+                       {call.cycles, call.low, call.high, step.instructions,
+                        elf.end_of_function(run.entries[i]) - run.entries[i], answers[2], answers[1]}});
+    }
+    return all;
+}
+
+ControllerSpec whole_orders(const ControllerSpec& spec) {
+    ControllerSpec whole = spec;
+    whole.controller.gains.integral_order = 1.0;
+    whole.controller.gains.derivative_order = 1.0;
+    return whole;
 }
 
 std::string to_text(const CheckedBits& checked) {

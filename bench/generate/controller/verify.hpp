@@ -23,9 +23,30 @@ struct CheckedBits {
 /// \throws glsum::Failure (missing) without one, (check failed) when it refuses the header
 [[nodiscard]] CheckedBits check_bits_here(const WrittenController& controller);
 
-/// With the target's, on the emulated board. \throws glsum::Failure as `link_for_target` and `run_on_target`
-[[nodiscard]] CheckedBits check_bits_on_target(const WrittenController& controller, const qemu::Board& board,
-                                               const timing::TimingRequest& timing);
+/// What a step costs on the target. Cycles are modelled: the mean of 32 steps that meet no limit, behind as many
+/// others.
+struct ControllerCost {
+    double cycles = 0.0;
+    double low = 0.0;  ///< over the core's rule sets, the nominal one included
+    double high = 0.0;
+    double instructions = 0.0;
+    std::size_t code_bytes = 0;   ///< of the step, both sums in it
+    std::size_t table_bytes = 0;  ///< constant
+    std::size_t state_bytes = 0;  ///< of an instance
+};
+
+struct OnTarget {
+    CheckedBits bits;
+    ControllerCost cost;
+};
+
+/// With the target's compiler, on the emulated board. \param timing  of one core
+/// \throws glsum::Failure as `link_for_target` and `run_on_target`
+[[nodiscard]] std::vector<OnTarget> check_on_target(const std::vector<WrittenController>& controllers,
+                                                    const qemu::Board& board, const timing::TimingRequest& timing);
+
+/// The same gains and limits with orders (1, 1).
+[[nodiscard]] ControllerSpec whole_orders(const ControllerSpec& spec);
 
 /// On one line.
 [[nodiscard]] std::string to_text(const CheckedBits& checked);
