@@ -124,6 +124,9 @@ void run(const Options& options, Budget budget, const std::string& command) {
                 "--controller: expected --out, --plant, --verify, --core, --json, --prefix, --licence, --max-error and "
                 "--samples alone beside it");
         }
+        if (!budget.core.empty() && !options.verify) {
+            refuse("--core: expected --verify beside it and --controller");
+        }
         generate_controller(
             {options.controller, options.plant, options.json, options.out, options.prefix, options.licence,
              budget.core.empty() ? default_core : budget.core, options.verify, budget.max_error, budget.samples},

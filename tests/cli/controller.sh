@@ -15,6 +15,8 @@ expect 2 "broken.json: expected the field sample_time_s" generate --controller "
 expect 2 "--out: expected a file to write" generate --controller "$folder/pid.json"
 expect 2 "--controller: expected --out" generate --controller "$folder/pid.json" --kernel ring_plain_f32 --out "$folder/no.h"
 expect 2 "--order is required" generate --kernel ring_plain_f32 --taps 3 --out "$folder/no.h"
+expect 2 "--core: expected --verify" generate --controller "$folder/pid.json" --core m7-ideal --out "$folder/no.h"
+expect 2 "nosuch: no such core" generate --controller "$folder/pid.json" --verify --core nosuch --out "$folder/no.h"
 expect 2 "--json: expected --controller beside it" generate --order 0.5 --kernel ring_plain_f32 --taps 3 --json "$folder/no.json" --out "$folder/no.h"
 # Ten times the gains: no header of a loop that grows, and none of a plant that does by itself.
 sed 's/"kp": 0.3, "ki": 0.5/"kp": 3, "ki": 5/' "$folder/pid.json" >"$folder/ten.json"

@@ -273,6 +273,11 @@ TEST(ControllerOnTarget, BitsCyclesAndBytes) {
     }
     EXPECT_GT(all[0].cost.cycles, 3.0 * all[1].cost.cycles);
     EXPECT_EQ(all[0].cost.instructions, all[2].cost.instructions);
+    // Two instructions a cycle, any pair, and nothing else costs.
+    const auto ideal =
+        generate::check_on_target({{"own", text, spec}}, *board, bench::timing_request(TEST_CORES, {"m7-ideal"}));
+    EXPECT_EQ(ideal.at(0).cost.instructions, all[0].cost.instructions);
+    EXPECT_NEAR(ideal.at(0).cost.cycles, 0.5 * all[0].cost.instructions, 0.5);
 }
 
 TEST(ControllerReport, HasTheCost) {
