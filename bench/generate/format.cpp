@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "bench/generate/parts.hpp"
+#include "bench/generate/shared.hpp"
 
 namespace generate {
 namespace {
@@ -82,6 +83,8 @@ FormatText floating_text(bool wide_data, bool wide_sum, bool normal_table) {
                          "    const @sample@ part = after - carried[0];\n"
                          "    carried[1] = (carried[0] - (after - part)) + (whole - part);\n"
                          "    carried[0] = after;\n")},
+        {"add", helper("void", "add", "@accumulator@ *sum, @accumulator@ *lost, @accumulator@ term",
+                       shared("compensated term", {{"sum", "*sum"}, {"lost", "*lost"}}))},
         {"fused_multiply_add",
          helper("@accumulator@", "fused_multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
                 "    return " + fma + "(a, x, sum);\n")},
