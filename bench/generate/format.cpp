@@ -2,14 +2,10 @@
 
 #include "bench/generate/parts.hpp"
 #include "bench/generate/shared.hpp"
+#include "bench/generate/text.hpp"
 
 namespace generate {
 namespace {
-
-std::string helper(const std::string& result, const std::string& name, const std::string& arguments,
-                   const std::string& body) {
-    return "@NAME@_HELPER " + result + " @name@_" + name + "(" + arguments + ")\n{\n" + body + "}\n";
-}
 
 // 2^exponent as a C expression of 64 bits.
 std::string power(int exponent) { return fmt::format("((int64_t)1 << {})", exponent); }

@@ -392,6 +392,7 @@ std::string helpers_of(const KernelData& data, const std::string& body) {
     std::string used = body;
     std::string text;
     auto all = data.format_text.helpers;
+    all.insert(all.end(), data.technique_text.helpers.begin(), data.technique_text.helpers.end());
     all.emplace_back(
         "next_head",
         shared("next_head", {{"[[nodiscard]] constexpr", "@NAME@_HELPER"}, {"next_head", "@name@_next_head"}}, 0));

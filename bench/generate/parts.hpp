@@ -40,7 +40,9 @@ struct TechniqueText {
     bool pushes = false;       ///< whether they store `newest` too
     bool pairs = false;        ///< needs the words of two samples
     bool fused = false;        ///< needs a fused multiply-add
-    std::string m7 = {};       ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
+    /// As a format's, behind these.
+    std::vector<std::pair<std::string, std::string>> helpers = {};
+    std::string m7 = {};  ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
 };
 
 /// A file of kernels/glsum/window/m7, which a header holds as it is but for its names.

@@ -200,99 +200,58 @@ TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts) {
     return {.summary = "newest first, the table in octaves, each scaled up by its own power of two", .sum = text};
 }
 
-namespace {
-
-// A step of `count` modes side by side, as the kernel orders it: all are moved on before any is stored, so that the
-// core finds something to do between the additions of one.
-std::string modes_at_once(int count, bool compensated) {
-    const int words = compensated ? 2 : 1;
-    std::string text;
-    std::string sums;
-    std::string stores;
-    for (int m = 0; m < count; ++m) {
-        text += fmt::format("            const @sample@ before{0} = average[{1}];\n", m, words * m);
-        sums += fmt::format("            sum = @name@_multiply_add(sum, mode[{1}], before{0});\n", m, 2 * m + 1);
-        stores += fmt::format("            average[{1}] = after{0};\n", m, words * m);
-        if (compensated) {
-            stores += fmt::format("            average[{1}] = step{0} - (after{0} - before{0});\n", m, words * m + 1);
-        }
-    }
-    for (int m = 0; m < count; ++m) {
-        text +=
-            fmt::format("            const @sample@ step{0} = @name@_multiply(mode[{1}], leaving - before{0}){2};\n", m,
-                        2 * m, compensated ? fmt::format(" + average[{}]", words * m + 1) : "");
-        text += fmt::format("            const @sample@ after{0} = before{0} + step{0};\n", m);
-    }
-    return text + sums + stores;
-}
-
-// In software nothing can be done meanwhile: one at a time.
-std::string floating_modes(std::size_t modes, bool compensated, bool in_software) {
-    const auto on = [&](int count) {
-        return fmt::format("            mode += {};\n            average += {};\n", 2 * count,
-                           (compensated ? 2 : 1) * count);
-    };
-    std::string text;
-    if (in_software) {
-        return "@rolled@        for (i = @NAME@_MODES; i > 0U; --i) {\n" + modes_at_once(1, compensated) + on(1) +
-               "        }\n";
-    }
-    if (modes % 2 != 0) {
-        text += "        {\n" + modes_at_once(1, compensated) + (modes > 1 ? on(1) : "") + "        }\n";
-    }
-    if (modes > 1) {
-        // Whole, as long as that is short; of many each turn saves less than its instructions cost to fetch.
-        text += unrolled(modes < 18    ? 8
-                         : compensated ? 10
-                                       : 2) +
-                "        for (i = @NAME@_MODES / 2U; i > 0U; --i) {\n" + modes_at_once(2, compensated) + on(2) +
-                "        }\n";
-    }
-    return text;
-}
-
-}  // namespace
-
-// kernels/glsum/exponentials/modes.hpp.
+// kernels/glsum/exponentials/modes_body.hpp.
 TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed, bool in_software) {
-    const char* const fixed_step =
-        "            const int64_t step = (int64_t)mode[0] * leaving - (int64_t)mode[0] * before;\n"
-        "            const int32_t shift = mode[1];\n"
-        "            average[0] = (int32_t)(before + ((step + ((int64_t)1 << (shift - 1))) >> shift));\n";
+    const Words words = {{"move(", "@name@_move("},
+                         {"keep(", "@name@_keep("},
+                         {"Averaged", "@name@_averaged"},
+                         {"compensated", compensated ? "1" : "0"},
+                         {"coefficients_of_mode", fixed ? "3" : "2"},
+                         {"words_of_mode", compensated ? "2" : "1"}};
     std::string text = "    @accumulator@ sum = @name@_start(newest);\n";
     if (near_samples > 0) {
-        text +=
-            "@rolled@    for (i = 0U; i < @NAME@_PAST; ++i) {\n"
-            "        sum = @name@_multiply_add(sum, @name@_table[i], S->past[i]);\n    }\n";
+        text += shared("plain newer", {{"table", "@name@_table"},
+                                       {"newer", "S->past"},
+                                       {"newer_count", "@NAME@_PAST"},
+                                       {"accumulate<Format, fused>", accumulate(false)}});
     }
     if (modes > 0) {
-        text += fmt::format(
-            "    {{\n        const @sample@ leaving = {};\n"
-            "        const @coefficient@ *mode = @name@_table + @NAME@_PAST;\n"
-            "        @sample@ *average = S->past + @NAME@_PAST;\n",
-            near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest");
-        text += fixed ? std::string(
-                            "        for (i = @NAME@_MODES; i > 0U; --i) {\n"
-                            "            const @sample@ before = average[0];\n") +
-                            fixed_step +
-                            "            sum = @name@_multiply_add(sum, mode[2], before);\n"
-                            "            mode += 3;\n            average += 1;\n        }\n"
-                      : floating_modes(modes, compensated, in_software);
+        const std::string leaving = near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest";
+        const std::string one = "        {\n" + shared("mode one", words, 12) + "        }\n";
+        text += "    {\n        const @sample@ leaving = " + leaving +
+                ";\n        const @coefficient@ *table = @name@_table + @NAME@_PAST;\n"
+                "        @sample@ *average = S->past + @NAME@_PAST;\n";
+        if (fixed || in_software) {  // one at a time: nothing can be done meanwhile
+            text += "@rolled@        for (i = @NAME@_MODES; i > 0U; --i)" + one.substr(7);
+        } else {
+            text += modes % 2 != 0 ? one : "";
+            // Whole, as long as that is short; of many each turn saves less than its instructions cost to fetch.
+            text += modes == 1 ? ""
+                               : unrolled(modes < 18    ? 8
+                                          : compensated ? 10
+                                                        : 2) +
+                                     "        for (i = @NAME@_MODES / 2U; i > 0U; --i) {\n" +
+                                     shared("mode two", words, 12) + "        }\n";
+        }
         text += "    }\n";
     }
-    if (near_samples > 1) {
-        text += R"(    for (i = @NAME@_PAST - 1U; i > 0U; --i) {
-        @moved@ moved = S->past[i - 1U];
-        @NAME@_KEEP_WORD(moved);
-        S->past[i] = (@sample@)moved;
-    }
-)";
-    }
-    text += near_samples > 0 ? "    S->past[0] = newest;\n" : "";
+    text += near_samples > 0
+                ? shared("shift push", {{"samples", "S->past"}, {"past", "@NAME@_PAST"}, {"T", "@sample@"}})
+                : "";
+    const std::string averaged = "typedef struct {\n    @sample@ average;\n    @sample@ lost;\n} @name@_averaged;\n";
     return {.summary = std::string("newest first, one accumulator; the taps, then the modes, the fastest first") +
                        (compensated ? ", each with what its last step lost" : ""),
             .sum = text,
-            .pushes = true};
+            .pushes = true,
+            .helpers = {{"move", averaged + helper("@name@_averaged", "move",
+                                                   "const @coefficient@ *of_mode, const @sample@ *average, "
+                                                   "@sample@ leaving",
+                                                   shared("mode", words) + shared(fixed         ? "mode fixed"
+                                                                                  : compensated ? "mode compensated"
+                                                                                                : "mode plain",
+                                                                                  words))},
+                        {"keep", helper("void", "keep", "@sample@ *average, @name@_averaged moved",
+                                        shared("mode kept", words))}}};
 }
 
 // kernels/glsum/logmemory/nested.hpp. In fixed point GCC 12 must not know that `past` lies behind other members: it
