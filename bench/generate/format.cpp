@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
 #include "bench/generate/parts.hpp"
+#include "bench/generate/shared.hpp"
+#include "bench/generate/text.hpp"
 
 namespace generate {
 namespace {
-
-std::string helper(const std::string& result, const std::string& name, const std::string& arguments,
-                   const std::string& body) {
-    return "@NAME@_HELPER " + result + " @name@_" + name + "(" + arguments + ")\n{\n" + body + "}\n";
-}
 
 // 2^exponent as a C expression of 64 bits.
 std::string power(int exponent) { return fmt::format("((int64_t)1 << {})", exponent); }
@@ -82,6 +79,8 @@ FormatText floating_text(bool wide_data, bool wide_sum, bool normal_table) {
                          "    const @sample@ part = after - carried[0];\n"
                          "    carried[1] = (carried[0] - (after - part)) + (whole - part);\n"
                          "    carried[0] = after;\n")},
+        {"add", helper("void", "add", "@accumulator@ *sum, @accumulator@ *lost, @accumulator@ term",
+                       shared("compensated term", {{"sum", "*sum"}, {"lost", "*lost"}}))},
         {"fused_multiply_add",
          helper("@accumulator@", "fused_multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
                 "    return " + fma + "(a, x, sum);\n")},

@@ -353,7 +353,8 @@ std::string step_body(const KernelData& data, std::size_t past) {
     }
     const TechniqueText& technique = data.technique_text;
     const std::string push = technique.pushes ? "" : history.push;
-    const bool waits = data.accumulator != "double" && history.behind.empty();  // in software nothing runs meanwhile
+    // In software nothing runs meanwhile; but a nested sum that ends in products would end apart where the head is 0.
+    const bool waits = (data.accumulator != "double" || data.nested) && history.behind.empty();
     const std::string body = history.before + technique.sum +
                              (waits ? push + technique.closing : technique.closing + history.behind + push) +
                              "    return @name@_finish(S, sum);\n";
@@ -391,6 +392,7 @@ std::string helpers_of(const KernelData& data, const std::string& body) {
     std::string used = body;
     std::string text;
     auto all = data.format_text.helpers;
+    all.insert(all.end(), data.technique_text.helpers.begin(), data.technique_text.helpers.end());
     all.emplace_back(
         "next_head",
         shared("next_head", {{"[[nodiscard]] constexpr", "@NAME@_HELPER"}, {"next_head", "@name@_next_head"}}, 0));

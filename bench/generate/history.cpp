@@ -29,7 +29,6 @@ HistoryText history_text(glsum::Shift) {
     return {.summary = "every sample moves one place on at each step",
             .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ... */\n",
             .reset = clear,
-            .pieces = {{"S->past", "S->past + @NAME@_PAST", "", "@NAME@_PAST"}},
             .window = shared("shift window", in_window),
             .push = shared("shift push", in_push)};
 }
@@ -40,8 +39,6 @@ HistoryText history_text(glsum::Ring) {
                 "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES];\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
-            .pieces = {{"S->past + head", "S->past + @NAME@_PAST", "", "(@NAME@_PAST - head)"},
-                       {"S->past", "S->past + head", "(@NAME@_PAST - head)", "@NAME@_PAST", "head != 0U"}},
             .window = shared("ring window", in_window),
             .two_pieces = true,
             .push = shared("ring push", in_push) + "    S->head = head;\n"};
@@ -53,7 +50,6 @@ HistoryText history_text(glsum::Mirror) {
                 "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES]; /* twice the same */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
-            .pieces = {{"S->past + head", "S->past + head + @NAME@_PAST", "", "@NAME@_PAST"}},
             .window = shared("mirror window", in_window),
             .push = shared("mirror push", in_push) + "    S->head = head;\n"};
 }
@@ -61,9 +57,7 @@ HistoryText history_text(glsum::Mirror) {
 HistoryText history_text(glsum::Modes) {
     return {.summary = "the newest samples as they are, all older ones as decaying averages",
             .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ...; then of each mode its state */\n",
-            .reset = clear,
-            .pieces = {},
-            .push = {}};
+            .reset = clear};
 }
 
 // kernels/glsum/lookahead/block.hpp.
@@ -78,9 +72,7 @@ HistoryText history_text(glsum::Block) {
                 "    @sample@ past[@NAME@_SAMPLES];\n",
             .reset = std::string(clear) +
                      "    for (i = 0U; i < 4U; ++i) {\n        S->ready[i] = 0;\n        S->coming[i] = 0;\n    }\n"
-                     "    S->phase = 0U;\n    S->own = 0U;\n    S->left = @NAME@_GROUPS;\n",
-            .pieces = {},
-            .push = {}};
+                     "    S->phase = 0U;\n    S->own = 0U;\n    S->left = @NAME@_GROUPS;\n"};
 }
 
 // kernels/glsum/logmemory/nested.hpp.
@@ -94,7 +86,6 @@ HistoryText history_text(glsum::Nested) {
                 "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES]; /* behind the samples the sums of 2, of 4, ...: one ring */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
-            .pieces = {},
             .push = replaced(next_head, "_PAST", "_SAMPLES") + "    S->head = head;\n    S->past[head] = newest;\n"};
 }
 

@@ -46,18 +46,19 @@ template <class Technique, class Format>
 TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
     using namespace glsum;
     constexpr bool f32 = std::is_same_v<Format, F32>;
+    constexpr bool in_software = std::is_same_v<typename Format::Accumulator, double>;
     if constexpr (one_of<Technique, Plain, PlainFma>) {
         return plain_text(history, std::is_same_v<Technique, PlainFma>, std::is_same_v<Format, Q15C31>);
     } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
         return oldest_text(history, std::is_same_v<Technique, OldestFma>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {
         constexpr bool fused = std::is_same_v<Technique, MultiFma>;
-        return multi_text(history, past, fused, std::is_same_v<Format, F64>,
+        return multi_text(history, past, fused, in_software,
                           std::is_same_v<Format, Q31> ? "dot_smlal"
                           : f32 && !fused             ? "dot_floats"
                                                       : "");
     } else if constexpr (one_of<Technique, Horner, HornerFma>) {
-        return horner_text(history, std::is_same_v<Technique, HornerFma>);
+        return horner_text(history, std::is_same_v<Technique, HornerFma>, in_software);
     } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {
         return horner_split_text(history, past, std::is_same_v<Technique, HornerSplitFma>);
     } else if constexpr (one_of<Technique, Fir, FirFma>) {

@@ -18,25 +18,15 @@
 
 namespace generate {
 
-/// A contiguous piece of the past, newest first, as C expressions: pointers to its newest sample and behind its oldest.
-struct Piece {
-    std::string begin;
-    std::string end;
-    std::string from;               ///< of its first coefficient in a table of one a tap; empty: 0
-    std::string to;                 ///< behind its last one
-    std::string unless_empty = {};  ///< condition under which it has a sample; empty: it always has
-};
-
 /// How a history is written.
 struct HistoryText {
     std::string summary;
-    std::string formula = {};   ///< of the sum, in the opening comment; empty: that of a window
-    std::string fields;         ///< of the instance
-    std::string reset;          ///< statements of `init`
-    std::vector<Piece> pieces;  ///< newest first
-    std::string window = {};    ///< declarations of the same pieces, as the kernels call them
-    bool two_pieces = false;
-    std::string push;               ///< statements that store `newest`
+    std::string formula = {};       ///< of the sum, in the opening comment; empty: that of a window
+    std::string fields;             ///< of the instance
+    std::string reset;              ///< statements of `init`
+    std::string window = {};        ///< declarations of its pieces, as the kernels call them
+    bool two_pieces = false;        ///< a newer and an older one
+    std::string push = {};          ///< statements that store `newest`
     std::string before = {};        ///< statements before the sum, which may change `newest`
     std::string behind_start = {};  ///< a statement between a sum's start and its loops
     std::string behind = {};        ///< statements behind it, before `push`, which add to `sum`
@@ -50,7 +40,9 @@ struct TechniqueText {
     bool pushes = false;       ///< whether they store `newest` too
     bool pairs = false;        ///< needs the words of two samples
     bool fused = false;        ///< needs a fused multiply-add
-    std::string m7 = {};       ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
+    /// As a format's, behind these.
+    std::vector<std::pair<std::string, std::string>> helpers = {};
+    std::string m7 = {};  ///< needs this loop in the order of a Cortex-M7's issue slots, by its `M7Loop::name`
 };
 
 /// A file of kernels/glsum/window/m7, which a header holds as it is but for its names.
@@ -86,11 +78,11 @@ struct FormatText {
 /// \param mixed  samples of half a word, coefficients of a whole one
 [[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused, bool mixed);
 [[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
-/// \param in_software  on some targets, of a history in one piece \param m7  the loop that gives the same bits; empty:
-/// none
+/// \param in_software  sums in double, which takes calls on some targets \param m7  the loop that gives the same bits;
+/// empty: none
 [[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, bool in_software,
                                        const std::string& m7);
-[[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused);
+[[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused, bool in_software);
 [[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused);
 [[nodiscard]] TechniqueText fir_text(bool fused, bool fixed);
 [[nodiscard]] TechniqueText compensated_text(const HistoryText& history);

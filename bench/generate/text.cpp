@@ -31,6 +31,11 @@ std::string upper(std::string word) {
     return word;
 }
 
+std::string helper(const std::string& result, const std::string& name, const std::string& arguments,
+                   const std::string& body) {
+    return "@NAME@_HELPER " + result + " @name@_" + name + "(" + arguments + ")\n{\n" + body + "}\n";
+}
+
 std::string accumulate(bool fused) { return fused ? "@name@_fused_multiply_add" : "@name@_multiply_add"; }
 
 std::string rounded_once(bool fused) { return fused ? ", product and addition rounded once" : ""; }

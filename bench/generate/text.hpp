@@ -15,6 +15,10 @@ using Places = std::map<std::string, std::string, std::less<>>;
 /// As macros are named.
 [[nodiscard]] std::string upper(std::string word);
 
+/// A function of a header's, with `body` of whole lines.
+[[nodiscard]] std::string helper(const std::string& result, const std::string& name, const std::string& arguments,
+                                 const std::string& body);
+
 /// The name of sum + a x in a header, and what its comment says of a fused one.
 [[nodiscard]] std::string accumulate(bool fused);
 [[nodiscard]] std::string rounded_once(bool fused);

@@ -66,6 +66,27 @@ TEST(Shared, LengthsAreConstantsWhereThatDoesNotCost) {
     for (const char* kernel : {"ring_plain_f32", "ring_plain_q31", "mirror_plain_q15c31"}) {
         EXPECT_THAT(header(kernel), HasSubstr("_KEEP_WORD(past)")) << kernel;
     }
+    // Whole, a loop of fused products would load between them; in software an address costs more.
+    EXPECT_THAT(header("mirror_multifma_f32"), HasSubstr("_KEEP_WORD(past)"));
+    EXPECT_THAT(header("mirror_multi_f64"), HasSubstr("_KEEP_WORD(past)"));
+    EXPECT_THAT(header("mirror_multi_f32"), Not(HasSubstr("_KEEP_WORD(past)")));
+    EXPECT_THAT(header("ring_horner_f32"), HasSubstr("_KEEP_WORD(samples)"));
+    EXPECT_THAT(header("ring_horner_f64"), Not(HasSubstr("_KEEP_WORD(samples)")));
+}
+
+// A sum is a loop of the kernel's, whatever is called in it.
+TEST(Shared, CallsAreTheHeaders) {
+    const auto step = [](const char* kernel) {
+        const std::string text = generate::make_header(
+            {.kernel = kernel, .order = 0.5, .taps = 20, .step_s = {}, .prefix = "my", .provenance = {}});
+        return text.substr(text.find("my_step_"));
+    };
+    EXPECT_THAT(step("ring_horner_f32"), HasSubstr("my_f32_nest(older[i - 1], table[newer_count + i], sum);"));
+    EXPECT_THAT(step("ring_hornerfma_f32"), HasSubstr("my_f32_fused_nest(newer[i - 1], table[i], sum);"));
+    EXPECT_THAT(step("ring_compensated_f32"),
+                HasSubstr("my_f32_add(&sum, &lost, my_f32_multiply(table[i], older[i]));"));
+    EXPECT_THAT(step("mirror_hornersplit_f32"), HasSubstr("my_f32_product(table[3], t3)"));
+    EXPECT_THAT(step("ring_multi_f32"), HasSubstr("s2 = my_f32_multiply_add(s2, table[i + 2], older[i + 2]);"));
 }
 
 }  // namespace

@@ -114,27 +114,42 @@ void Sum<Modes, Technique, Format>::reset(State& state) {
 template <class Technique, class Format>
 auto Sum<Modes, Technique, Format>::move(const Coefficient* of_mode, const Sample* average, Sample leaving)
     -> Averaged {
+    // C99: mode
     const Sample before = average[0];
+    // C99 end
     if constexpr (Format::fixed_point) {
-        const std::int64_t step = std::int64_t{of_mode[0]} * leaving - std::int64_t{of_mode[0]} * before;
+        // C99: mode fixed
+        const std::int64_t decay = of_mode[0];
+        const std::int64_t step = decay * leaving - decay * before;
         const std::int32_t shift = of_mode[1];
         // In 64 bits: the step alone may leave 32 where the average does not.
-        return {static_cast<Sample>(before + ((step + (std::int64_t{1} << (shift - 1))) >> shift)), 0};
+        const std::int64_t half = static_cast<std::int64_t>(1) << (shift - 1);
+        const Averaged moved = {static_cast<Sample>(before + ((step + half) >> shift)), 0};
+        return moved;
+        // C99 end
     } else if constexpr (compensated) {
-        const Sample step = of_mode[0] * (leaving - before) + average[1];
+        // C99: mode compensated
+        const Sample step = Format::multiply(of_mode[0], leaving - before) + average[1];
         const Sample after = before + step;
-        return {after, step - (after - before)};
+        const Averaged moved = {after, step - (after - before)};
+        return moved;
+        // C99 end
     } else {
-        return {before + of_mode[0] * (leaving - before), 0};
+        // C99: mode plain
+        const Averaged moved = {before + Format::multiply(of_mode[0], leaving - before), 0};
+        return moved;
+        // C99 end
     }
 }
 
 template <class Technique, class Format>
 void Sum<Modes, Technique, Format>::keep(Sample* average, const Averaged& moved) {
+    // C99: mode kept
     average[0] = moved.average;
     if constexpr (compensated) {
         average[1] = moved.lost;
     }
+    // C99 end
 }
 
 template <class Technique, class Format>
@@ -158,11 +173,13 @@ auto Sum<Modes, Technique, Format>::step(State& state, Sample newest) -> Output 
     table += near_samples;
     Sample* average = past + near_samples;
     const auto one_mode = [&]() __attribute__((always_inline)) {
+        // C99: mode one
         const Averaged moved = move(table, average, leaving);
         sum = Format::multiply_add(sum, table[coefficients_of_mode - 1], average[0]);
         keep(average, moved);
         table += coefficients_of_mode;
         average += words_of_mode;
+        // C99 end
     };
     if constexpr (Format::fixed_point) {
         for (std::uint32_t left = state.modes; left != 0; --left) {
@@ -172,6 +189,7 @@ auto Sum<Modes, Technique, Format>::step(State& state, Sample newest) -> Output 
         // Two at a time: no mode waits for another, and a core that issues in order has something to do between the
         // steps of one. The sum still takes them one after the other.
         const auto two_modes = [&]() __attribute__((always_inline)) {
+            // C99: mode two
             const Sample first = average[0];
             const Sample second = average[words_of_mode];
             const Coefficient first_gain = table[coefficients_of_mode - 1];
@@ -183,6 +201,7 @@ auto Sum<Modes, Technique, Format>::step(State& state, Sample newest) -> Output 
             keep(average + words_of_mode, other);
             table += 2 * coefficients_of_mode;
             average += 2 * words_of_mode;
+            // C99 end
         };
         if (state.modes % 2 != 0) {
             one_mode();

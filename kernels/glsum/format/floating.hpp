@@ -39,9 +39,9 @@ struct Floating {
     /// The accumulator that holds a_0 x_k = x_k alone.
     static Accumulator start(Sample sample, const Scale&) { return static_cast<Wide>(sample); }
     static Accumulator zero() { return Wide(0); }
-    static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) {
-        return sum + static_cast<Wide>(a) * static_cast<Wide>(x);
-    }
+    static Accumulator product(Accumulator a, Accumulator b) { return a * b; }
+    static Accumulator multiply(Coefficient a, Sample x) { return product(a, x); }
+    static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) { return sum + multiply(a, x); }
     /// One rounding in place of two.
     static Accumulator fused_multiply_add(Accumulator sum, Coefficient a, Sample x) {
         return fused(static_cast<Wide>(a), static_cast<Wide>(x), sum);

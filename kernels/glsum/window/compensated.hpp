@@ -20,22 +20,33 @@ struct Compensated : WeightTable {
                                             typename Format::Sample newest, const typename Format::Scale& scale) {
         using Accumulator = typename Format::Accumulator;
         static_assert(!Format::fixed_point);
+        // C99: compensated
         Accumulator sum = Format::start(newest, scale);
         Accumulator lost = Format::zero();
+        // C99 end
         const auto add = [&](Accumulator term) {
+            // C99: compensated term
             const Accumulator next = sum + term;
             const Accumulator term_part = next - sum;
             lost += (sum - (next - term_part)) + (term - term_part);
             sum = next;
+            // C99 end
         };
+        // C99: compensated newer
+        GLSUM_ROLLED
         for (std::size_t i = 0; i < window.newer_count; ++i) {
-            add(static_cast<Accumulator>(table[i]) * static_cast<Accumulator>(window.newer[i]));
+            add(Format::multiply(table[i], window.newer[i]));
         }
+        // C99: compensated older
         table += window.newer_count;
+        GLSUM_ROLLED
         for (std::size_t i = 0; i < window.older_count; ++i) {
-            add(static_cast<Accumulator>(table[i]) * static_cast<Accumulator>(window.older[i]));
+            add(Format::multiply(table[i], window.older[i]));
         }
-        return sum + lost;
+        // C99: compensated closing
+        sum = sum + lost;
+        // C99 end
+        return sum;
     }
 
     /// The product and the last addition; what the sum of the losses loses is of second order, (taps u)^2, which is

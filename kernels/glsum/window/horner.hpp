@@ -77,14 +77,23 @@ protected:
     [[gnu::always_inline]] static inline typename Format::Accumulator nested(
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
-        auto sum = Format::zero();
+        using Accumulator = typename Format::Accumulator;
+        // C99: horner
+        Accumulator sum = Format::zero();
+        // C99: horner older
+        GLSUM_ROLLED
         for (std::size_t i = window.older_count; i > 0; --i) {
             sum = Format::template nest<fused>(window.older[i - 1], table[window.newer_count + i], sum, scale);
         }
+        // C99: horner newer
+        GLSUM_ROLLED
         for (std::size_t i = window.newer_count; i > 0; --i) {
             sum = Format::template nest<fused>(window.newer[i - 1], table[i], sum, scale);
         }
-        return Format::template nest<fused>(newest, table[0], sum, scale);
+        // C99: horner closing
+        sum = Format::template nest<fused>(newest, table[0], sum, scale);
+        // C99 end
+        return sum;
     }
 };
 

@@ -63,26 +63,32 @@ protected:
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
         static_assert(!Format::fixed_point);
+        using Accumulator = typename Format::Accumulator;
         const auto* samples = window.newer;
         const std::size_t past = window.newer_count;
+        // C99: hornersplit
         const std::size_t rest = past % chains;
         std::size_t i = past - rest;
         // The oldest samples, fewer than a group, open their chains.
-        auto t0 = rest > 0 ? Format::start(samples[i], scale) : Format::zero();
-        auto t1 = rest > 1 ? Format::start(samples[i + 1], scale) : Format::zero();
-        auto t2 = rest > 2 ? Format::start(samples[i + 2], scale) : Format::zero();
-        auto t3 = Format::zero();
+        Accumulator t0 = rest > 0 ? Format::start(samples[i], scale) : Format::zero();
+        Accumulator t1 = rest > 1 ? Format::start(samples[i + 1], scale) : Format::zero();
+        Accumulator t2 = rest > 2 ? Format::start(samples[i + 2], scale) : Format::zero();
+        Accumulator t3 = Format::zero();
+        // C99 end
 #if defined(GLSUM_M7_FLOATS)
         if constexpr (std::is_same_v<typename Format::Accumulator, float> && !fused) {
             constexpr std::size_t least = 64;  // to enter and leave the other loop takes 50 cycles
             if (past >= least) {
+                // C99: hornersplit floats
                 float t[chains] = {t0, t1, t2, t3};
                 dsp::nest_floats(t, table, samples, i / chains);
+                // C99 end
                 return Format::start(newest, scale) +
                        ((table[0] * t[0] + table[1] * t[1]) + (table[2] * t[2] + table[3] * t[3]));
             }
         }
 #endif
+        // C99: hornersplit loop
         while (i > 0) {
             i -= chains;
             t0 = Format::template nest<fused>(samples[i], table[i + 4], t0, scale);
@@ -90,7 +96,11 @@ protected:
             t2 = Format::template nest<fused>(samples[i + 2], table[i + 6], t2, scale);
             t3 = Format::template nest<fused>(samples[i + 3], table[i + 7], t3, scale);
         }
-        return Format::start(newest, scale) + ((table[0] * t0 + table[1] * t1) + (table[2] * t2 + table[3] * t3));
+        // C99: hornersplit closing
+        Accumulator sum =
+            Format::start(newest, scale) + ((table[0] * t0 + table[1] * t1) + (table[2] * t2 + table[3] * t3));
+        // C99 end
+        return sum;
     }
 };
 

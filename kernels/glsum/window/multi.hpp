@@ -39,30 +39,41 @@ protected:
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
         using Sample = typename Format::Sample;
+        using Accumulator = typename Format::Accumulator;
+        // C99: multi
+        Accumulator s0 = Format::zero();
+        Accumulator s1 = Format::zero();
+        Accumulator s2 = Format::zero();
+        Accumulator s3 = Format::zero();
+        // C99 end
 #if defined(GLSUM_M7_FLOATS)
-        if constexpr (std::is_same_v<typename Format::Accumulator, float> && !fused) {
-            float s[chains] = {};
+        if constexpr (std::is_same_v<Accumulator, float> && !fused) {
+            // C99: multi floats newer
+            float s[chains] = {0.0F, 0.0F, 0.0F, 0.0F};
             dsp::dot_floats(s, table, window.newer, window.newer_count);
+            // C99: multi floats older
             if (window.older_count != 0) {
                 dsp::dot_floats(s, table + window.newer_count, window.older, window.older_count);
             }
+            // C99 end
             return Format::start(newest, scale) + ((s[0] + s[1]) + (s[2] + s[3]));
         }
 #endif
 #if defined(GLSUM_M7)
         if constexpr (Format::fixed_point && sizeof(Sample) == 4 && sizeof(typename Format::Coefficient) == 4) {
-            auto sum = dsp::dot_smlal_onto(Format::start(newest, scale), table, window.newer, window.newer_count);
+            auto sum = Format::start(newest, scale);
+            // C99: multi words newer
+            sum = dsp::dot_smlal_onto(sum, table, window.newer, window.newer_count);
+            // C99: multi words older
             if (window.older_count != 0) {
                 sum = dsp::dot_smlal_onto(sum, table + window.newer_count, window.older, window.older_count);
             }
+            // C99 end
             return sum;
         }
 #endif
-        auto s0 = Format::zero();
-        auto s1 = Format::zero();
-        auto s2 = Format::zero();
-        auto s3 = Format::zero();
         const auto add_piece = [&](const Sample* samples, std::size_t count) {
+            // C99: multi piece
             std::size_t i = 0;
             for (; i + chains <= count; i += chains) {
                 s0 = accumulate<Format, fused>(s0, table[i], samples[i]);
@@ -80,10 +91,14 @@ protected:
                 s2 = accumulate<Format, fused>(s2, table[i + 2], samples[i + 2]);
             }
             table += count;
+            // C99 end
         };
         add_piece(window.newer, window.newer_count);
         add_piece(window.older, window.older_count);
-        return Format::start(newest, scale) + ((s0 + s1) + (s2 + s3));
+        // C99: multi closing
+        Accumulator sum = Format::start(newest, scale) + ((s0 + s1) + (s2 + s3));
+        // C99 end
+        return sum;
     }
 };
 
