@@ -6,19 +6,16 @@
 #include <span>
 #include <vector>
 
+#include "glsum/catalogue.hpp"
 #include "glsum/wrap/delta.hpp"
 #include "glsum/wrap/tail.hpp"
 #include "reference/modes.hpp"
 
 namespace reference {
 
-/// What a history takes for the samples behind its window.
-enum class Dropped {
-    zero,        ///< 0, or the design's modes or blocks
-    increments,  ///< their increments as 0, or the modes of order v - 1 over these
-    held,        ///< the oldest sample kept
-    line,        ///< the line from that to the record's first
-};
+/// What a history takes for the samples behind its window. A design's modes or blocks stand for zero's, those of order
+/// v - 1 for the increments'.
+using Dropped = glsum::Forgotten;
 
 template <class History>
 [[nodiscard]] constexpr Dropped dropped_by() {

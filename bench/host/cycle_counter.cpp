@@ -42,6 +42,11 @@ CycleCounter::~CycleCounter() {
     }
 }
 
+const CycleCounter& CycleCounter::shared() {
+    static const CycleCounter counter;
+    return counter;
+}
+
 std::uint64_t CycleCounter::read() const {
     std::uint64_t value = 0;
     if (perf_ >= 0 && ::read(perf_, &value, sizeof value) == sizeof value) {

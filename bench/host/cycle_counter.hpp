@@ -15,6 +15,8 @@ public:
     CycleCounter(const CycleCounter&) = delete;
     CycleCounter& operator=(const CycleCounter&) = delete;
     ~CycleCounter();
+    /// One for the process, opened when first asked for.
+    static const CycleCounter& shared();
 
     [[nodiscard]] std::uint64_t read() const;
     /// "core cycles (perf_event)", or "time-stamp counter": reference cycles, which differ from core cycles under

@@ -33,6 +33,7 @@ public:
     typename K::Output step(typename K::Sample sample) { return K::step(state_, sample); }
     double step_real(double sample) { return K::to_real(state_, K::step(state_, K::from_real(sample))); }
     [[nodiscard]] typename K::State& state() { return state_; }
+    [[nodiscard]] const typename K::State& state() const { return state_; }
 
     [[nodiscard]] std::size_t coefficient_bytes() const { return table_.span().size_bytes(); }
     [[nodiscard]] std::size_t state_bytes() const { return sizeof state_ + past_.span().size_bytes(); }
