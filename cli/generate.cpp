@@ -188,8 +188,7 @@ void run(const Options& options, Budget budget, const std::string& command) {
         const std::string header = generate::make_header(specs.front());
         base::write_file(options.out, header);
         const generate::Spec& spec = specs.front();
-        fmt::print("{} with {} taps in {}\n", spec.kernel,
-                   bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(), options.out);
+        fmt::print("{} with {} taps in {}\n", spec.kernel, generate::length_of(spec).text(), options.out);
     }
     if (options.verify) {
         const std::string core = budget.core.empty() ? default_core : budget.core;

@@ -23,8 +23,8 @@ bool better(const Candidate& a, const Candidate& b) {
     return std::tie(a.cost.value, a.cost.bytes, a.error.error) < std::tie(b.cost.value, b.cost.bytes, b.error.error);
 }
 
-std::string taps_text(const Candidate& candidate, double order, std::size_t samples) {
-    return bench::length_of(candidate.kernel, order, candidate.taps, samples).text();
+std::string taps_text(const Candidate& candidate, const CountedOrder& order, std::size_t samples) {
+    return order.length(candidate.kernel, candidate.taps, samples).text();
 }
 
 void measure(CostSource& costs, const std::vector<Candidate*>& candidates) {

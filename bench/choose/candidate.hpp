@@ -34,7 +34,7 @@ struct Candidate {
 [[nodiscard]] bool better(const Candidate& a, const Candidate& b);
 
 /// Its length as rows have it: "600", or "2+7" of near taps and modes or blocks.
-[[nodiscard]] std::string taps_text(const Candidate& candidate, double order, std::size_t samples);
+[[nodiscard]] std::string taps_text(const Candidate& candidate, const CountedOrder& order, std::size_t samples);
 
 /// Measures the costs of all of them at once.
 void measure(CostSource& costs, const std::vector<Candidate*>& candidates);

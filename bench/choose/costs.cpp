@@ -30,7 +30,7 @@ double quantile(std::vector<double> values, double share) {
 }  // namespace
 
 // The signal that bench counts on.
-OnTarget::OnTarget(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs,
+OnTarget::OnTarget(qemu::Board board, const CountedOrder& order, std::size_t samples, std::uint64_t seed, unsigned jobs,
                    const std::string& core)
     : board_(std::move(board)), order_(order), signals_{bench::make_signal("noise", samples, seed + 1)}, jobs_(jobs) {
     if (!core.empty()) {
@@ -51,14 +51,15 @@ std::vector<Cost> OnTarget::costs(const std::vector<Case>& cases) {
             ++remembered_;
         }
         if (!known_.contains(wanted) && std::find(planned.begin(), planned.end(), wanted) == planned.end()) {
-            const glsum::Design design = bench::design_of(
-                wanted.first, order_, bench::length_of(wanted.first, order_, wanted.second, signals_.front().size()),
-                signals_.front().size());
-            plan.push_back({wanted.first,
-                            order_,
-                            wanted.second,
+            const auto& [kernel, taps] = wanted;
+            const std::size_t samples = signals_.front().size();
+            const double order = order_.of(kernel);
+            const glsum::Design design = bench::design_of(kernel, order, order_.length(kernel, taps, samples), samples);
+            plan.push_back({kernel,
+                            order,
+                            taps,
                             0,
-                            qemu::calls_to_measure(wanted.first, wanted.second),
+                            qemu::calls_to_measure(kernel, taps),
                             {design.modes.begin(), design.modes.end()},
                             design.blocks});
             planned.push_back(wanted);
@@ -95,14 +96,14 @@ std::vector<Cost> HostTimes::costs(const std::vector<Case>& cases) {
     }
     std::vector<bench::Timed> timed;
     for (const auto& [kernel, taps] : cases) {
-        timed.push_back({kernel, bench::length_of(kernel, order_, taps, samples_), order_});
+        timed.push_back({kernel, order_.length(kernel, taps, samples_), order_.of(kernel)});
     }
     const bench::HostTiming timing = bench::time_on_host(timed, samples_, repetitions, {});
     cycle_counter_ = timing.context.value("cycle_counter", "unknown");
     std::vector<Cost> costs;
     for (const bench::Timed& one : timed) {
         costs.push_back(
-            cost_of_times(timing.rows, to_name(bench::row_key(one.name, order_, one.length, bench::RowKey::host))));
+            cost_of_times(timing.rows, to_name(bench::row_key(one.name, one.order, one.length, bench::RowKey::host))));
     }
     return costs;
 }

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/choose/counted_order.hpp"
 #include "bench/rows/result_file.hpp"
 #include "qemu/emulate/firmware.hpp"
 
@@ -43,7 +44,7 @@ public:
     /// \param samples  of the noise on which double precision in software, whose cost depends on the data, is measured
     /// \param core     a file of the board's cores; empty: instructions are counted
     /// \throws glsum::Failure (bad input) for a core that has no file
-    OnTarget(qemu::Board board, double order, std::size_t samples, std::uint64_t seed, unsigned jobs,
+    OnTarget(qemu::Board board, const CountedOrder& order, std::size_t samples, std::uint64_t seed, unsigned jobs,
              const std::string& core = "");
     void remember(const Case& of, const Cost& cost);
 
@@ -62,7 +63,7 @@ public:
 
 private:
     qemu::Board board_;
-    double order_;
+    CountedOrder order_;
     qemu::Signals signals_;
     unsigned jobs_;
     timing::TimingRequest timing_;
@@ -82,7 +83,7 @@ class HostTimes : public CostSource {
 public:
     static constexpr unsigned repetitions = 9;  ///< odd, so that the median is one of them
     /// \param samples  of the record that designs with modes are for
-    HostTimes(double order, std::size_t samples) : order_(order), samples_(samples) {}
+    HostTimes(const CountedOrder& order, std::size_t samples) : order_(order), samples_(samples) {}
 
     [[nodiscard]] std::string unit() const override { return "ns"; }
     [[nodiscard]] std::string limited_unit() const override { return "cycles"; }
@@ -91,7 +92,7 @@ public:
     [[nodiscard]] const std::string& cycle_counter() const { return cycle_counter_; }
 
 private:
-    double order_;
+    CountedOrder order_;
     std::size_t samples_;
     std::string cycle_counter_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/choose/counted_order.hpp"
 #include "bench/choose/kernel_run.hpp"
 #include "bench/sweep/designs.hpp"
 #include "glsum/catalogue.hpp"
@@ -24,7 +25,7 @@ std::string DerivativeErrors::why_not(const std::string& kernel) {
 }
 
 DerivativeErrors::Key DerivativeErrors::key_of(const std::string& kernel, std::size_t taps) const {
-    const std::size_t modes = bench::length_of(kernel, goal_.order, taps, longest()).modes.value_or(0);
+    const std::size_t modes = CountedOrder(goal_.order, true).length(kernel, taps, longest()).modes.value_or(0);
     const bool increments = bench::facts_of(kernel).forgotten == glsum::Forgotten::increments;
     return {taps - 2 * modes, modes,
             increments                                   ? design::FilterKind::increments

@@ -22,8 +22,8 @@ public:
     explicit DerivativeErrors(const glsum::design::DerivativeGoal& goal);
 
     [[nodiscard]] std::size_t longest() const override { return longest_window; }
-    /// With modes every length up to 40, as `bench::length_of` parts it; of a window every one to 16, then to 64 each
-    /// an eighth longer than the last.
+    /// With modes every length up to 40, parted as one near tap, or two, and modes; of a window every one to 16, then
+    /// to 64 each an eighth longer than the last.
     [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
     [[nodiscard]] std::size_t patience() const override { return 6; }
     [[nodiscard]] double truncation(std::size_t) const override { return 0.0; }

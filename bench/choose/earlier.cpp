@@ -43,7 +43,7 @@ void for_each_row(const Earlier& earlier, const Question& question, Visit visit)
             row.value("run_type", "iteration") != "iteration") {
             continue;
         }
-        if (const auto taps = taps_of(*key, question.conditions.order, question.conditions.samples)) {
+        if (const auto taps = taps_of(*key, question.counted_order(), question.conditions.samples)) {
             visit(*key, *taps, row);
         }
     }
@@ -51,7 +51,7 @@ void for_each_row(const Earlier& earlier, const Question& question, Visit visit)
 
 }  // namespace
 
-std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::size_t samples) {
+std::optional<std::size_t> taps_of(const bench::RowKey& key, const CountedOrder& order, std::size_t samples) {
     const auto length = bench::parse_length(key.taps, samples);
     if (!length || length->taps > samples) {
         return std::nullopt;
@@ -60,7 +60,7 @@ std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::
         return length->taps;
     }
     const bench::Length written = bench::as_counted(key.kernel, *length);
-    const double of_weights = bench::order_of_weights(key.kernel, order);
+    const double of_weights = bench::order_of_weights(key.kernel, order.of(key.kernel));
     const bench::Length counted = written.blocks ? bench::length_with_blocks(of_weights, written.taps, samples)
                                                  : bench::length_with_modes(key.kernel, of_weights, written.taps);
     const bool asked_for = counted.text() == written.text();

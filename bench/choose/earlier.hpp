@@ -20,8 +20,9 @@ struct Earlier {
 };
 
 /// How a question counts the length of a row; nothing for one that it does not ask for: longer than its record, or of
-/// other numbers of taps and modes than `bench::length_of` gives.
-[[nodiscard]] std::optional<std::size_t> taps_of(const bench::RowKey& key, double order, std::size_t samples);
+/// other numbers of taps and modes than designs of that length have.
+[[nodiscard]] std::optional<std::size_t> taps_of(const bench::RowKey& key, const CountedOrder& order,
+                                                 std::size_t samples);
 
 /// \param context  of this run, as `bench::make_context` gives it
 [[nodiscard]] Earlier read_earlier(const Question& question, const bench::Json& context);

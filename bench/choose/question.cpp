@@ -99,7 +99,7 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
         note = fmt::format(
             "host times: taken in this run alone, {} interleaved repetitions of each candidate, never of a file",
             HostTimes::repetitions);
-        return std::make_unique<HostTimes>(question.conditions.order, question.conditions.samples);
+        return std::make_unique<HostTimes>(question.counted_order(), question.conditions.samples);
     }
     if (question.max_instructions && !question.core.empty()) {
         throw Failure(Exit::bad_input, "--max-instructions: with --core use --max-cycles");
@@ -112,7 +112,7 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
     }
     note = question.core.empty() ? "counted on the emulated Cortex-M7; instructions are not cycles"
                                  : fmt::format("cycles: modelled for {}, on the emulated Cortex-M7", question.core);
-    auto costs = std::make_unique<OnTarget>(*board, question.conditions.order, question.conditions.samples,
+    auto costs = std::make_unique<OnTarget>(*board, question.counted_order(), question.conditions.samples,
                                             question.conditions.seed, question.jobs, question.core);
     remember(earlier, question, *costs);
     return costs;
@@ -186,7 +186,7 @@ Answer measure_one(const Question& question, const std::string& kernel, std::siz
     if (!candidate.error.fault.empty()) {
         throw Failure(Exit::bad_input,
                       fmt::format("{} with {} taps: {}", kernel,
-                                  taps_text(candidate, question.conditions.order, question.conditions.samples),
+                                  taps_text(candidate, question.counted_order(), question.conditions.samples),
                                   candidate.error.fault));
     }
     std::string note;

@@ -33,6 +33,8 @@ struct Question {
     std::filesystem::path results;   ///< measurements of an earlier run; empty: none
     bool results_asked_for = false;  ///< a missing file is then an error
     unsigned jobs = 1;
+
+    [[nodiscard]] CountedOrder counted_order() const { return {conditions.order, goal.has_value()}; }
 };
 
 struct Answer {

@@ -45,7 +45,7 @@ std::string relaxed_value(const Answer& answer, const Relaxed& relaxed) {
 }
 
 std::string taps_of(const Answer& answer, const Candidate& candidate) {
-    return taps_text(candidate, answer.question.conditions.order, answer.question.conditions.samples);
+    return taps_text(candidate, answer.question.counted_order(), answer.question.conditions.samples);
 }
 
 std::string at(const Answer& answer, const Candidate& candidate) {
@@ -129,7 +129,7 @@ bench::Json to_json(const Answer& answer, const Candidate& candidate) {
     json["taps"] = candidate.taps;
     const auto& conditions = answer.question.conditions;
     const bench::Length length =
-        bench::length_of(candidate.kernel, conditions.order, candidate.taps, conditions.samples);
+        answer.question.counted_order().length(candidate.kernel, candidate.taps, conditions.samples);
     if (length.modes) {
         json["near_taps"] = candidate.taps - 2 * *length.modes;
         json["modes"] = *length.modes;

@@ -9,6 +9,7 @@
 
 #include "base/failure.hpp"
 #include "base/rounded_up.hpp"
+#include "bench/choose/counted_order.hpp"
 #include "bench/generate/kernel_data.hpp"
 #include "bench/generate/shared.hpp"
 #include "bench/generate/text.hpp"
@@ -477,6 +478,10 @@ bool is_identifier(const std::string& text) {
 
 }  // namespace
 
+bench::Length length_of(const Spec& spec) {
+    return choose::CountedOrder(spec.order, spec.fitted.has_value()).length(spec.kernel, spec.taps, spec.horizon);
+}
+
 std::vector<double> check_signal() { return bench::make_signal("noise", check_samples, 20200601); }
 
 std::string prefix_of_file(const std::filesystem::path& file) {
@@ -559,11 +564,9 @@ std::string make_header(const Spec& spec) {
     text += uses ? fill(m7_loop_of(data.technique_text.m7), places) : "";
     text += fill(helpers_of(data, body), places);
     text += fill(step, places) + fill(self_check, places);
-    places["design"] =
-        fmt::format("{}, {}, v = {}{}", spec.kernel,
-                    bench::length_of(spec.kernel, spec.order, spec.taps, spec.horizon).text(), spec.order,
-                    (spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "") +
-                        (spec.fitted ? ", fitted to the derivative" : ""));
+    places["design"] = fmt::format("{}, {}, v = {}{}", spec.kernel, length_of(spec).text(), spec.order,
+                                   (spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "") +
+                                       (spec.fitted ? ", fitted to the derivative" : ""));
     places["fingerprint"] = fmt::format("{:016X}", fingerprint_of(places["constants"] + text));
     return opening_comment(spec, data, places) + fill(head, places) + text;
 }

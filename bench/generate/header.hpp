@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/sweep/sweep.hpp"
 #include "glsum/design/band.hpp"
 
 namespace generate {
@@ -24,6 +25,9 @@ struct Spec {
     std::string use = {};  ///< with it, what the comment says first: where it may be used, and how near it comes
     std::vector<std::string> provenance;  ///< lines of the comment: where it comes from, what was measured
 };
+
+/// Its coefficients by kind: of the fitted filter where there is one.
+[[nodiscard]] bench::Length length_of(const Spec& spec);
 
 /// Kernels that can be generated, in the registry's order.
 [[nodiscard]] std::vector<std::string> generatable();

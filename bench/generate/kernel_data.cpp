@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/failure.hpp"
+#include "bench/choose/counted_order.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/rows/row.hpp"
 #include "bench/sweep/designs.hpp"
@@ -126,7 +127,8 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
     using Output = typename K::Output;
     constexpr bool has_modes = glsum::keeps_modes<typename K::HistoryPart>;
     constexpr bool increments = glsum::keeps_increments<typename K::HistoryPart>;
-    const bench::Length length = bench::length_of(std::string(K::name()), order, taps, horizon);
+    const bench::Length length =
+        choose::CountedOrder(order, fitted != nullptr).length(std::string(K::name()), taps, horizon);
     glsum::Design design{order, taps};
     if (fitted != nullptr) {
         design.modes = fitted->modes;

@@ -38,7 +38,7 @@ std::vector<std::string> provenance(const choose::Answer& answer, const std::str
         lines.push_back(fmt::format(
             "Runner-up of {} kernels: {} with {} taps, {}", answer.choice.kernels.size(),
             answer.choice.runner_up->kernel,
-            choose::taps_text(*answer.choice.runner_up, question.conditions.order, question.conditions.samples),
+            choose::taps_text(*answer.choice.runner_up, question.counted_order(), question.conditions.samples),
             choose::cost_text(answer, *answer.choice.runner_up)));
     }
     lines.push_back("");

@@ -7,6 +7,7 @@
 
 #include "base/progress.hpp"
 #include "base/scratch.hpp"
+#include "bench/choose/counted_order.hpp"
 #include "bench/generate/target_program.hpp"
 #include "bench/generate/text.hpp"
 #include "bench/sweep/designs.hpp"
@@ -108,11 +109,10 @@ std::vector<Verified> verify_on_target(const std::vector<Spec>& wanted, const qe
     for (std::size_t i = 0; i < specs.size(); ++i) {
         specs[i].prefix = fmt::format("k{}", i);
         write_file(scratch.file((specs[i].prefix + ".h").c_str()), make_header(specs[i]));
-        const glsum::Design design = bench::design_of(
-            specs[i].kernel, specs[i].order,
-            bench::length_of(specs[i].kernel, specs[i].order, specs[i].taps, specs[i].horizon), specs[i].horizon);
+        const double order = choose::CountedOrder(specs[i].order, specs[i].fitted.has_value()).of(specs[i].kernel);
+        const glsum::Design design = bench::design_of(specs[i].kernel, order, length_of(specs[i]), specs[i].horizon);
         plan.push_back({specs[i].kernel,
-                        specs[i].order,
+                        order,
                         specs[i].taps,
                         0,
                         qemu::calls_to_measure(specs[i].kernel, specs[i].taps),

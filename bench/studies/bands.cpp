@@ -32,10 +32,8 @@ struct Case {
 
 bool is_ours(const BandPoint& point) { return point.way != oustaloup_way && point.way != charef_way; }
 
-// The kernel that a filter of others costs as much as, with P poles behind one tap; and an order at which as many
-// coefficients are parted so, as no near taps are needed.
+// The kernel that a filter of others costs as much as, with P poles behind one tap.
 const char* kernel_of_poles(double order) { return order > 1.0 ? kernels[1] : kernels[0]; }
-double order_of_cost(const BandPoint& point) { return point.order > 1.0 ? 1.5 : 0.5; }
 
 BandPoint point_of(const Case& of, const std::string& way, std::size_t near_taps, std::size_t modes, double error) {
     return {way, fmt::format("{}+{}", near_taps, modes), of.order, of.band, error, 0.0, 0.0, 0.0};
@@ -57,7 +55,8 @@ std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
         }
         for (std::size_t taps = 3; taps <= longest; ++taps) {
             const choose::ErrorAt at = errors.error(kernel, taps);
-            const std::size_t modes = length_of(kernel, of.order, taps, longest_length).modes.value_or(0);
+            const std::size_t modes =
+                choose::CountedOrder(of.order, true).length(kernel, taps, longest_length).modes.value_or(0);
             if (at.fault.empty() && modes > 0) {
                 points.push_back({point_of(of, kernel, taps - 2 * modes, modes, at.error), {kernel, taps}});
             }
@@ -75,16 +74,14 @@ std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
     return points;
 }
 
-// Those that are ours, or those that are not.
-void add_costs(choose::CostSource& source, bool ours, std::vector<Asked> of_case, std::vector<BandPoint>& points) {
-    std::erase_if(of_case, [&](const Asked& one) { return is_ours(one.point) != ours; });
+void add_costs(choose::CostSource& source, const std::vector<Asked>& of_case, std::vector<BandPoint>& points) {
     std::vector<choose::Case> asked;
     for (const Asked& one : of_case) {
         asked.push_back(one.cost);
     }
     const std::vector<choose::Cost> costs = source.costs(asked);
     for (std::size_t j = 0; j < costs.size(); ++j) {
-        BandPoint& point = of_case[j].point;
+        BandPoint point = of_case[j].point;
         if (costs[j].fault.empty()) {
             point.model_cycles = costs[j].value;
             point.model_cycles_high = costs[j].limited;
@@ -113,12 +110,10 @@ std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& 
     }
     std::vector<BandPoint> points;
     for (std::size_t first = 0; first < cases.size(); first += study.bands.size()) {
-        for (const bool ours : {true, false}) {
-            const double order = ours ? cases[first].order : order_of_cost(found[first].front().point);
-            choose::OnTarget costs(board, order, Sweep().samples, Sweep().seed, study.jobs, study.core);
-            for (std::size_t i = first; i < first + study.bands.size(); ++i) {
-                add_costs(costs, ours, found[i], points);
-            }
+        choose::OnTarget costs(board, {cases[first].order, true}, Sweep().samples, Sweep().seed, study.jobs,
+                               study.core);
+        for (std::size_t i = first; i < first + study.bands.size(); ++i) {
+            add_costs(costs, found[i], points);
         }
     }
     return points;
