@@ -49,8 +49,9 @@ void run(Options options) {
     fmt::print(
         "Largest |H - (jw)^v| / w^v over each band at h = {:g} s, and modelled cycles of {}. Oustaloup's and Charef's "
         "filters are tuned to\neach band: its edges, the mapping (matched, Tustin's, impulse-invariant) and the gain; "
-        "in double, and at the cost of as many poles in the\ncheapest kernel that can hold them. The fitted filter is "
-        "the best within these cycles: certified, as the kernel holds it in single\nprecision, with the noise of its "
+        "in "
+        "parallel form they stand in the cheapest\nkernel that can hold as many poles. The fitted filter is the best "
+        "within these cycles. All are certified as the kernel holds them in\nsingle precision, with the noise of its "
         "arithmetic.\n{}",
         study.step_s, study.core, bench::to_table(study, points));
     bench::Sweep sweep;

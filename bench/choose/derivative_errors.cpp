@@ -27,10 +27,12 @@ std::string DerivativeErrors::why_not(const std::string& kernel) {
 DerivativeErrors::Key DerivativeErrors::key_of(const std::string& kernel, std::size_t taps) const {
     const std::size_t modes = CountedOrder(goal_.order, true).length(kernel, taps, longest()).modes.value_or(0);
     const bool increments = bench::facts_of(kernel).forgotten == glsum::Forgotten::increments;
-    return {taps - 2 * modes, modes,
-            increments                                   ? design::FilterKind::increments
-            : modes > 0 && bench::has_integrator(kernel) ? design::FilterKind::integrator
-                                                         : design::FilterKind::samples};
+    return {
+        taps - 2 * modes, modes,
+        increments                                   ? design::FilterKind::increments
+        : modes > 0 && bench::has_integrator(kernel) ? design::FilterKind::integrator
+                                                     : design::FilterKind::samples,
+        modes > 0 && bench::facts_of(kernel).floating_point ? design::Poles::one_may_swing : design::Poles::decaying};
 }
 
 std::optional<std::vector<std::size_t>> DerivativeErrors::lengths(const std::string& kernel) const {
@@ -55,7 +57,8 @@ const design::FittedFilter& DerivativeErrors::filter_of(const std::string& kerne
         }
         once = entry.get();
     }
-    std::call_once(once->flag, [&] { once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.kind); });
+    std::call_once(once->flag,
+                   [&] { once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.kind, key.poles); });
     return *once->filter;
 }
 

@@ -45,6 +45,7 @@ private:
         std::size_t near_taps;
         std::size_t modes;
         glsum::design::FilterKind kind;
+        glsum::design::Poles poles;
         auto operator<=>(const Key&) const = default;
     };
     struct Once {

@@ -10,6 +10,7 @@
 #include "base/progress.hpp"
 #include "bench/choose/costs.hpp"
 #include "bench/choose/derivative_errors.hpp"
+#include "bench/choose/kernel_run.hpp"
 #include "bench/rows/key.hpp"
 #include "bench/studies/rational_filter.hpp"
 #include "bench/sweep/designs.hpp"
@@ -45,6 +46,14 @@ struct Asked {
     choose::Case cost;
 };
 
+// As ours: what the kernel holds of it, certified, with the noise of its arithmetic.
+double error_of_rational(RationalRule rule, const design::DerivativeGoal& goal, std::size_t poles,
+                         const choose::Case& holder) {
+    const TunedRational tuned = tune_rational(rule, goal, poles);
+    const choose::Held held = choose::hold(holder.first, holder.second, goal, as_modes(rule, goal, poles, tuned));
+    return held.fault.empty() ? held.added_to(design::certified_error(held.filter, goal)).largest() : tuned.error;
+}
+
 std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
     const design::DerivativeGoal goal{of.order, study.step_s, of.band, {}};
     std::vector<Asked> points;
@@ -66,8 +75,8 @@ std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
          {std::pair(oustaloup_way, RationalRule::oustaloup), std::pair(charef_way, RationalRule::charef)}) {
         for (const std::size_t poles : study.poles) {
             if (Oustaloup::takes(of.order)) {
-                points.push_back({point_of(of, way, 1, poles, tune_rational(rule, goal, poles).error),
-                                  {kernel_of_poles(of.order), 1 + 2 * poles}});
+                const choose::Case holder{kernel_of_poles(of.order), 1 + 2 * poles};
+                points.push_back({point_of(of, way, 1, poles, error_of_rational(rule, goal, poles, holder)), holder});
             }
         }
     }

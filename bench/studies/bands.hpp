@@ -24,7 +24,7 @@ struct BandStudy {
 
 /// A filter at a length, of one order and band.
 struct BandPoint {
-    std::string way;   ///< a kernel, `oustaloup_f64` or `charef_f64`
+    std::string way;   ///< a kernel, `oustaloup_f32` or `charef_f32`
     std::string taps;  ///< "1+5"
     double order;
     glsum::design::Band band;
@@ -34,12 +34,12 @@ struct BandPoint {
     double bytes;
 };
 
-inline constexpr const char* oustaloup_way = "oustaloup_f64";
-inline constexpr const char* charef_way = "charef_f64";
+inline constexpr const char* oustaloup_way = "oustaloup_f32";
+inline constexpr const char* charef_way = "charef_f32";
 
 /// Of kernels: every length up to 20 taps, certified, with the format's rounding and the arithmetic's noise. Of others'
-/// filters: error in double at the points of a search, and the cost of as many poles in the cheapest kernel that can
-/// hold them (`modes_plain_f32`, above order 1 `modesdelta_plain_f32`, 1+P).
+/// filters the same, in parallel form in the cheapest kernel that can hold them (`modes_plain_f32`, above order 1
+/// `modesdelta_plain_f32`, 1+P), or where it cannot, the error in double at the points of a search.
 /// \throws glsum::Failure for a core without a file
 [[nodiscard]] std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board);
 

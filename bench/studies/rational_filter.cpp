@@ -131,6 +131,89 @@ std::complex<double> response_of(const Roots& roots, Mapping mapping, double ste
     return response;
 }
 
+namespace {
+
+// Of H(q), q = z^-1: zeros and poles, whose factors are 1 - root q, and H(0).
+struct Sampled {
+    std::vector<double> zeros;
+    std::vector<double> poles;
+    double first;
+};
+
+// By a mapping of poles and zeros.
+Sampled sampled(const Roots& roots, Mapping mapping, double step_s) {
+    const double bilinear = 2.0 / step_s;
+    const auto mapped = [&](double root) {
+        return mapping == Mapping::matched ? std::exp(-root * step_s) : (bilinear - root) / (bilinear + root);
+    };
+    const auto scale = [&](double root) { return mapping == Mapping::matched ? 1.0 : bilinear + root; };
+    Sampled of{{}, {}, 1.0};
+    for (const double zero : roots.zeros) {
+        of.zeros.push_back(mapped(zero));
+        of.first *= scale(zero);
+    }
+    for (const double pole : roots.poles) {
+        of.poles.push_back(mapped(pole));
+        of.first /= scale(pole);
+    }
+    if (mapping == Mapping::tustin && roots.zeros.size() < roots.poles.size()) {
+        of.zeros.push_back(-1.0);  // what is 0 at infinite frequency is 0 at half the sample's rate
+    }
+    return of;
+}
+
+}  // namespace
+
+glsum::design::FittedFilter as_modes(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles,
+                                     const TunedRational& tuned) {
+    const bool increments = goal.order > 1.0;
+    const Roots roots = roots_of(rule, increments ? goal.order - 1.0 : goal.order, poles, tuned.band);
+    double first = 0.0;
+    std::vector<glsum::design::Mode> modes;
+    if (tuned.mapping == Mapping::impulse_invariant) {
+        // r h (1/(1 - e q) - 1/2) = r h / 2 + r h e q / (1 - e q), and d before.
+        first = roots.zeros.size() == roots.poles.size() ? 1.0 : 0.0;
+        for (std::size_t k = 0; k < roots.poles.size(); ++k) {
+            double residue = goal.step_s;
+            for (const double zero : roots.zeros) {
+                residue *= zero - roots.poles[k];
+            }
+            for (std::size_t j = 0; j < roots.poles.size(); ++j) {
+                residue /= j == k ? 1.0 : roots.poles[j] - roots.poles[k];
+            }
+            first += 0.5 * residue;
+            modes.push_back(
+                {-std::expm1(-roots.poles[k] * goal.step_s), residue * std::exp(-roots.poles[k] * goal.step_s)});
+        }
+    } else {
+        const Sampled of = sampled(roots, tuned.mapping, goal.step_s);
+        first = of.first;
+        for (std::size_t k = 0; k < of.poles.size(); ++k) {
+            // A/(1 - p q) = A + A p q/(1 - p q), with as many zeros as poles A p = (p - z) ...: no division by p.
+            const double pole = of.poles[k];
+            double weight = of.first;
+            for (std::size_t j = 0; j < of.poles.size(); ++j) {
+                weight *= j < of.zeros.size() ? pole - of.zeros[j] : pole;
+                weight /= j == k ? 1.0 : pole - of.poles[j];
+            }
+            modes.push_back({1.0 - pole, weight});
+        }
+    }
+    std::sort(modes.begin(), modes.end(), [](const auto& a, const auto& b) { return a.decay < b.decay; });
+    for (auto& mode : modes) {
+        mode.weight /= first;
+    }
+    const double unit = increments ? 1.0 / goal.step_s : 1.0;
+    glsum::design::FittedFilter filter{
+        unit * tuned.gain * first,
+        {},
+        modes,
+        {},
+        increments ? glsum::design::FilterKind::increments : glsum::design::FilterKind::samples};
+    filter.error = glsum::design::error_at_points(filter.filter(), goal);
+    return filter;
+}
+
 TunedRational tune_rational(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles) {
     struct Start {
         double low;  // decades of the edges in rad/s

@@ -1,5 +1,5 @@
 // Oustaloup's and Charef's rational approximations of s^v as their users tune them to a band: as filters sampled by
-// three mappings. For comparison; no kernels.
+// three mappings. For comparison; in parallel form a kernel with modes holds them.
 #pragma once
 
 #include <complex>
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/studies/oustaloup.hpp"
-#include "glsum/design/derivative.hpp"
+#include "glsum/design/band.hpp"
 
 namespace bench {
 
@@ -41,5 +41,11 @@ struct TunedRational {
 /// \pre goal.band, and `Oustaloup::takes(goal.order)`
 [[nodiscard]] TunedRational tune_rational(RationalRule rule, const glsum::design::DerivativeGoal& goal,
                                           std::size_t poles);
+
+/// The tuned filter in parallel form: one tap, and of each pole a mode. Above order 1 of increments, which are the
+/// difference of samples that goes before the filter.
+/// \pre the goal, rule and poles that it was tuned for
+[[nodiscard]] glsum::design::FittedFilter as_modes(RationalRule rule, const glsum::design::DerivativeGoal& goal,
+                                                   std::size_t poles, const TunedRational& tuned);
 
 }  // namespace bench

@@ -26,7 +26,7 @@ double error_up_to(double enough, Oustaloup filter, const FilterTarget& target) 
 }
 
 struct Candidate {
-    double low;   // decades of the edges in rad/s
+    double low;  // decades of the edges in rad/s
     double high;
     Mapping mapping;
     double error;

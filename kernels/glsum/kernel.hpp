@@ -15,7 +15,9 @@ namespace glsum {
 /// A decaying exponential that stands for far taps: behind the first K its part of the weight of index j is
 /// weight (1 - decay)^(j-K).
 struct Mode {
-    double decay;   ///< d = 1 - r in (0, 1]; r itself would lose the slow modes in single precision. 0: a running sum
+    /// d = 1 - r in (0, 1], in floating point below 2: beyond 1 its weights change their sign from lag to lag. r itself
+    /// would lose the slow modes in single precision. 0: a running sum
+    double decay;
     double weight;  ///< w
 };
 

@@ -46,6 +46,29 @@ TEST(RationalFilter, MappingsAreTheTextbooks) {
     EXPECT_LT(std::abs(response_of({{1.0}, {2.0}}, Mapping::impulse_invariant, 0.1, angle) - sampled), 1e-14);
 }
 
+TEST(RationalFilter, ItsParallelFormHasItsResponse) {
+    for (const RationalRule rule : {RationalRule::oustaloup, RationalRule::charef}) {
+        for (const double order : {0.7, -0.7, 1.4}) {
+            for (const Mapping mapping : {Mapping::matched, Mapping::tustin, Mapping::impulse_invariant}) {
+                const glsum::design::DerivativeGoal goal{order, 0.001, glsum::design::Band{0.8, 80.0}, {}};
+                // Its fastest pole is beyond 2/h: Tustin's mapping turns it negative.
+                const bench::TunedRational tuned{{5.0, 9000.0}, mapping, 3.0, 0.0};
+                const auto filter = as_modes(rule, goal, 5, tuned).filter();
+                const double v = order > 1.0 ? order - 1.0 : order;
+                const Roots roots = roots_of(rule, v, 5, tuned.band);
+                for (const double angle : {0.005, 0.1, 0.5, 2.0, 3.0}) {
+                    std::complex<double> expected = 3.0 * response_of(roots, mapping, 0.001, angle);
+                    if (order > 1.0) {
+                        expected *= (1.0 - std::polar(1.0, -angle)) / 0.001;
+                    }
+                    EXPECT_LT(std::abs(frequency_response(filter, angle) / expected - 1.0), 1e-9)
+                        << order << " " << to_text(mapping) << " " << angle;
+                }
+            }
+        }
+    }
+}
+
 TEST(RationalFilter, TunedIsNoWorseThanTheBandItself) {
     for (const double order : {0.5, -0.5, 1.5}) {
         const glsum::design::DerivativeGoal goal{order, 0.001, glsum::design::Band{0.8, 80.0}, {}};

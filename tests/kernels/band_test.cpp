@@ -69,6 +69,28 @@ TEST(FittedFilter, ErrsLessThanTunedOustaloupWithAsManyCoefficients) {
     EXPECT_GT(ratios[ratios.size() / 2], 3.0);
 }
 
+// Of v towards 1 Tustin's mapping of Oustaloup's filter has negative poles, and errs less than any with decaying ones.
+TEST(FittedFilter, OnePoleThatSwingsIsWorthSeveral) {
+    for (const double low_hz : {8.0, 0.8}) {
+        const DerivativeGoal goal = goal_of(0.9, low_hz, 80.0, 0.0);
+        double before = INFINITY;
+        for (const std::size_t modes : {1U, 2U, 3U, 4U}) {
+            const FittedFilter swinging = fit_filter(goal, 1, modes, FilterKind::samples, Poles::one_may_swing);
+            const FittedFilter decaying = fit_filter(goal, 1, modes, FilterKind::samples);
+            EXPECT_LT(swinging.error.band, 0.999 * before) << low_hz << " " << modes;
+            EXPECT_LE(swinging.error.band, decaying.error.band) << low_hz << " " << modes;
+            before = swinging.error.band;
+            for (std::size_t m = 0; m < modes; ++m) {
+                EXPECT_LE(decaying.modes[m].decay, 1.0);
+                EXPECT_LT(swinging.modes[m].decay, m + 1 < modes ? 1.0 : 1.9) << low_hz << " " << modes;
+            }
+            if (modes == 2 || modes == 3) {
+                EXPECT_LT(swinging.error.band, decaying.error.band / 2.0) << low_hz << " " << modes;
+            }
+        }
+    }
+}
+
 TEST(FittedFilter, IsWhatItsErrorSays) {
     const DerivativeGoal goal = goal_of(0.5, 0.05, 80.0, 60.0);
     const FittedFilter fitted = fit_filter(goal, 1, 5, FilterKind::samples);

@@ -112,6 +112,17 @@ TEST(BoundFormula, OfModes) {
     EXPECT_NEAR((bound_of<Sum<Modes, Plain, Q31>>(design, 0.75)) / fixed, 1.0, 1e-9);
 }
 
+// modes_bound.hpp beyond d = 1: of d = 1.5 an average reaches A = 3 peaks and forgets f = 1/2 of itself. It errs by
+// A + A^2 of d, 2 A (1 + A) of its step and A/f of its state, or compensated by 14 A^2; coefficient, product and
+// addition are of A peaks.
+TEST(BoundFormula, OfAModeThatSwings) {
+    const std::vector<Mode> swinging = {{1.5, -0.3}};
+    const Design design{0.5, 3, swinging};
+    const auto expected = [](double average) { return 0.75 * u * (1.0 + 1.0 + 0.2 * (3.0 * (2.0 + 2.0) + average)); };
+    EXPECT_NEAR((bound_of<Sum<Modes, Plain, F32>>(design, 0.75)) / expected(12.0 + 24.0 + 6.0), 1.0, 1e-4);
+    EXPECT_NEAR((bound_of<Sum<Modes, Compensated, F32>>(design, 0.75)) / expected(126.0), 1.0, 1e-4);
+}
+
 // nested_bound.hpp: a block of level l is a tap of the sum of its weights whose sample passed l additions.
 TEST(BoundFormula, OfBlocks) {
     constexpr std::size_t near_taps = 5;

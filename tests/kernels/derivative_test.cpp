@@ -99,6 +99,54 @@ TEST(Derivative, NoPointExceedsTheCertificate) {
     }
 }
 
+TEST(Derivative, NoPointOfAModeThatSwingsExceedsTheCertificate) {
+    for (const double decay : {1.2, 1.6, 1.9}) {
+        // Up to half the sample's rate, where its answer is largest.
+        DerivativeGoal goal{0.9, 0.001, Band{5.0, 500.0}};
+        goal.step_until_s = 0.2;
+        const Filter filter{{800.0}, {{0.1, -40.0}, {decay, -300.0}}};
+        const DerivativeError certified = certified_error(filter, goal);
+        double band = 0.0;
+        for (int i = 0; i <= 20'000; ++i) {
+            const double hz = 5.0 * std::pow(100.0, i / 20'000.0);
+            const auto delay = std::polar(1.0, -2.0 * std::numbers::pi * hz * 0.001);
+            const auto response =
+                800.0 - 40.0 * delay / (1.0 - 0.9 * delay) - 300.0 * delay / (1.0 - (1.0 - decay) * delay);
+            band = std::max(band, std::abs(response / exact_response(0.9, hz) - 1.0));
+        }
+        EXPECT_LE(band, certified.band * (1.0 + 1e-12)) << decay;
+        EXPECT_GE(band, certified.band / 1.006) << decay;
+        double step = 0.0;
+        double slow = 0.0;
+        double swinging = 0.0;
+        for (std::size_t k = 1; k <= 200; ++k) {
+            slow = 0.9 * slow + 1.0;
+            swinging = (1.0 - decay) * swinging + 1.0;
+            EXPECT_NEAR(step_response(filter, k), 800.0 - 40.0 * slow - 300.0 * swinging, 1e-9) << decay << " " << k;
+            if (k >= 10) {
+                const double exact = exact_step(0.9, 0.001 * static_cast<double>(k));
+                step = std::max(step, std::fabs((800.0 - 40.0 * slow - 300.0 * swinging) / exact - 1.0));
+            }
+        }
+        EXPECT_NEAR(certified.step / step, 1.0, 1e-9) << decay;
+    }
+}
+
+TEST(Derivative, APeakOfModesThatSwingIsCertified) {
+    // They cancel at half the sample's rate, and peak a hundredth before it.
+    const DerivativeGoal goal{0.9, 0.001, Band{400.0, 500.0}, {}};
+    const Filter filter{{800.0}, {{1.97, 300.0}, {1.99, -100.0}}};
+    const double certified = certified_error(filter, goal).band;
+    double dense = 0.0;
+    for (double hz = 400.0; hz <= 500.0; hz += 0.01) {
+        const auto response = frequency_response(filter, 2.0 * std::numbers::pi * hz * 0.001);
+        dense = std::max(dense, std::abs(response / exact_response(0.9, hz) - 1.0));
+    }
+    EXPECT_GT(dense, 1.5 * error_at_points(filter, goal).band);
+    EXPECT_LE(dense, certified);
+    EXPECT_GE(dense, certified / 1.006);
+}
+
 TEST(Derivative, APeakBetweenTheSearchPointsIsCertified) {
     // A long window ripples faster than the points of a search lie.
     const DerivativeGoal goal = half(1.0, 400.0, 0.0);

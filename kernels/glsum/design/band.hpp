@@ -5,7 +5,7 @@
 // small by least squares whose weights follow the error (Lawson's iteration [Lawson1961]), and the poles, real and
 // inside the circle, are moved by Gauss-Newton steps of the weighted problem with the linear part solved for (variable
 // projection [GolubPereyra1973]). Oustaloup's and Charef's filters are of this form too, with poles and weights by
-// rule.
+// rule; Tustin's mapping turns their fastest poles negative, and so may one pole here.
 #pragma once
 
 #include <cstddef>
@@ -15,6 +15,12 @@
 #include "glsum/kernel.hpp"
 
 namespace glsum::design {
+
+/// Which poles a filter may have.
+enum class Poles {
+    decaying,       ///< in [0, 1): what every kernel with modes holds
+    one_may_swing,  ///< one may lie in (-0.9, 0): floating point alone. Of v towards 1 it is worth several others
+};
 
 /// A filter for a goal, as what a kernel's design names: D_k = factor S_k with S_k of these weights and modes.
 struct FittedFilter {
@@ -32,6 +38,6 @@ struct FittedFilter {
 /// \param modes      M; none: a window fitted to the goal; of an integrator M >= 1
 /// A tap that no point of the goal shows is that of the order's own weights. The same arguments give the same filter.
 [[nodiscard]] FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes,
-                                      FilterKind kind);
+                                      FilterKind kind, Poles poles = Poles::decaying);
 
 }  // namespace glsum::design

@@ -38,9 +38,11 @@ public:
                                     std::max(std::pow(low, v - 2.0), std::pow(high, v - 2.0));
         const auto near = static_cast<double>(filter_.taps.size());
         for (const Mode& mode : filter_.modes) {
-            // f = z^-K / g, g = 1 - r z^-1: |g'| = |g''| = r, and |g| rises with the angle.
-            const double r = 1.0 - mode.decay;
-            const double g = std::hypot(mode.decay, 2.0 * std::sqrt(r) * std::sin(0.5 * low));
+            // f = z^-K / g, g = 1 - s r z^-1 of the sign s: |g'| = |g''| = r, and |g| rises with the angle, of a mode
+            // whose weights change their sign it falls.
+            const double r = std::fabs(1.0 - mode.decay);
+            const double turned = mode.decay > 1.0 ? std::cos(0.5 * high) : std::sin(0.5 * low);
+            const double g = std::hypot(1.0 - r, 2.0 * std::sqrt(r) * turned);
             sum += std::fabs(mode.weight) *
                    (near * near / g + (2.0 * near + 1.0) * r / (g * g) + 2.0 * r * r / (g * g * g));
         }

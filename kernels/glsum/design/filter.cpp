@@ -44,7 +44,10 @@ double mode_step_response(double decay, std::size_t near_taps, std::size_t k) {
         return 0.0;
     }
     const auto count = static_cast<double>(k - near_taps + 1);
-    return decay == 0.0 ? count : decay == 1.0 ? 1.0 : -std::expm1(count * std::log1p(-decay)) / decay;
+    return decay == 0.0   ? count
+           : decay == 1.0 ? 1.0
+           : decay > 1.0  ? (1.0 - std::pow(1.0 - decay, count)) / decay
+                          : -std::expm1(count * std::log1p(-decay)) / decay;
 }
 
 double step_response(const Filter& filter, std::size_t k) {

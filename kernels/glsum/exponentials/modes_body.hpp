@@ -41,7 +41,8 @@ Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design
         return Status::weights_out_of_range;
     }
     for (const Mode& mode : design.modes) {
-        if (!(mode.decay > 0.0 && mode.decay <= 1.0) ||
+        constexpr bool may_swing = !Format::fixed_point;
+        if (!(mode.decay > 0.0 && (may_swing ? mode.decay < 2.0 : mode.decay <= 1.0)) ||
             !is_magnitude_at_most(mode.weight, std::numeric_limits<double>::max())) {
             return Status::modes_out_of_range;
         }
@@ -50,7 +51,7 @@ Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design
             if (to_fixed(mode.decay).mantissa < 1 << 29) {
                 return Status::format_too_narrow;
             }
-        } else if (!(static_cast<Coefficient>(mode.decay) > 0) ||
+        } else if (!(static_cast<Coefficient>(mode.decay) > 0 && static_cast<Coefficient>(mode.decay) < 2) ||
                    !is_magnitude_at_most(gain, std::numeric_limits<Coefficient>::max())) {
             return Status::format_too_narrow;
         }

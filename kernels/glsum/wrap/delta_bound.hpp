@@ -20,7 +20,7 @@ namespace glsum {
 [[nodiscard]] inline double absolute_sum_with_modes(const Design& design) {
     double sum = absolute_sum(design, design.taps - 2 * design.modes.size());
     for (const Mode& mode : design.modes) {
-        sum += std::fabs(mode.weight / mode.decay);
+        sum += std::fabs(mode.weight) / forgets(mode.decay);
     }
     return sum;
 }

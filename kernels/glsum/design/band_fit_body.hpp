@@ -1,0 +1,248 @@
+// The filter of given poles that errs least, and poles that err less. Included by band.cpp alone.
+#pragma once
+
+#include <Eigen/Cholesky>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <limits>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "glsum/design/band.hpp"
+
+namespace glsum::design {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+// Of the weights that a kernel sums with: increments have one order less.
+inline double order_of(const DerivativeGoal& goal, FilterKind kind) {
+    return kind == FilterKind::increments ? goal.order - 1.0 : goal.order;
+}
+
+// What the filter is held against: every point two rows of relative error, the step's one and an empty one.
+class Fit {
+public:
+    /// \param swing  above 0: the last of the poles lies in (-swing, 0)
+    Fit(const DerivativeGoal& goal, std::size_t near_taps, FilterKind kind, double swing, double ridge)
+        : near_taps_(near_taps), kind_(kind), swing_(swing), ridge_(ridge), samples_(design::samples_of(goal)) {
+        for (const double hz : frequencies_of(goal)) {
+            angles_.push_back(2.0 * std::numbers::pi * hz * goal.step_s);
+            exact_.push_back(exact_response(goal.order, hz));
+        }
+        for (const std::size_t k : samples_) {
+            exact_step_.push_back(exact_step(goal.order, static_cast<double>(k) * goal.step_s));
+        }
+        weights_ = Vector::Ones(points());
+        taps_ = Matrix(2 * points(), static_cast<Eigen::Index>(near_taps));
+        own_ = Vector(static_cast<Eigen::Index>(near_taps));
+        double weight = std::pow(goal.step_s, -goal.order);
+        for (std::size_t j = 0; j < near_taps; ++j) {
+            const auto at = [&](double angle) { return std::polar(1.0, -angle * static_cast<double>(j)); };
+            const auto step = [&](std::size_t k) { return k >= j ? 1.0 : 0.0; };
+            taps_.col(static_cast<Eigen::Index>(j)) = column(at, step);
+            own_(static_cast<Eigen::Index>(j)) = weight;
+            weight *= 1.0 - (1.0 + order_of(goal, kind)) / static_cast<double>(j + 1);
+        }
+    }
+
+    // Starts with poles whose decays these are, of a negative pole the logit of its part of the largest; the running
+    // sum is apart.
+    void set(Vector log_decays) {
+        log_decays_ = parted(std::move(log_decays));
+        solve(log_decays_, solution_, residual_);
+        error_ = error_of(residual_);
+    }
+
+    [[nodiscard]] double error() const { return error_; }
+    [[nodiscard]] const Vector& log_decays() const { return log_decays_; }
+
+    // A step of the poles for the present weights, then new weights from the errors that are left.
+    void improve(bool move_poles) {
+        if (move_poles && log_decays_.size() > 0) {
+            step_poles();
+        }
+        Vector factor(points());
+        double mean = 0.0;
+        for (Eigen::Index i = 0; i < points(); ++i) {
+            factor(i) = size_at(residual_, i);
+            mean += weights_(i) * factor(i) / weights_.sum();
+        }
+        // Never to nothing: a point that is met exactly may come back.
+        weights_ = weights_.cwiseProduct((factor / mean).cwiseMax(0.2).cwiseMin(5.0));
+        weights_ /= weights_.mean();
+        solve(log_decays_, solution_, residual_);
+        error_ = error_of(residual_);
+    }
+
+    [[nodiscard]] Filter filter() const {
+        Filter filter;
+        for (std::size_t j = 0; j < near_taps_; ++j) {
+            filter.taps.push_back(solution_(static_cast<Eigen::Index>(j)));
+        }
+        for (Eigen::Index m = 0; m < solution_.size() - static_cast<Eigen::Index>(near_taps_); ++m) {
+            filter.modes.push_back({decay_of(log_decays_, m), solution_(static_cast<Eigen::Index>(near_taps_) + m)});
+        }
+        return filter;
+    }
+
+private:
+    [[nodiscard]] bool integrator() const { return kind_ == FilterKind::integrator; }
+
+    static constexpr double largest_decay = 0.95;  // beyond it a mode is but another tap
+    static constexpr double least_gap = 0.3;       // of logarithms: nearer poles need huge weights of both signs
+
+    // Rising, apart, and none beyond the largest; a negative pole stays the last.
+    [[nodiscard]] Vector parted(Vector log_decays) const {
+        const Eigen::Index positive = log_decays.size() - (swing_ > 0.0 ? 1 : 0);
+        std::sort(log_decays.begin(), log_decays.begin() + positive);
+        double limit = std::log(largest_decay);
+        for (Eigen::Index m = positive - 1; m >= 0; --m, limit -= least_gap) {
+            log_decays(m) = limit = std::min(limit, log_decays(m));
+        }
+        return log_decays;
+    }
+
+    [[nodiscard]] Eigen::Index points() const { return static_cast<Eigen::Index>(angles_.size() + samples_.size()); }
+
+    // What a coefficient adds to the relative errors: by its answers to a sine and to a step of what is summed.
+    template <class AtAngle, class AtSample>
+    Vector column(const AtAngle& at_angle, const AtSample& at_sample) const {
+        const bool increments = kind_ == FilterKind::increments;
+        Vector column = Vector::Zero(2 * points());
+        Eigen::Index row = 0;
+        for (std::size_t i = 0; i < angles_.size(); ++i, row += 2) {
+            const double half = std::sin(0.5 * angles_[i]);
+            const std::complex<double> difference(2.0 * half * half, std::sin(angles_[i]));
+            const std::complex<double> relative = at_angle(angles_[i]) * (increments ? difference : 1.0) / exact_[i];
+            column(row) = relative.real();
+            column(row + 1) = relative.imag();
+        }
+        for (std::size_t i = 0; i < samples_.size(); ++i, row += 2) {
+            const double before = increments ? at_sample(samples_[i] - 1) : 0.0;
+            column(row) = (at_sample(samples_[i]) - before) / exact_step_[i];
+        }
+        return column;
+    }
+
+    [[nodiscard]] double decay_of(const Vector& log_decays, Eigen::Index mode) const {
+        const Eigen::Index at = integrator() ? mode - 1 : mode;
+        if (at < 0) {
+            return 0.0;
+        }
+        const bool swings = swing_ > 0.0 && at + 1 == log_decays.size();
+        return swings ? 1.0 + swing_ / (1.0 + std::exp(-log_decays(at))) : std::exp(log_decays(at));
+    }
+
+    [[nodiscard]] double size_at(const Vector& residual, Eigen::Index point) const {
+        return std::hypot(residual(2 * point), residual(2 * point + 1));
+    }
+    [[nodiscard]] double error_of(const Vector& residual) const {
+        double largest = 0.0;
+        for (Eigen::Index i = 0; i < points(); ++i) {
+            largest = std::max(largest, size_at(residual, i));
+        }
+        return largest;
+    }
+
+    // Taps and weights of the modes for these poles. \param residual  before the points' weights
+    void solve(const Vector& log_decays, Vector& solution, Vector& residual) const {
+        const Eigen::Index modes = log_decays.size() + (integrator() ? 1 : 0);
+        const auto near = static_cast<Eigen::Index>(near_taps_);
+        Matrix matrix(2 * points(), near + modes);
+        matrix.leftCols(near) = taps_;
+        for (Eigen::Index m = 0; m < modes; ++m) {
+            const double decay = decay_of(log_decays, m);
+            matrix.col(near + m) = column([&](double angle) { return mode_response(decay, near_taps_, angle); },
+                                          [&](std::size_t k) { return mode_step_response(decay, near_taps_, k); });
+        }
+        const Vector scale = matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+        const Vector root = row_weights();
+        // Behind the points a row for each coefficient, which asks for 0.
+        const Eigen::Index unknowns = matrix.cols();
+        Matrix weighted = Matrix::Zero(matrix.rows() + unknowns, unknowns);
+        weighted.topRows(matrix.rows()) = root.asDiagonal() * matrix * scale.cwiseInverse().asDiagonal();
+        weighted.bottomRows(unknowns).diagonal().setConstant(ridge_);
+        Eigen::ColPivHouseholderQR<Matrix> qr(weighted);
+        qr.setThreshold(1e-11);
+        const Vector ones = wanted();
+        Vector right = Vector::Zero(weighted.rows());
+        right.head(ones.size()) = root.cwiseProduct(ones);
+        solution = qr.solve(right).cwiseQuotient(scale);
+        residual = matrix * solution - ones;
+        for (Eigen::Index j = 0; j < near; ++j) {
+            if (matrix.col(j).isZero(0.0)) {
+                solution(j) = own_(j);
+            }
+        }
+    }
+
+    [[nodiscard]] Vector wanted() const {
+        Vector ones = Vector::Zero(2 * points());
+        for (Eigen::Index i = 0; i < points(); ++i) {
+            ones(2 * i) = 1.0;
+        }
+        return ones;
+    }
+    [[nodiscard]] Vector row_weights() const {
+        Vector root(2 * points());
+        for (Eigen::Index i = 0; i < points(); ++i) {
+            root(2 * i) = root(2 * i + 1) = std::sqrt(weights_(i));
+        }
+        return root;
+    }
+
+    void step_poles() {
+        const Vector root = row_weights();
+        const Vector now = root.cwiseProduct(residual_);
+        Matrix jacobian(now.size(), log_decays_.size());
+        constexpr double difference = 1e-4;
+        Vector solution;
+        Vector residual;
+        for (Eigen::Index m = 0; m < log_decays_.size(); ++m) {
+            Vector moved = log_decays_;
+            moved(m) -= difference;
+            solve(moved, solution, residual);
+            jacobian.col(m) = (now - root.cwiseProduct(residual)) / difference;
+        }
+        const Matrix normal = jacobian.transpose() * jacobian;
+        const Vector gradient = jacobian.transpose() * now;
+        for (int attempt = 0; attempt < 6; ++attempt, damping_ *= 8.0) {
+            const Matrix damped = normal + damping_ * Matrix(normal.diagonal().asDiagonal()) +
+                                  1e-12 * normal.trace() * Matrix::Identity(normal.rows(), normal.cols());
+            const Vector step = damped.ldlt().solve(gradient).cwiseMax(-1.0).cwiseMin(1.0);
+            const Vector moved = parted(log_decays_ - step);
+            solve(moved, solution, residual);
+            if (root.cwiseProduct(residual).squaredNorm() < now.squaredNorm()) {
+                log_decays_ = moved;
+                solution_ = solution;
+                residual_ = residual;
+                damping_ = std::max(1e-6, damping_ / 4.0);
+                return;
+            }
+        }
+        damping_ = 1e-2;
+    }
+
+    std::size_t near_taps_;
+    FilterKind kind_;
+    double swing_;
+    double ridge_;
+    std::vector<double> angles_;
+    std::vector<std::complex<double>> exact_;
+    std::vector<std::size_t> samples_;
+    std::vector<double> exact_step_;
+    Matrix taps_;
+    Vector own_;  // the taps of the order's own weights, what is summed taken into account
+    Vector weights_;
+    Vector log_decays_;
+    Vector solution_;
+    Vector residual_;
+    double error_ = 0.0;
+    double damping_ = 1e-2;
+};
+
+}  // namespace glsum::design
