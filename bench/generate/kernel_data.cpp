@@ -189,8 +189,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
             if (data.modes > 0) {
                 data.running_weight = static_cast<double>(state.weight);
                 data.history_text = running_sum_text(data.history_text, data.past);
-                data.technique_text.closing =
-                    "    sum = @name@_multiply_add(sum, @NAME@_RUNNING_WEIGHT, total + lost);\n";
+                data.technique_text.closing = running_sum_closing();
             }
         }
     } else if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Block>) {

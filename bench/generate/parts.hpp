@@ -1,5 +1,5 @@
-// The C text of a kernel's three words, mirroring kernels/glsum: each history, technique and format is written once,
-// and a header is their combination. Places (text.hpp): @name@ and @NAME@ begin every identifier, @sample@,
+// The C text of a kernel's three words: which of the kernels' own statements (shared.hpp) a header of them holds.
+// Places (text.hpp): @name@ and @NAME@ begin every identifier, @sample@,
 // @coefficient@,
 // @accumulator@ and @output@ are the format's types.
 #pragma once
@@ -72,6 +72,8 @@ struct FormatText {
 [[nodiscard]] HistoryText increments_text(const HistoryText& kept, bool fixed);
 /// Modes and a running sum. \param near_samples  K - 1
 [[nodiscard]] HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples);
+/// What stands behind its sum.
+[[nodiscard]] std::string running_sum_closing();
 /// A window of `past` samples and a guess of what it dropped; with `to_first` on the line to the first sample.
 [[nodiscard]] HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first);
 

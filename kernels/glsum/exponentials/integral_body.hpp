@@ -43,13 +43,19 @@ void Sum<Integral, Technique, Format>::reset(State& state) {
 template <class Technique, class Format>
 [[gnu::flatten]] auto Sum<Integral, Technique, Format>::step(State& state, Sample newest) -> Output {
     const Sample leaving = state.near_samples != 0 ? state.past[state.near_samples - 1] : newest;
+    // C99: running sum
     const Sample total = state.total;
     const Sample lost = state.lost;
     const Sample after = total + leaving;
     const Sample leaving_part = after - total;
     state.total = after;
     state.lost = lost + ((total - (after - leaving_part)) + (leaving - leaving_part));
-    return Format::multiply_add(Inner::step(state, newest), state.weight, total + lost);
+    // C99 end
+    auto sum = Inner::step(state, newest);
+    // C99: running sum closing
+    sum = Format::multiply_add(sum, state.weight, total + lost);
+    // C99 end
+    return sum;
 }
 
 }  // namespace glsum

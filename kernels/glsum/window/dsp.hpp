@@ -42,9 +42,11 @@ GLSUM_NEST_FLOATS(nest_floats)
 #if defined(__ARM_FEATURE_DSP)
     return __builtin_arm_smlald(a, b, sum);
 #else
+    // C99: two products
     const std::int32_t low = static_cast<std::int16_t>(a) * static_cast<std::int16_t>(b);
     const std::int32_t high = (a >> 16) * (b >> 16);
     return sum + low + high;
+    // C99 end
 #endif
 }
 
