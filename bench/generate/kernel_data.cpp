@@ -30,27 +30,31 @@ constexpr bool one_of = (std::is_same_v<T, Ts> || ...);
 template <class Technique>
 constexpr bool is_paired = one_of<Technique, glsum::Smlald, glsum::Smlad, glsum::SmlaldShaped>;
 
+// Whether its texts are found by its word.
+template <class Technique>
+constexpr bool is_worded = requires {
+    Technique::summary;
+};
+
 template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
     one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integral, glsum::Nested, glsum::Block,
            glsum::MirrorDelta, glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
-    (is_paired<T> ||
-     one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
-            glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
-            glsum::FirFma, glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15,
-                                                   glsum::Q15C31>;
+    (is_worded<T> || is_paired<T> ||
+     one_of<T, glsum::Multi, glsum::MultiFma, glsum::Horner, glsum::HornerFma, glsum::HornerSplit,
+            glsum::HornerSplitFma, glsum::Fir, glsum::FirFma,
+            glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15, glsum::Q15C31>;
 
 template <class Technique, class Format>
 TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
     using namespace glsum;
     constexpr bool f32 = std::is_same_v<Format, F32>;
     constexpr bool in_software = std::is_same_v<typename Format::Accumulator, double>;
-    if constexpr (one_of<Technique, Plain, PlainFma>) {
-        return plain_text(history, std::is_same_v<Technique, PlainFma>, std::is_same_v<Format, Q15C31>);
-    } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
-        return oldest_text(history, std::is_same_v<Technique, OldestFma>);
+    if constexpr (is_worded<Technique>) {
+        return worded_text(Technique::word, Technique::summary, history, Technique::word.ends_with("fma"),
+                           std::is_same_v<Format, Q15C31>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {
         constexpr bool fused = std::is_same_v<Technique, MultiFma>;
         return multi_text(history, past, fused, in_software,
@@ -63,8 +67,6 @@ TechniqueText text_of(const HistoryText& history, std::size_t past, const std::v
         return horner_split_text(history, past, std::is_same_v<Technique, HornerSplitFma>);
     } else if constexpr (one_of<Technique, Fir, FirFma>) {
         return fir_text(std::is_same_v<Technique, FirFma>, !f32);
-    } else if constexpr (std::is_same_v<Technique, Compensated>) {
-        return compensated_text(history);
     } else if constexpr (std::is_same_v<Technique, Scaled>) {
         return scaled_text(past, shifts);
     } else {

@@ -44,21 +44,20 @@ std::string unrolled(int turns) {
 
 }  // namespace
 
-TechniqueText plain_text(const HistoryText& history, bool fused, bool mixed) {
-    // Of a known length GCC 12 counts the turns over an older piece, and unrolls four loads of half a word into more
-    // instructions than their loop has.
-    return {.summary = "newest first, one accumulator" + rounded_once(fused),
-            .sum = window_of(history, history.two_pieces || mixed ? Hidden{"past"} : Hidden{}) +
-                   shared("plain", of(fused)) + history.behind_start + pieces(history, "plain", of(fused)),
-            .fused = fused};
-}
-
-TechniqueText oldest_text(const HistoryText& history, bool fused) {
-    // Where the samples are known to lie GCC 12 makes up addresses of their own for the ends of both pieces.
-    return {.summary = "oldest first, one accumulator" + rounded_once(fused),
-            .sum = window_of(history, history.two_pieces ? Hidden{"samples"} : Hidden{}) + shared("oldest") +
-                   pieces(history, "oldest", of(fused), true),
-            .closing = shared("oldest closing"),
+// Of a known length GCC 12 counts the turns over an older piece, and unrolls four loads of half a word into more
+// instructions than their loop has. Oldest first it makes up addresses for the ends of both pieces where the samples
+// are known to lie.
+TechniqueText worded_text(std::string_view word, std::string_view summary, const HistoryText& history, bool fused,
+                          bool mixed) {
+    const std::string name(fused ? word.substr(0, word.rfind("fma")) : word);
+    Words words = of(fused);
+    words["add("] = "@name@_add(&sum, &lost, ";
+    const bool oldest_first = place_of(name + " older") < place_of(name + " newer");
+    const Hidden hidden = history.two_pieces || mixed ? Hidden{oldest_first ? "samples" : "past"} : Hidden{};
+    return {.summary = std::string(summary) + rounded_once(fused),
+            .sum = window_of(history, hidden) + shared(name, words) + history.behind_start +
+                   pieces(history, name, words, oldest_first),
+            .closing = place_of(name + " closing") != std::string_view::npos ? shared(name + " closing", words) : "",
             .fused = fused};
 }
 
@@ -91,13 +90,6 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
             .closing = shared("multi closing"),
             .fused = fused,
             .m7 = on_m7 ? m7 : ""};
-}
-
-TechniqueText compensated_text(const HistoryText& history) {
-    return {.summary = "newest first, with the sum of what the additions lost",
-            .sum = window_of(history, history.two_pieces ? Hidden{"past"} : Hidden{}) + shared("compensated") +
-                   pieces(history, "compensated", {{"add(", "@name@_add(&sum, &lost, "}}),
-            .closing = shared("compensated closing")};
 }
 
 TechniqueText horner_text(const HistoryText& history, bool fused, bool in_software) {

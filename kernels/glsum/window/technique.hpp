@@ -1,6 +1,9 @@
 // The contract of a technique: how the products a_j x_(k-j), j >= 1, are summed.
 //
 //   word                              its word in kernel names
+//   summary                           how it sums, in the words of a generated header's comment; with it a header holds
+//                                     its texts "// C99: WORD", "WORD newer", "WORD older" and "WORD closing" as they
+//                                     stand there, and bench/generate need not know it
 //   host_only                         whether it needs the host's vector unit
 //   contiguous_only                   whether it needs a history that gives one contiguous piece
 //   nests                             whether its coefficients are factors, each of all that is older
