@@ -311,9 +311,9 @@ std::string constants(const Spec& spec, const KernelData& data) {
             "#define @NAME@_IN_WINDOW ({}) /* a_0 + ... + a_(L-1) */\n#define @NAME@_MINUS_ORDER ({}) /* -v */\n",
             real_literal(data.inputs.type, data.in_window), real_literal(data.inputs.type, data.minus_order));
     }
-    if (data.running_weight) {
-        text += fmt::format("#define @NAME@_RUNNING_WEIGHT {} /* of the running sum */\n",
-                            real_literal(data.inputs.type, *data.running_weight));
+    if (data.integrator_weight) {
+        text += fmt::format("#define @NAME@_INTEGRATOR_WEIGHT {} /* of the integrator */\n",
+                            real_literal(data.inputs.type, *data.integrator_weight));
     }
     if (data.decaying > 0) {
         text += fmt::format("#define @NAME@_MODES {}U              /* decaying averages of what lies behind these */\n",
@@ -345,13 +345,13 @@ std::string step_body(const KernelData& data, std::size_t past) {
         return shared("plain") + history.behind + "    return @name@_finish(S, sum);\n";
     }
     if (past == 0) {
-        return history.before + "    return @name@_finish(S, " + (data.nested ? "newest" : "@name@_start(newest)") +
-               ");\n";
+        return history.before + "    return @name@_finish(S, " +
+               (data.horner_form ? "newest" : "@name@_start(newest)") + ");\n";
     }
     const TechniqueText& technique = data.technique_text;
     const std::string push = technique.pushes ? "" : history.push;
-    // In software nothing runs meanwhile; but a nested sum that ends in products would end apart where the head is 0.
-    const bool waits = (data.accumulator != "double" || data.nested) && history.behind.empty();
+    // In software nothing runs meanwhile; but a Horner form that ends in products would end apart where the head is 0.
+    const bool waits = (data.accumulator != "double" || data.horner_form) && history.behind.empty();
     const std::string body = history.before + technique.sum +
                              (waits ? push + technique.closing : technique.closing + history.behind + push) +
                              "    return @name@_finish(S, sum);\n";

@@ -20,10 +20,10 @@ Words in_push(const std::string& past) {
     return {{"samples", "S->past"}, {"past", past}, {"T", "@sample@"}, {"next_head", "@name@_next_head"}};
 }
 
-const Words in_running_sum = {{"state.total", "S->total[0]"},
-                              {"state.lost", "S->total[1]"},
-                              {"state.weight", "@NAME@_RUNNING_WEIGHT"},
-                              {"leaving", "added"}};
+const Words in_integrator = {{"state.total", "S->total[0]"},
+                             {"state.lost", "S->total[1]"},
+                             {"state.weight", "@NAME@_INTEGRATOR_WEIGHT"},
+                             {"leaving", "added"}};
 
 }  // namespace
 
@@ -107,18 +107,18 @@ HistoryText increments_text(const HistoryText& kept, bool fixed) {
     return text;
 }
 
-// kernels/glsum/exponentials/integral.hpp.
-std::string running_sum_closing() { return shared("running sum closing", in_running_sum); }
+// kernels/glsum/exponentials/integrator.hpp.
+std::string integrator_closing() { return shared("integrator closing", in_integrator); }
 
-HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples) {
+HistoryText integrator_text(const HistoryText& modes, std::size_t near_samples) {
     HistoryText text = modes;
-    text.summary = "the newest samples as they are, all older ones as decaying averages and a running sum";
+    text.summary = "the newest samples as they are, all older ones as decaying averages and an integrator";
     text.fields =
         "    @sample@ total[2]; /* x of all samples behind the near ones; what its additions lost */\n" + modes.fields;
     text.reset = modes.reset + "    S->total[0] = 0;\n    S->total[1] = 0;\n";
     text.before = std::string("    const @sample@ added = ") +
                   (near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest") + ";\n" +
-                  shared("running sum", in_running_sum);
+                  shared("integrator", in_integrator);
     return text;
 }
 

@@ -40,7 +40,7 @@ template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integral, glsum::Nested, glsum::Block,
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integrator, glsum::Nested, glsum::Block,
            glsum::MirrorDelta, glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
     (is_worded<T> || is_paired<T> ||
      one_of<T, glsum::Multi, glsum::MultiFma, glsum::Horner, glsum::HornerFma, glsum::HornerSplit,
@@ -78,7 +78,7 @@ template <class History>
 HistoryText text_of_history(History history, std::size_t, bool) {
     return history_text(history);
 }
-HistoryText text_of_history(glsum::Integral, std::size_t, bool) { return history_text(glsum::Modes{}); }
+HistoryText text_of_history(glsum::Integrator, std::size_t, bool) { return history_text(glsum::Modes{}); }
 template <class Kept>
 HistoryText text_of_history(glsum::Delta<Kept>, std::size_t, bool fixed) {
     return increments_text(history_text(Kept{}), fixed);
@@ -152,7 +152,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
     KernelData data;
     data.fixed = Format::fixed_point;
     data.pairs = is_paired<Technique>;
-    data.nested = one_of<Technique, glsum::Horner, glsum::HornerFma>;
+    data.horner_form = one_of<Technique, glsum::Horner, glsum::HornerFma>;
     data.format = Format::word;
     data.accumulator = c_type<typename Format::Accumulator>();
     data.output = c_type<Output>();
@@ -176,7 +176,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
         data.history_text.behind_start = "#if defined(__arm__)\n    @NAME@_KEEP_WORD(sum);\n#endif\n";
     }
     if constexpr (has_modes) {
-        if (glsum::keeps_running_sum<typename K::HistoryPart> && data.modes > 0) {
+        if (glsum::has_integrator<typename K::HistoryPart> && data.modes > 0) {
             --data.decaying;
         }
         data.technique_text = modes_text(data.past, data.decaying, std::is_same_v<Technique, glsum::Compensated>,
@@ -187,11 +187,11 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
                                 : largest * glsum::design::error_of(
                                                 glsum::design::weights_to(increments ? order - 1.0 : order, horizon),
                                                 data.past + 1, {design.modes.begin(), design.modes.end()}, INFINITY);
-        if constexpr (glsum::keeps_running_sum<typename K::HistoryPart>) {
+        if constexpr (glsum::has_integrator<typename K::HistoryPart>) {
             if (data.modes > 0) {
-                data.running_weight = static_cast<double>(state.weight);
-                data.history_text = running_sum_text(data.history_text, data.past);
-                data.technique_text.closing = running_sum_closing();
+                data.integrator_weight = static_cast<double>(state.weight);
+                data.history_text = integrator_text(data.history_text, data.past);
+                data.technique_text.closing = integrator_closing();
             }
         }
     } else if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Block>) {
@@ -220,7 +220,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
                           std::all_of(table.begin(), table.end(), [](auto a) { return std::isnormal(a); }));
     }
     data.error_bound = glsum::error_bound<K>(design, state, 1.0, horizon);
-    data.bound_grows = data.guesses || glsum::keeps_running_sum<typename K::HistoryPart>;
+    data.bound_grows = data.guesses || glsum::has_integrator<typename K::HistoryPart>;
     std::vector<Sample> inputs;
     for (const double real : reals) {
         inputs.push_back(K::from_real(real));

@@ -70,10 +70,10 @@ struct FormatText {
 [[nodiscard]] HistoryText history_text(glsum::Nested);
 /// Increments, kept as `kept` keeps samples.
 [[nodiscard]] HistoryText increments_text(const HistoryText& kept, bool fixed);
-/// Modes and a running sum. \param near_samples  K - 1
-[[nodiscard]] HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples);
+/// Modes and an integrator. \param near_samples  K - 1
+[[nodiscard]] HistoryText integrator_text(const HistoryText& modes, std::size_t near_samples);
 /// What stands behind its sum.
-[[nodiscard]] std::string running_sum_closing();
+[[nodiscard]] std::string integrator_closing();
 /// A window of `past` samples and a guess of what it dropped; with `to_first` on the line to the first sample.
 [[nodiscard]] HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first);
 

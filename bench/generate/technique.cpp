@@ -23,7 +23,9 @@ std::string window_of(const HistoryText& history, const Hidden& hidden = {}) {
 
 Words of(bool fused) { return {{"accumulate<Format, fused>", accumulate(fused)}}; }
 
-Words nest(bool fused) { return {{"Format::template nest<fused>", fused ? "@name@_fused_nest" : "@name@_nest"}}; }
+Words horner_words(bool fused) {
+    return {{"Format::template horner_step<fused>", fused ? "@name@_fused_horner_step" : "@name@_horner_step"}};
+}
 
 // Texts of the kernel's that end with "newer" and "older", in the order in which it has them.
 std::string pieces(const HistoryText& history, const std::string& name, const Words& words, bool oldest_first = false) {
@@ -93,22 +95,22 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
 }
 
 TechniqueText horner_text(const HistoryText& history, bool fused, bool in_software) {
-    return {.summary = "nested, oldest first, with the factors (j-1-v)/j" + rounded_once(fused),
+    return {.summary = "Horner form, oldest first, with the factors (j-1-v)/j" + rounded_once(fused),
             .sum = window_of(history, in_software ? Hidden{} : Hidden{"samples"}) + shared("horner") +
-                   pieces(history, "horner", nest(fused), true),
-            .closing = shared("horner closing", nest(fused)),
+                   pieces(history, "horner", horner_words(fused), true),
+            .closing = shared("horner closing", horner_words(fused)),
             .fused = fused};
 }
 
 TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused) {
     const bool on_m7 = past >= 40 && !fused;
-    Words words = nest(fused);
+    Words words = horner_words(fused);
     words.insert({{"samples", "newer"}, {"past", "newer_count"}, {"chains", "4U"}, {"dsp::", "@name@_"}});
     for (const std::string chain : {"0", "1", "2", "3"}) {
         words["table[" + chain + "] * t" + chain] = "@name@_product(table[" + chain + "], t" + chain + ")";
     }
     const std::string loop = shared("hornersplit loop", words);
-    return {.summary = "nested in four chains, each of every fourth sample" + rounded_once(fused),
+    return {.summary = "Horner form in four chains, each of every fourth sample" + rounded_once(fused),
             .sum = window_of(history) + shared("hornersplit", words) +
                    (on_m7 ? or_on_m7(shared("hornersplit floats", words) +
                                          "    t0 = t[0];\n    t1 = t[1];\n    t2 = t[2];\n    t3 = t[3];\n",
@@ -116,7 +118,7 @@ TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bo
                           : loop),
             .closing = shared("hornersplit closing", words),
             .fused = fused,
-            .m7 = on_m7 ? "nest_floats" : ""};
+            .m7 = on_m7 ? "horner_floats" : ""};
 }
 
 TechniqueText fir_text(bool fused, bool fixed) {

@@ -94,8 +94,8 @@ TEST(Shared, CallsAreTheHeaders) {
             {.kernel = kernel, .order = 0.5, .taps = 20, .step_s = {}, .prefix = "my", .provenance = {}});
         return text.substr(text.find("my_step_"));
     };
-    EXPECT_THAT(step("ring_horner_f32"), HasSubstr("my_f32_nest(older[i - 1], table[newer_count + i], sum);"));
-    EXPECT_THAT(step("ring_hornerfma_f32"), HasSubstr("my_f32_fused_nest(newer[i - 1], table[i], sum);"));
+    EXPECT_THAT(step("ring_horner_f32"), HasSubstr("my_f32_horner_step(older[i - 1], table[newer_count + i], sum);"));
+    EXPECT_THAT(step("ring_hornerfma_f32"), HasSubstr("my_f32_fused_horner_step(newer[i - 1], table[i], sum);"));
     EXPECT_THAT(step("ring_compensated_f32"),
                 HasSubstr("my_f32_add(&sum, &lost, my_f32_multiply(table[i], older[i]));"));
     EXPECT_THAT(step("mirror_hornersplit_f32"), HasSubstr("my_f32_product(table[3], t3)"));

@@ -39,7 +39,7 @@ TEST(Technique, TheCoresOwnLoopIsForLongWindows) {
          {std::tuple("ring_multi_f32", 17U, "my_f32_dot_floats(s, "),
           std::tuple("mirror_multi_f32", 17U, "dot_floats(s, "),
           std::tuple("mirror_multi_q31", 17U, "my_q31_dot_smlal_onto(s0, "),
-          std::tuple("mirror_hornersplit_f32", 41U, "my_f32_nest_floats(t, table, newer, i / 4U)")}) {
+          std::tuple("mirror_hornersplit_f32", 41U, "my_f32_horner_floats(t, table, newer, i / 4U)")}) {
         EXPECT_THAT(header(kernel, first), HasSubstr(loop)) << kernel;
         EXPECT_THAT(header(kernel, first), HasSubstr("_M7\n")) << kernel;
         EXPECT_THAT(header(kernel, first - 1), Not(HasSubstr(loop))) << kernel;

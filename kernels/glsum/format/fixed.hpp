@@ -4,14 +4,14 @@
 // bits; a_0 = 1, which no fraction holds, is added apart and is exact. Sum: exact, in 64 bits (32 for smlad); products
 // are not shortened. s is the smallest scale at which neither a coefficient nor the sum can overflow, whatever the
 // samples; that follows from sum |a_j|, not from the length: in 64 bits s = 0 for 0 < v <= 1, 1 for 1 < v <= 2, and
-// growing with the length only for v < 0. The nested form rounds at each step. Output: 32 bits with e integer bits, S_k
+// growing with the length only for v < 0. The Horner form rounds at each step. Output: 32 bits with e integer bits, S_k
 // = output 2^(e-31), rounded to nearest, halves up. e is the smallest number of integer bits that holds sum |a_j| (1
 // for 0 < v <= 1, 2 for 1 < v <= 2). q15 kernels give 32 bits too: the sum has them, and the factor h^-v, still to
 // come, would magnify what 16 bits drop. Overflow: none in the sum; the output saturates, and counts it in
 // `Scale::saturations`. With this e only a sum within half a unit of 2^e can reach it. Error: |S - exact| <= what the
 // technique's coefficients and steps lose (its `fixed_error`; (L-1) 2^(s-m-1) peak for a table that is rounded to
 // nearest) + 2^-(n+1) sum|a_j| (input) + 2^(e-32) (output). No rounding depends on the order of summation, so every
-// technique but the nested form gives the same bits from the same table.
+// technique but the Horner form gives the same bits from the same table.
 #pragma once
 
 #include <algorithm>
@@ -142,9 +142,9 @@ struct Fixed {
         return Status::ok;
     }
 
-    /// The scale for a table of the factors c_j. The nested sums have 31 bits of fraction in 64: they stay below
+    /// The scale for a table of the factors c_j. The Horner forms have 31 bits of fraction in 64: they stay below
     /// taps^2 for every order, so that lengths to 40 000 cannot overflow.
-    static Status choose_nested_scale(const Design& design, Scale& scale) {
+    static Status choose_horner_scale(const Design& design, Scale& scale) {
         static_assert(sample_bits == 31 && coefficient_bits == 31);
         scale = {};
         if (design.taps > 40000) {
@@ -188,10 +188,10 @@ struct Fixed {
     }
     /// x + c inner, rounded to nearest, halves up; inner has 31 bits of fraction.
     template <bool fuse>
-    static Accumulator nest(Sample x, Coefficient c, Accumulator inner, const Scale& scale) {
+    static Accumulator horner_step(Sample x, Coefficient c, Accumulator inner, const Scale& scale) {
         static_assert(!fuse, "fixed point has no fused form");
         const int shift = coefficient_bits - scale.table_exponent;
-        // C99: nest fixed
+        // C99: horner step fixed
         // 64 by 32 bits in two products; the upper one is a whole number of units and needs no rounding.
         const std::int64_t upper = static_cast<std::int64_t>(static_cast<std::int32_t>(inner >> 32)) * c;
         const std::int64_t lower = static_cast<std::int64_t>(static_cast<std::uint32_t>(inner)) * c;

@@ -34,7 +34,7 @@ struct Floating {
     static Status choose_scale(const Design&, Scale&) {
         return Status::ok;
     }
-    static Status choose_nested_scale(const Design&, Scale&) { return Status::ok; }
+    static Status choose_horner_scale(const Design&, Scale&) { return Status::ok; }
     static Coefficient coefficient(double real, const Scale&) { return static_cast<Data>(real); }
 
     /// The accumulator that holds a_0 x_k = x_k alone.
@@ -63,15 +63,15 @@ struct Floating {
         return fused(static_cast<Accumulator>(a), static_cast<Accumulator>(x), sum);
         // C99 end
     }
-    /// x + c inner, a step of the nested form.
+    /// x + c inner, a step of the Horner form.
     template <bool fuse>
-    static Accumulator nest(Sample x, Coefficient c, Accumulator inner, const Scale&) {
+    static Accumulator horner_step(Sample x, Coefficient c, Accumulator inner, const Scale&) {
         if constexpr (fuse) {
-            // C99: fused_nest
+            // C99: fused horner step
             return fused(static_cast<Accumulator>(c), inner, static_cast<Accumulator>(x));
             // C99 end
         } else {
-            // C99: nest
+            // C99: horner step
             return static_cast<Accumulator>(x) + product(static_cast<Accumulator>(c), inner);
             // C99 end
         }
