@@ -98,9 +98,9 @@ struct SchemeKernel {
     bool fixed_point;
     bool keeps_increments;
     bool keeps_modes;
-    bool keeps_running_sum;
+    bool has_integrator;
     std::unique_ptr<PastSum> (*sum)(const glsum::Design& design);
-    [[nodiscard]] bool is_modes_alone() const { return keeps_modes && !keeps_increments && !keeps_running_sum; }
+    [[nodiscard]] bool is_modes_alone() const { return keeps_modes && !keeps_increments && !has_integrator; }
 };
 
 template <class K>
@@ -112,7 +112,7 @@ SchemeKernel scheme_kernel() {
         !std::is_floating_point_v<typename K::Sample>,
         glsum::keeps_increments<History>,
         glsum::keeps_modes<History>,
-        glsum::keeps_running_sum<History>,
+        glsum::has_integrator<History>,
         [](const glsum::Design& design) -> std::unique_ptr<PastSum> { return std::make_unique<KernelSum<K>>(design); }};
 }
 
@@ -153,9 +153,9 @@ Simulated step_kernel(const SchemeKernel& kernel, const Model& model, const Sche
     };
     // With modes a length of taps is parted as a design of so many has them.
     const bool with_modes = kernel.is_modes_alone();
-    if (kernel.keeps_running_sum) {
+    if (kernel.has_integrator) {
         refuse(fmt::format(
-            "{}: expected a kernel modes_...: a running sum is for integrals, and a plant's orders are above 0",
+            "{}: expected a kernel modes_...: an integrator is for integrals, and a plant's orders are above 0",
             kernel.name));
     }
     if (kernel.keeps_increments && kernel.keeps_modes) {

@@ -7,51 +7,34 @@
 namespace generate {
 namespace {
 
-// 2^exponent as a C expression of 64 bits.
-std::string power(int exponent) { return fmt::format("((int64_t)1 << {})", exponent); }
+// A fixed-point number of 32 bits and whether it stands for one beyond them, and how sums come to it.
+const Words rounding = {{"Rounded", "@name@_rounded"},
+                        {"saturate(", "@name@_saturate("},
+                        {"bool", "int"},
+                        {"false", "0"},
+                        {"true", "1"},
+                        {"scale.", "S->"},
+                        {" [[unlikely]]", ""}};
 
-// sum 2^-shift to nearest, halves up, saturated to 32 bits: kernels/glsum/format/fixed.hpp, round_shift.
-std::string finish(int shift) {
-    std::string text;
-    if (shift == 32) {
-        text =
-            "    /* The upper word and the bit below it. */\n"
-            "    const int64_t value = (int64_t)(int32_t)(sum >> 32) + (int64_t)((uint32_t)sum >> 31);\n";
-    } else if (shift > 0) {
-        text = fmt::format(
-            "    /* Not (sum + half) >> shift: sum + half may leave the 64 bits. */\n"
-            "    const int64_t value = ((sum >> {}) + 1) >> 1;\n",
-            shift - 1);
-    } else if (shift == 0) {
-        text = "    const int64_t value = sum;\n";
-    } else {
-        text = fmt::format(
-            "    const int64_t limit = (int64_t)INT32_MAX >> {0};\n"
-            "    const int64_t value = sum > limit ? (int64_t)INT32_MAX + 1\n"
-            "                          : sum < -limit - 1 ? (int64_t)INT32_MIN - 1 : sum * {1};\n",
-            -shift, power(-shift));
-    }
-    return text +
-           "    const int32_t narrow = (int32_t)value;\n"
-           "    if (narrow != value) {\n        ++S->saturations;\n"
-           "        return value < 0 ? INT32_MIN : INT32_MAX;\n    }\n"
-           "    return narrow;\n";
-}
+// What the kernel's text takes for the shift of its scale is known here.
+Words shifted(int shift) { return {{"shift", std::to_string(shift)}}; }
 
 }  // namespace
 
 FormatText floating_text(bool wide_data, bool wide_sum, bool normal_table) {
-    // The product of two f32 is exact in f64: fused or not, the sum has the same bits.
     const bool exact_product = wide_sum && !wide_data;
-    const std::string keep = exact_product ? "" : "    @NAME@_KEEP(product);\n";
-    const std::string fma = wide_sum ? "fma" : "fmaf";
+    const Words fused = {{"fused", wide_sum ? "fma" : "fmaf"}};
     FormatText text;
     text.summary = exact_product ? "single precision, sums in double precision"
                    : wide_data   ? "double precision"
                                  : "single precision";
     // In software each conversion is a call; that of a coefficient, which is known to be normal, needs none.
     const bool widens = exact_product && normal_table;
-    const std::string widened = widens ? "@name@_widen(a)" : "(@accumulator@)a";
+    Words calls = {{"product(", "@name@_product("}, {"multiply(", "@name@_multiply("}};
+    if (widens) {
+        calls["static_cast<Accumulator>(a)"] = "@name@_widen(a)";
+        calls["static_cast<Accumulator>(c)"] = "@name@_widen(c)";
+    }
     if (widens) {
         text.helpers.push_back(
             {"widen", helper("double", "widen", "float a",
@@ -65,29 +48,24 @@ FormatText floating_text(bool wide_data, bool wide_sum, bool normal_table) {
     }
     const std::vector<std::pair<std::string, std::string>> others = {
         {"start", helper("@accumulator@", "start", "@sample@ newest", "    return newest;\n")},
-        {"product", helper("@accumulator@", "product", "@accumulator@ a, @accumulator@ b",
-                           "    @accumulator@ product = a * b;\n    @NAME@_KEEP(product);\n    return product;\n")},
-        {"multiply",
-         helper("@accumulator@", "multiply", "@coefficient@ a, @sample@ x",
-                "    @accumulator@ product = " + widened + " * (@accumulator@)x;\n" + keep + "    return product;\n")},
+        {"product", helper("@accumulator@", "product", "@accumulator@ a, @accumulator@ b", shared("product"))},
+        {"multiply", helper("@accumulator@", "multiply", "@coefficient@ a, @sample@ x", shared("multiply", calls))},
         {"multiply_add", helper("@accumulator@", "multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
-                                "    return sum + @name@_multiply(a, x);\n")},
+                                shared("multiply_add", calls))},
         // Adds to a number and keeps what the addition lost, for the next one.
         {"carry", helper("void", "carry", "@sample@ *carried, @sample@ step",
-                         "    const @sample@ whole = step + carried[1];\n"
-                         "    const @sample@ after = carried[0] + whole;\n"
-                         "    const @sample@ part = after - carried[0];\n"
-                         "    carried[1] = (carried[0] - (after - part)) + (whole - part);\n"
-                         "    carried[0] = after;\n")},
+                         shared("carried", {{"value", "carried[0]"}, {"lost", "carried[1]"}, {"Number", "@sample@"}}))},
         {"add", helper("void", "add", "@accumulator@ *sum, @accumulator@ *lost, @accumulator@ term",
                        shared("compensated term", {{"sum", "*sum"}, {"lost", "*lost"}}))},
         {"fused_multiply_add",
          helper("@accumulator@", "fused_multiply_add", "@accumulator@ sum, @coefficient@ a, @sample@ x",
-                "    return " + fma + "(a, x, sum);\n")},
-        {"nest", helper("@accumulator@", "nest", "@sample@ x, @coefficient@ a, @accumulator@ inner",
-                        "    return @name@_product(" + (widens ? widened : "a") + ", inner) + x;\n")},
-        {"fused_nest", helper("@accumulator@", "fused_nest", "@sample@ x, @coefficient@ c, @accumulator@ inner",
-                              "    return " + fma + "(c, inner, x);\n")},
+                shared("fused_multiply_add", fused))},
+        {"horner_step", helper("@accumulator@", "horner_step", "@sample@ x, @coefficient@ c, @accumulator@ inner",
+                               shared("horner step", calls))},
+        {"fused_horner_step",
+         helper("@accumulator@", "fused_horner_step", "@sample@ x, @coefficient@ c, @accumulator@ inner",
+                shared("fused horner step", fused))},
+        {"together", helper("@sample@", "together", "@sample@ one, @sample@ other", shared("together"))},
         {"finish", helper("@output@", "finish", "@name@_instance *S, @accumulator@ sum",
                           "    (void)S;\n    return (@output@)sum;\n")},
     };
@@ -105,18 +83,20 @@ FormatText fixed_text(const FixedScale& scale) {
                                scale.sample_bits + (scale.half_scale ? 2 : 1), scale.coefficient_bits + 1);
     const int shift = scale.coefficient_bits - scale.table_exponent;
     text.helpers = {
-        {"start",
-         helper("int64_t", "start", "@sample@ newest", "    return (int64_t)newest * " + power(shift) + ";\n")},
-        {"multiply_add", helper("int64_t", "multiply_add", "int64_t sum, @coefficient@ a, @sample@ x",
-                                "    return sum + (int64_t)a * x;\n")},
-        {"nest",
-         helper("int64_t", "nest", "@sample@ x, @coefficient@ c, int64_t inner",
-                fmt::format("    /* 64 by 32 bits in two products; the upper one is a whole number of units. */\n"
-                            "    const int64_t upper = (int64_t)(int32_t)(inner >> 32) * c;\n"
-                            "    const int64_t lower = (int64_t)(uint32_t)inner * c;\n"
-                            "    return x + upper * {} + ((lower + {}) >> {});\n",
-                            power(32 - shift), power(shift - 1), shift))},
-        {"finish", helper("int32_t", "finish", "@name@_instance *S, int64_t sum", finish(scale.output_shift))},
+        {"start", helper("int64_t", "start", "@sample@ sample", shared("start fixed", shifted(shift)))},
+        {"multiply_add",
+         helper("int64_t", "multiply_add", "int64_t sum, @coefficient@ a, @sample@ x", shared("multiply_add fixed"))},
+        {"horner_step", helper("int64_t", "horner_step", "@sample@ x, @coefficient@ c, int64_t inner",
+                               shared("horner step fixed", shifted(shift)))},
+        {"together", helper("@sample@", "together", "@sample@ one, @sample@ other", shared("together fixed"))},
+        {"saturate", "typedef struct {\n    int32_t value;\n    int saturated;\n} @name@_rounded;\n" +
+                         helper("@name@_rounded", "saturate", "int64_t value", shared("saturate", rounding))},
+        {"round_shift", helper("@name@_rounded", "round_shift", "int64_t sum, int shift",
+                               shared("round shift") + "    return @name@_saturate(value);\n")},
+        {"finish",
+         helper("int32_t", "finish", "@name@_instance *S, int64_t sum",
+                fmt::format("    const @name@_rounded rounded = @name@_round_shift(sum, {});\n", scale.output_shift) +
+                    shared("finish fixed", rounding))},
     };
     text.scaling = fmt::format(
         "Input: fractions of {0} bits, x = integer / 2^{0}, so {5}. Coefficients: fractions of {1} bits of\n"

@@ -180,13 +180,6 @@ const char* const guard_fixed = R"(
 #endif
 )";
 
-const char* const keep_fixed = R"(#if defined(__GNUC__)
-#define @NAME@_KEEP(value) __asm__("" : "+r"(value))
-#else
-#define @NAME@_KEEP(value) ((void)(value))
-#endif
-)";
-
 // Before a loop in software double. In one that is unrolled each turn would call the addition from a place of its own,
 // and a core without a return stack guesses that it returns to the place before: a tenth more cycles.
 const char* const not_unrolled =
@@ -242,16 +235,21 @@ const char* const dsp = R"(
     return (int32_t)((uint32_t)(uint16_t)pair[0] | ((uint32_t)(uint16_t)pair[1] << 16));
 #endif
 }
-@NAME@_HELPER @wide@ @name@_@word@(uint32_t a, int32_t x, @wide@ sum)
+@NAME@_HELPER @wide@ @name@_@word@(int32_t a, int32_t b, @wide@ sum)
 {
 #if defined(__ARM_FEATURE_DSP) && defined(__ARM_FEATURE_SIMD32)
-    return __@word@((int16x2_t)a, (int16x2_t)x, sum);
+    return __@word@((int16x2_t)a, (int16x2_t)b, sum);
 #else
-    const int32_t low = (int16_t)(uint16_t)a * (int16_t)(uint16_t)x;
-    const int32_t high = (int16_t)(uint16_t)(a >> 16) * (x >> 16);
-    return sum + low + high;
-#endif
+@two_products@#endif
 }
+)";
+
+const char* const written_out = R"(
+#if defined(__GNUC__) && !defined(__clang__) && __GNUC__ >= 8
+#define @NAME@_UNROLLED _Pragma("GCC unroll @turns@")
+#else
+#define @NAME@_UNROLLED
+#endif
 )";
 
 const char* const self_check = R"(
@@ -314,9 +312,9 @@ std::string constants(const Spec& spec, const KernelData& data) {
             "#define @NAME@_IN_WINDOW ({}) /* a_0 + ... + a_(L-1) */\n#define @NAME@_MINUS_ORDER ({}) /* -v */\n",
             real_literal(data.inputs.type, data.in_window), real_literal(data.inputs.type, data.minus_order));
     }
-    if (data.running_weight) {
-        text += fmt::format("#define @NAME@_RUNNING_WEIGHT {} /* of the running sum */\n",
-                            real_literal(data.inputs.type, *data.running_weight));
+    if (data.integrator_weight) {
+        text += fmt::format("#define @NAME@_INTEGRATOR_WEIGHT {} /* of the integrator */\n",
+                            real_literal(data.inputs.type, *data.integrator_weight));
     }
     if (data.decaying > 0) {
         text += fmt::format("#define @NAME@_MODES {}U              /* decaying averages of what lies behind these */\n",
@@ -345,17 +343,16 @@ std::string constants(const Spec& spec, const KernelData& data) {
 std::string step_body(const KernelData& data, std::size_t past) {
     const HistoryText& history = data.history_text;
     if (past == 0 && data.guesses) {
-        return "    @accumulator@ sum = @name@_start(newest);\n" + history.behind +
-               "    return @name@_finish(S, sum);\n";
+        return shared("plain") + history.behind + "    return @name@_finish(S, sum);\n";
     }
     if (past == 0) {
-        return history.before + "    return @name@_finish(S, " + (data.nested ? "newest" : "@name@_start(newest)") +
-               ");\n";
+        return history.before + "    return @name@_finish(S, " +
+               (data.horner_form ? "newest" : "@name@_start(newest)") + ");\n";
     }
     const TechniqueText& technique = data.technique_text;
     const std::string push = technique.pushes ? "" : history.push;
-    // In software nothing runs meanwhile; but a nested sum that ends in products would end apart where the head is 0.
-    const bool waits = (data.accumulator != "double" || data.nested) && history.behind.empty();
+    // In software nothing runs meanwhile; but a Horner form that ends in products would end apart where the head is 0.
+    const bool waits = (data.accumulator != "double" || data.horner_form) && history.behind.empty();
     const std::string body = history.before + technique.sum +
                              (waits ? push + technique.closing : technique.closing + history.behind + push) +
                              "    return @name@_finish(S, sum);\n";
@@ -524,12 +521,13 @@ std::string make_header(const Spec& spec) {
                   {"coefficient", data.pairs ? "uint32_t" : data.table.type},
                   {"accumulator", data.accumulator},
                   {"output", data.output},
-                  {"moved", data.fixed ? "int32_t" : data.inputs.type},
                   {"includes", data.technique_text.fused ? "#include <math.h>\n" : ""},
                   {"fp_bit", wide_sum ? "8" : "4"},
                   {"fp_register", wide_sum ? "w" : "t"},
                   {"rolled", wide_sum ? fill(not_unrolled, {{"NAME", upper(name)}}) : ""},
+                  {"turns", wide_sum ? "1" : "16"},  // in software a call from each turn costs more than the loop
                   {"word", smlad ? "smlad" : "smlald"},
+                  {"two_products", shared("two products")},
                   {"wide", smlad ? "int32_t" : "int64_t"},
                   {"bits", wide_bits ? "uint64_t" : "uint32_t"},
                   {"steps", std::to_string(steps)},
@@ -551,7 +549,6 @@ std::string make_header(const Spec& spec) {
 
     std::string text = fill(fixed ? guard_fixed : guard_floating, places);
     const bool uses = past > 0;
-    text += uses && fixed && body.find("_KEEP(") != std::string::npos ? fill(keep_fixed, places) : "";
     text += uses && wide_sum ? fill(soft_double, places) : "";
     text += uses && body.find("_KEEP_WORD(") != std::string::npos ? fill(keep_word, places) : "";
     if (uses && !(data.table.reals.empty() && data.table.integers.empty())) {
@@ -560,9 +557,11 @@ std::string make_header(const Spec& spec) {
                       data.pairs ? words(data.table.integers) : literals(data.table));
     }
     text += fill(instance, places);
+    const std::string helpers = helpers_of(data, body);
+    text += (helpers + body).find("_UNROLLED") != std::string::npos ? fill(written_out, places) : "";
     text += uses && data.pairs ? fill(dsp, places) : "";
     text += uses ? fill(m7_loop_of(data.technique_text.m7), places) : "";
-    text += fill(helpers_of(data, body), places);
+    text += fill(helpers, places);
     text += fill(step, places) + fill(self_check, places);
     places["design"] = fmt::format("{}, {}, v = {}{}", spec.kernel, length_of(spec).text(), spec.order,
                                    (spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "") +

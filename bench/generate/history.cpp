@@ -8,10 +8,6 @@ const char* const clear = R"(    for (i = 0; i < @NAME@_SAMPLES; ++i) {
         S->past[i] = 0;
     }
 )";
-const char* const next_head = R"(    head = (head == 0U ? @NAME@_PAST : head) - 1U;
-    @NAME@_KEEP_WORD(head);
-)";
-
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
     for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
         text.replace(at, what.size(), with);
@@ -20,8 +16,14 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 const Words in_window = {{"T", "@sample@"}};
-const Words in_push = {
-    {"samples", "S->past"}, {"past", "@NAME@_PAST"}, {"T", "@sample@"}, {"next_head", "@name@_next_head"}};
+Words in_push(const std::string& past) {
+    return {{"samples", "S->past"}, {"past", past}, {"T", "@sample@"}, {"next_head", "@name@_next_head"}};
+}
+
+const Words in_integrator = {{"state.total", "S->total[0]"},
+                             {"state.lost", "S->total[1]"},
+                             {"state.weight", "@NAME@_INTEGRATOR_WEIGHT"},
+                             {"leaving", "added"}};
 
 }  // namespace
 
@@ -30,7 +32,7 @@ HistoryText history_text(glsum::Shift) {
             .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ... */\n",
             .reset = clear,
             .window = shared("shift window", in_window),
-            .push = shared("shift push", in_push)};
+            .push = shared("shift push", in_push("@NAME@_PAST"))};
 }
 
 HistoryText history_text(glsum::Ring) {
@@ -41,7 +43,7 @@ HistoryText history_text(glsum::Ring) {
             .reset = std::string("    S->head = 0U;\n") + clear,
             .window = shared("ring window", in_window),
             .two_pieces = true,
-            .push = shared("ring push", in_push) + "    S->head = head;\n"};
+            .push = shared("ring push", in_push("@NAME@_PAST")) + "    S->head = head;\n"};
 }
 
 HistoryText history_text(glsum::Mirror) {
@@ -51,7 +53,7 @@ HistoryText history_text(glsum::Mirror) {
                 "    @sample@ past[@NAME@_SAMPLES]; /* twice the same */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
             .window = shared("mirror window", in_window),
-            .push = shared("mirror push", in_push) + "    S->head = head;\n"};
+            .push = shared("mirror push", in_push("@NAME@_PAST")) + "    S->head = head;\n"};
 }
 
 HistoryText history_text(glsum::Modes) {
@@ -86,7 +88,7 @@ HistoryText history_text(glsum::Nested) {
                 "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
                 "    @sample@ past[@NAME@_SAMPLES]; /* behind the samples the sums of 2, of 4, ...: one ring */\n",
             .reset = std::string("    S->head = 0U;\n") + clear,
-            .push = replaced(next_head, "_PAST", "_SAMPLES") + "    S->head = head;\n    S->past[head] = newest;\n"};
+            .push = shared("ring push", in_push("@NAME@_SAMPLES")) + "    S->head = head;\n"};
 }
 
 // kernels/glsum/wrap/delta.hpp.
@@ -98,33 +100,25 @@ HistoryText increments_text(const HistoryText& kept, bool fixed) {
         "one sum a sample, of the order v - 1 over the increments;";
     text.fields = "    @sample@ before; /* x_(k-1) */\n" + replaced(kept.fields, "x_(k", "d_(k");
     text.reset = kept.reset + "    S->before = 0;\n";
-    text.before = fixed ? R"(    int64_t increment = (int64_t)newest - S->before;
-    S->before = newest;
-    if (increment > INT32_MAX || increment < INT32_MIN) {
-        increment = increment < 0 ? INT32_MIN : INT32_MAX;
-        ++S->saturations;
-    }
-    newest = (int32_t)increment;
-)"
-                        : R"(    const @sample@ increment = newest - S->before;
-    S->before = newest;
-    newest = increment;
-)";
+    const Words words = {
+        {"Rounded", "@name@_rounded"}, {"saturate(", "@name@_saturate("}, {"state.scale.", "S->"}, {"state.", "S->"}};
+    text.before = shared("increment") + shared(fixed ? "increment fixed" : "increment floating", words) +
+                  shared("increment kept", words) + "    newest = increment;\n";
     return text;
 }
 
-// kernels/glsum/exponentials/integral.hpp.
-HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples) {
+// kernels/glsum/exponentials/integrator.hpp.
+std::string integrator_closing() { return shared("integrator closing", in_integrator); }
+
+HistoryText integrator_text(const HistoryText& modes, std::size_t near_samples) {
     HistoryText text = modes;
-    text.summary = "the newest samples as they are, all older ones as decaying averages and a running sum";
+    text.summary = "the newest samples as they are, all older ones as decaying averages and an integrator";
     text.fields =
         "    @sample@ total[2]; /* x of all samples behind the near ones; what its additions lost */\n" + modes.fields;
     text.reset = modes.reset + "    S->total[0] = 0;\n    S->total[1] = 0;\n";
     text.before = std::string("    const @sample@ added = ") +
-                  (near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest") +
-                  ";\n    const @sample@ total = S->total[0];\n    const @sample@ lost = S->total[1];\n"
-                  "    const @sample@ grown = total + added;\n    const @sample@ part = grown - total;\n";
-    text.before += "    S->total[0] = grown;\n    S->total[1] = lost + ((total - (grown - part)) + (added - part));\n";
+                  (near_samples > 0 ? "S->past[@NAME@_PAST - 1U]" : "newest") + ";\n" +
+                  shared("integrator", in_integrator);
     return text;
 }
 
@@ -149,23 +143,23 @@ HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_firs
         window.fields;
     text.reset = window.reset + "    S->count = 0U;\n    S->tail[0] = 0;\n    S->tail[1] = 0;\n" +
                  (to_first ? "    S->mean[0] = 0;\n    S->mean[1] = 0;\n    S->first = 0;\n" : "");
-    text.behind =
-        std::string("    {\n        const uint32_t k = S->count;\n        if (k > @NAME@_PAST) {\n") +
-        "            const @sample@ oldest = " + (past > 0 ? "S->past[head + @NAME@_PAST - 1U]" : "newest") + ";\n" +
-        (to_first ? "            @sample@ mean;\n" : "") +
-        "            if (k != UINT32_MAX) {\n                S->count = k + 1U;\n" +
-        (to_first ? "                @name@_carry(S->mean, (S->tail[0] - S->mean[0]) / (@sample@)(k - @NAME@_PAST));\n"
-                  : "") +
-        "                @name@_carry(S->tail, @name@_product(@NAME@_IN_WINDOW + S->tail[0], @NAME@_MINUS_ORDER) / "
-        "(@sample@)k);\n            }\n" +
-        (to_first ? "            mean = S->mean[0];\n"
-                    "            sum = @name@_multiply_add(sum, mean, oldest);\n"
-                    "            sum = @name@_multiply_add(sum, S->tail[0] - mean, S->first);\n        } else {\n"
-                    "            S->count = k + 1U;\n        }\n"
-                    "        if (k == 0U) {\n            S->first = newest;\n        }\n"
-                  : "            sum = @name@_multiply_add(sum, S->tail[0], oldest);\n        } else {\n"
-                    "            S->count = k + 1U;\n        }\n") +
-        "    }\n";
+    Words words = {{"state.line.mean.add(", "@name@_carry(S->mean, "},
+                   {"state.line.mean.value", "S->mean[0]"},
+                   {"state.line.first", "S->first"},
+                   {"state.tail.add(", "@name@_carry(S->tail, "},
+                   {"state.tail.value", "S->tail[0]"},
+                   {"state.in_window", "@NAME@_IN_WINDOW"},
+                   {"state.minus_order", "@NAME@_MINUS_ORDER"},
+                   {"state.count", "S->count"},
+                   {"last_count", "UINT32_MAX"},
+                   {"bool", "int"},
+                   {"past", "@NAME@_PAST"}};
+    if (past == 0) {
+        words["past == 0 ? newest : newer[past - 1]"] = "newest";
+    }
+    text.behind = shared("guess", words) + (to_first ? shared("guess mean", words, 8) : "") +
+                  shared("guess weight", words, 8) + shared(to_first ? "guess line" : "guess hold", words, 8) +
+                  "    }\n" + (to_first ? shared("guess first", words) : "") + shared("guess count", words);
     return text;
 }
 

@@ -31,27 +31,31 @@ constexpr bool one_of = (std::is_same_v<T, Ts> || ...);
 template <class Technique>
 constexpr bool is_paired = one_of<Technique, glsum::Smlald, glsum::Smlad, glsum::SmlaldShaped>;
 
+// Whether its texts are found by its word.
+template <class Technique>
+constexpr bool is_worded = requires {
+    Technique::summary;
+};
+
 template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integral, glsum::Nested, glsum::Block,
+    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integrator, glsum::Nested, glsum::Block,
            glsum::MirrorDelta, glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
-    (is_paired<T> ||
-     one_of<T, glsum::Plain, glsum::PlainFma, glsum::Oldest, glsum::OldestFma, glsum::Multi, glsum::MultiFma,
-            glsum::Compensated, glsum::Horner, glsum::HornerFma, glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir,
-            glsum::FirFma, glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15,
-                                                   glsum::Q15C31>;
+    (is_worded<T> || is_paired<T> ||
+     one_of<T, glsum::Multi, glsum::MultiFma, glsum::Horner, glsum::HornerFma, glsum::HornerSplit,
+            glsum::HornerSplitFma, glsum::Fir, glsum::FirFma,
+            glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15, glsum::Q15C31>;
 
 template <class Technique, class Format>
 TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
     using namespace glsum;
     constexpr bool f32 = std::is_same_v<Format, F32>;
     constexpr bool in_software = std::is_same_v<typename Format::Accumulator, double>;
-    if constexpr (one_of<Technique, Plain, PlainFma>) {
-        return plain_text(history, std::is_same_v<Technique, PlainFma>, std::is_same_v<Format, Q15C31>);
-    } else if constexpr (one_of<Technique, Oldest, OldestFma>) {
-        return oldest_text(history, std::is_same_v<Technique, OldestFma>);
+    if constexpr (is_worded<Technique>) {
+        return worded_text(Technique::word, Technique::summary, history, Technique::word.ends_with("fma"),
+                           std::is_same_v<Format, Q15C31>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {
         constexpr bool fused = std::is_same_v<Technique, MultiFma>;
         return multi_text(history, past, fused, in_software,
@@ -64,8 +68,6 @@ TechniqueText text_of(const HistoryText& history, std::size_t past, const std::v
         return horner_split_text(history, past, std::is_same_v<Technique, HornerSplitFma>);
     } else if constexpr (one_of<Technique, Fir, FirFma>) {
         return fir_text(std::is_same_v<Technique, FirFma>, !f32);
-    } else if constexpr (std::is_same_v<Technique, Compensated>) {
-        return compensated_text(history);
     } else if constexpr (std::is_same_v<Technique, Scaled>) {
         return scaled_text(past, shifts);
     } else {
@@ -77,7 +79,7 @@ template <class History>
 HistoryText text_of_history(History history, std::size_t, bool) {
     return history_text(history);
 }
-HistoryText text_of_history(glsum::Integral, std::size_t, bool) { return history_text(glsum::Modes{}); }
+HistoryText text_of_history(glsum::Integrator, std::size_t, bool) { return history_text(glsum::Modes{}); }
 template <class Kept>
 HistoryText text_of_history(glsum::Delta<Kept>, std::size_t, bool fixed) {
     return increments_text(history_text(Kept{}), fixed);
@@ -152,7 +154,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
     KernelData data;
     data.fixed = Format::fixed_point;
     data.pairs = is_paired<Technique>;
-    data.nested = one_of<Technique, glsum::Horner, glsum::HornerFma>;
+    data.horner_form = one_of<Technique, glsum::Horner, glsum::HornerFma>;
     data.format = Format::word;
     data.accumulator = c_type<typename Format::Accumulator>();
     data.output = c_type<Output>();
@@ -176,7 +178,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
         data.history_text.behind_start = "#if defined(__arm__)\n    @NAME@_KEEP_WORD(sum);\n#endif\n";
     }
     if constexpr (has_modes) {
-        if (glsum::keeps_running_sum<typename K::HistoryPart> && data.modes > 0) {
+        if (glsum::has_integrator<typename K::HistoryPart> && data.modes > 0) {
             --data.decaying;
         }
         data.technique_text = modes_text(data.past, data.decaying, std::is_same_v<Technique, glsum::Compensated>,
@@ -187,12 +189,11 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
                                 : largest * glsum::design::error_of(
                                                 glsum::design::weights_to(increments ? order - 1.0 : order, horizon),
                                                 data.past + 1, {design.modes.begin(), design.modes.end()}, INFINITY);
-        if constexpr (glsum::keeps_running_sum<typename K::HistoryPart>) {
+        if constexpr (glsum::has_integrator<typename K::HistoryPart>) {
             if (data.modes > 0) {
-                data.running_weight = static_cast<double>(state.weight);
-                data.history_text = running_sum_text(data.history_text, data.past);
-                data.technique_text.closing =
-                    "    sum = @name@_multiply_add(sum, @NAME@_RUNNING_WEIGHT, total + lost);\n";
+                data.integrator_weight = static_cast<double>(state.weight);
+                data.history_text = integrator_text(data.history_text, data.past);
+                data.technique_text.closing = integrator_closing();
             }
         }
     } else if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Block>) {
@@ -221,7 +222,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
                           std::all_of(table.begin(), table.end(), [](auto a) { return std::isnormal(a); }));
     }
     data.error_bound = glsum::error_bound<K>(design, state, 1.0, horizon);
-    data.bound_grows = data.guesses || glsum::keeps_running_sum<typename K::HistoryPart>;
+    data.bound_grows = data.guesses || glsum::has_integrator<typename K::HistoryPart>;
     std::vector<Sample> inputs;
     for (const double real : reals) {
         inputs.push_back(K::from_real(real));

@@ -21,17 +21,17 @@ struct Numbers {
 
 struct KernelData {
     bool fixed = false;
-    bool pairs = false;   ///< a table of words of two coefficients
-    bool nested = false;  ///< sums have the units of samples, not of products
-    std::string format;   ///< its word
+    bool pairs = false;        ///< a table of words of two coefficients
+    bool horner_form = false;  ///< sums have the units of samples, not of products
+    std::string format;        ///< its word
     std::string accumulator;
     std::string output;
     std::size_t past = 0;  ///< samples that a sum reads
     std::size_t samples_held = 0;
     std::size_t modes = 0;
-    std::size_t decaying = 0;                   ///< of these
-    std::optional<double> running_weight = {};  ///< of the one that does not: a running sum
-    bool has_blocks = false;                    ///< whether the kernel keeps them, if only none
+    std::size_t decaying = 0;                      ///< of these
+    std::optional<double> integrator_weight = {};  ///< of the one that does not: the integrator
+    bool has_blocks = false;                       ///< whether the kernel keeps them, if only none
     glsum::Blocks blocks = {};
     double design_error = 0.0;  ///< with modes or blocks: against full memory over the horizon, for |x| <= 1
     std::optional<std::size_t> groups = {};  ///< of samples, in a window summed for several outputs at once

@@ -1,5 +1,5 @@
-// The C text of a kernel's three words, mirroring kernels/glsum: each history, technique and format is written once,
-// and a header is their combination. Places (text.hpp): @name@ and @NAME@ begin every identifier, @sample@,
+// The C text of a kernel's three words: which of the kernels' own statements (shared.hpp) a header of them holds.
+// Places (text.hpp): @name@ and @NAME@ begin every identifier, @sample@,
 // @coefficient@,
 // @accumulator@ and @output@ are the format's types.
 #pragma once
@@ -70,14 +70,16 @@ struct FormatText {
 [[nodiscard]] HistoryText history_text(glsum::Nested);
 /// Increments, kept as `kept` keeps samples.
 [[nodiscard]] HistoryText increments_text(const HistoryText& kept, bool fixed);
-/// Modes and a running sum. \param near_samples  K - 1
-[[nodiscard]] HistoryText running_sum_text(const HistoryText& modes, std::size_t near_samples);
+/// Modes and an integrator. \param near_samples  K - 1
+[[nodiscard]] HistoryText integrator_text(const HistoryText& modes, std::size_t near_samples);
+/// What stands behind its sum.
+[[nodiscard]] std::string integrator_closing();
 /// A window of `past` samples and a guess of what it dropped; with `to_first` on the line to the first sample.
 [[nodiscard]] HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first);
 
-/// \param mixed  samples of half a word, coefficients of a whole one
-[[nodiscard]] TechniqueText plain_text(const HistoryText& history, bool fused, bool mixed);
-[[nodiscard]] TechniqueText oldest_text(const HistoryText& history, bool fused);
+/// Of a technique whose texts bear its word. \param mixed  samples of half a word, coefficients of a whole one
+[[nodiscard]] TechniqueText worded_text(std::string_view word, std::string_view summary, const HistoryText& history,
+                                        bool fused, bool mixed);
 /// \param in_software  sums in double, which takes calls on some targets \param m7  the loop that gives the same bits;
 /// empty: none
 [[nodiscard]] TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, bool in_software,
@@ -85,7 +87,6 @@ struct FormatText {
 [[nodiscard]] TechniqueText horner_text(const HistoryText& history, bool fused, bool in_software);
 [[nodiscard]] TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused);
 [[nodiscard]] TechniqueText fir_text(bool fused, bool fixed);
-[[nodiscard]] TechniqueText compensated_text(const HistoryText& history);
 [[nodiscard]] TechniqueText paired_text(bool wide);
 /// \param table  as `prepare` filled it: `past` coefficients, then the octaves' shifts
 [[nodiscard]] TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts);

@@ -65,13 +65,17 @@ std::string in_c99(std::string_view text, const Words& words) {
 
 }  // namespace
 
-std::string shared(std::string_view name, const Words& words, std::size_t indent) {
+std::size_t place_of(std::string_view name) {
     const std::string mark = "// C99: " + std::string(name) + "\n";
     const std::size_t marked = kernel_sources.find(mark);
-    if (marked == std::string_view::npos) {
+    return marked == std::string_view::npos ? marked : marked + mark.size();
+}
+
+std::string shared(std::string_view name, const Words& words, std::size_t indent) {
+    const std::size_t begin = place_of(name);
+    if (begin == std::string_view::npos) {
         throw std::out_of_range("no kernel has the text " + std::string(name));
     }
-    const std::size_t begin = marked + mark.size();
     const std::size_t end = kernel_sources.rfind('\n', kernel_sources.find("// C99", begin));
     std::string_view text = kernel_sources.substr(begin, end + 1 - begin);
     const std::size_t margin = text.find_first_not_of(' ');

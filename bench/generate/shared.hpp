@@ -18,6 +18,9 @@ using Words = std::map<std::string, std::string, std::greater<>>;
 /// that no kernel has.
 [[nodiscard]] std::string shared(std::string_view name, const Words& words = {}, std::size_t indent = 4);
 
+/// Where a text of this name stands in `kernel_sources`; npos if none does.
+[[nodiscard]] std::size_t place_of(std::string_view name);
+
 /// The files that have such a text, one behind the other; the build makes it of them.
 extern const std::string_view kernel_sources;
 

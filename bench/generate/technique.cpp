@@ -23,7 +23,9 @@ std::string window_of(const HistoryText& history, const Hidden& hidden = {}) {
 
 Words of(bool fused) { return {{"accumulate<Format, fused>", accumulate(fused)}}; }
 
-Words nest(bool fused) { return {{"Format::template nest<fused>", fused ? "@name@_fused_nest" : "@name@_nest"}}; }
+Words horner_words(bool fused) {
+    return {{"Format::template horner_step<fused>", fused ? "@name@_fused_horner_step" : "@name@_horner_step"}};
+}
 
 // Texts of the kernel's that end with "newer" and "older", in the order in which it has them.
 std::string pieces(const HistoryText& history, const std::string& name, const Words& words, bool oldest_first = false) {
@@ -44,21 +46,20 @@ std::string unrolled(int turns) {
 
 }  // namespace
 
-TechniqueText plain_text(const HistoryText& history, bool fused, bool mixed) {
-    // Of a known length GCC 12 counts the turns over an older piece, and unrolls four loads of half a word into more
-    // instructions than their loop has.
-    return {.summary = "newest first, one accumulator" + rounded_once(fused),
-            .sum = window_of(history, history.two_pieces || mixed ? Hidden{"past"} : Hidden{}) +
-                   shared("plain", of(fused)) + history.behind_start + pieces(history, "plain", of(fused)),
-            .fused = fused};
-}
-
-TechniqueText oldest_text(const HistoryText& history, bool fused) {
-    // Where the samples are known to lie GCC 12 makes up addresses of their own for the ends of both pieces.
-    return {.summary = "oldest first, one accumulator" + rounded_once(fused),
-            .sum = window_of(history, history.two_pieces ? Hidden{"samples"} : Hidden{}) + shared("oldest") +
-                   pieces(history, "oldest", of(fused), true),
-            .closing = shared("oldest closing"),
+// Of a known length GCC 12 counts the turns over an older piece, and unrolls four loads of half a word into more
+// instructions than their loop has. Oldest first it makes up addresses for the ends of both pieces where the samples
+// are known to lie.
+TechniqueText worded_text(std::string_view word, std::string_view summary, const HistoryText& history, bool fused,
+                          bool mixed) {
+    const std::string name(fused ? word.substr(0, word.rfind("fma")) : word);
+    Words words = of(fused);
+    words["add("] = "@name@_add(&sum, &lost, ";
+    const bool oldest_first = place_of(name + " older") < place_of(name + " newer");
+    const Hidden hidden = history.two_pieces || mixed ? Hidden{oldest_first ? "samples" : "past"} : Hidden{};
+    return {.summary = std::string(summary) + rounded_once(fused),
+            .sum = window_of(history, hidden) + shared(name, words) + history.behind_start +
+                   pieces(history, name, words, oldest_first),
+            .closing = place_of(name + " closing") != std::string_view::npos ? shared(name + " closing", words) : "",
             .fused = fused};
 }
 
@@ -93,30 +94,23 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
             .m7 = on_m7 ? m7 : ""};
 }
 
-TechniqueText compensated_text(const HistoryText& history) {
-    return {.summary = "newest first, with the sum of what the additions lost",
-            .sum = window_of(history, history.two_pieces ? Hidden{"past"} : Hidden{}) + shared("compensated") +
-                   pieces(history, "compensated", {{"add(", "@name@_add(&sum, &lost, "}}),
-            .closing = shared("compensated closing")};
-}
-
 TechniqueText horner_text(const HistoryText& history, bool fused, bool in_software) {
-    return {.summary = "nested, oldest first, with the factors (j-1-v)/j" + rounded_once(fused),
+    return {.summary = "Horner form, oldest first, with the factors (j-1-v)/j" + rounded_once(fused),
             .sum = window_of(history, in_software ? Hidden{} : Hidden{"samples"}) + shared("horner") +
-                   pieces(history, "horner", nest(fused), true),
-            .closing = shared("horner closing", nest(fused)),
+                   pieces(history, "horner", horner_words(fused), true),
+            .closing = shared("horner closing", horner_words(fused)),
             .fused = fused};
 }
 
 TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bool fused) {
     const bool on_m7 = past >= 40 && !fused;
-    Words words = nest(fused);
+    Words words = horner_words(fused);
     words.insert({{"samples", "newer"}, {"past", "newer_count"}, {"chains", "4U"}, {"dsp::", "@name@_"}});
     for (const std::string chain : {"0", "1", "2", "3"}) {
         words["table[" + chain + "] * t" + chain] = "@name@_product(table[" + chain + "], t" + chain + ")";
     }
     const std::string loop = shared("hornersplit loop", words);
-    return {.summary = "nested in four chains, each of every fourth sample" + rounded_once(fused),
+    return {.summary = "Horner form in four chains, each of every fourth sample" + rounded_once(fused),
             .sum = window_of(history) + shared("hornersplit", words) +
                    (on_m7 ? or_on_m7(shared("hornersplit floats", words) +
                                          "    t0 = t[0];\n    t1 = t[1];\n    t2 = t[2];\n    t3 = t[3];\n",
@@ -124,57 +118,38 @@ TechniqueText horner_split_text(const HistoryText& history, std::size_t past, bo
                           : loop),
             .closing = shared("hornersplit closing", words),
             .fused = fused,
-            .m7 = on_m7 ? "nest_floats" : ""};
+            .m7 = on_m7 ? "horner_floats" : ""};
 }
 
-// In what order GCC 12 loads and stores decides what a tap takes on a Cortex-M7. In floating point the coefficient is
-// loaded before the store. In fixed point the count is hidden, or the loop would end on the table's address and not on
-// the samples': in Q15 six cycles a tap and not five.
 TechniqueText fir_text(bool fused, bool fixed) {
-    const std::string open = "    @moved@ moving = newest;\n";
-    const std::string product = accumulate(fused);
-    std::string loop;
-    if (fixed) {
-        loop = "    size_t past = @NAME@_PAST;\n" + open +
-               "    @NAME@_KEEP(past);\n"
-               "    for (i = 0; i < past; ++i) {\n"
-               "        const @moved@ kept = S->past[i];\n"
-               "        sum = " +
-               product +
-               "(sum, @name@_table[i], (@sample@)kept);\n"
-               "        S->past[i] = (@sample@)moving;\n";
-    } else {
-        loop = open +
-               "    for (i = 0; i < @NAME@_PAST; ++i) {\n"
-               "        @moved@ kept = S->past[i];\n"
-               "        const @coefficient@ a = @name@_table[i];\n"
-               "        @NAME@_KEEP(moving);\n"
-               "        S->past[i] = moving;\n"
-               "        sum = " +
-               product + "(sum, a, kept);\n";
-    }
+    // In fixed point the count is hidden, or GCC 12 would end the loop on the table's address and not on the samples'.
+    Words words = of(fused);
+    words.insert({{"samples", "S->past"}, {"table", "@name@_table"}});
     return {.summary = "newest first, storing each sample one place on in the same pass" + rounded_once(fused),
-            .sum = "    @accumulator@ sum = @name@_start(newest);\n" + loop + "        moving = kept;\n    }\n",
+            .sum = std::string("    size_t past = @NAME@_PAST;\n") + (fixed ? "    @NAME@_KEEP_WORD(past);\n" : "") +
+                   shared("fir", words),
             .pushes = true,
             .fused = fused};
 }
 
 TechniqueText paired_text(bool wide) {
-    const std::string word = wide ? "smlald" : "smlad";
-    const std::string loop = "    for (i = 0; i < words; ++i) {\n        sum = @name@_" + word +
-                             "(a[i], @name@_load_pair(x + 2U * i), sum);\n    }\n";
+    const Words words = {{"Sum", "@wide@"},
+                         {"window.first_index", "head"},
+                         {"window.newer", "(S->past + head)"},
+                         {"table", "@name@_table"},
+                         {"past", "@NAME@_PAST"},
+                         {"middle * 2 * aligned_words(past)", "middle * @NAME@_ALIGNED"},
+                         {"multiply_add(", "@name@_@word@("},
+                         {"dsp::load_pair(coefficients + 2 * i)", "(int32_t)coefficients[i]"},
+                         {"dsp::", "@name@_"}};
+    const std::string loop = shared("paired words", words);
     return {.summary = std::string("two products an instruction, into ") + (wide ? "64" : "32") + " bits",
             .sum =
                 "    /* Words are read from even samples: a window that begins in the middle of a word has a table of "
-                "its own. */\n"
-                "    const size_t middle = head & 1U; /* every other time, so no branch */\n"
-                "    const @coefficient@ *a = @name@_table + middle * @NAME@_ALIGNED;\n"
-                "    const @sample@ *x = S->past + (head - middle);\n"
-                "    const size_t words = @NAME@_ALIGNED + middle * (@NAME@_SHIFTED - @NAME@_ALIGNED);\n" +
-                std::string(wide ? "    int64_t sum = @name@_start(newest);\n"
-                                 : "    int32_t sum = (int32_t)@name@_start(newest);\n") +
-                (wide ? or_on_m7("    (void)i;\n    sum = @name@_dot_smlald_onto(sum, a, x, words);\n"
-                                 "    head = S->head; /* again, for want of registers */\n",
+                "its own. */\n" +
+                shared("paired", words) +
+                (wide ? or_on_m7(shared("paired on a Cortex-M7", words) +
+                                     "    head = S->head; /* again, for want of registers */\n",
                                  loop)
                       : loop),
             .pairs = true,
@@ -182,20 +157,16 @@ TechniqueText paired_text(bool wide) {
 }
 
 TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts) {
-    std::string text = "    const @sample@ *x = S->past + head;\n    @accumulator@ sum = @name@_start(newest);\n";
+    std::string text = "    size_t i = 0;\n" + shared("plain");
     int before = 0;
     for (std::size_t octave = 0; octave < shifts.size(); ++octave) {
-        const std::size_t from = (std::size_t{1} << octave) - 1;
-        const std::size_t to = std::min((std::size_t{2} << octave) - 1, past);
-        if (shifts[octave] != before) {
-            text += fmt::format("    sum *= (int64_t)1 << {};\n", shifts[octave] - before);
-        }
+        const std::size_t end = std::min((std::size_t{2} << octave) - 1, past);
+        const Words words = {{"shift - before", std::to_string(shifts[octave] - before)},
+                             {"end", fmt::format("{}U", end)},
+                             {"table", "@name@_table"},
+                             {"window.newer", "(S->past + head)"}};
+        text += (shifts[octave] != before ? shared("scaled up", words) : "") + shared("scaled octave", words);
         before = shifts[octave];
-        text += to - from == 1 ? fmt::format("    sum = @name@_multiply_add(sum, @name@_table[{0}], x[{0}]);\n", from)
-                               : fmt::format(
-                                     "    for (i = {}U; i < {}U; ++i) {{\n"
-                                     "        sum = @name@_multiply_add(sum, @name@_table[i], x[i]);\n    }}\n",
-                                     from, to);
     }
     return {.summary = "newest first, the table in octaves, each scaled up by its own power of two", .sum = text};
 }
@@ -208,7 +179,7 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
                          {"compensated", compensated ? "1" : "0"},
                          {"coefficients_of_mode", fixed ? "3" : "2"},
                          {"words_of_mode", compensated ? "2" : "1"}};
-    std::string text = "    @accumulator@ sum = @name@_start(newest);\n";
+    std::string text = shared("plain");
     if (near_samples > 0) {
         text += shared("plain newer", {{"table", "@name@_table"},
                                        {"newer", "S->past"},
@@ -254,57 +225,43 @@ TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compe
                                         shared("mode kept", words))}}};
 }
 
-// kernels/glsum/logmemory/nested.hpp. In fixed point GCC 12 must not know that `past` lies behind other members: it
-// would add their size in every turn. In software double it must not know how many turns there are.
+// In fixed point GCC 12 must not know that `past` lies behind other members: it would add their size in every turn. In
+// software double it must not know how many turns there are.
 TechniqueText nested_text(std::size_t near_samples, const glsum::Blocks& blocks, bool fixed, bool in_software) {
-    std::string text = "    @accumulator@ sum = @name@_start(newest);\n";
-    if (near_samples > 0) {
-        text +=
-            "    {\n        const size_t newer = @NAME@_SAMPLES - head < @NAME@_PAST ? @NAME@_SAMPLES - head : "
-            "@NAME@_PAST;\n"
-            "        const @coefficient@ *a = @name@_table;\n"
-            "        const @sample@ *x = S->past + head;\n"
-            "@rolled@        for (i = newer; i > 0U; --i) {\n"
-            "            sum = @name@_multiply_add(sum, *a++, *x++);\n        }\n"
-            "        x = S->past;\n"
-            "@rolled@        for (i = @NAME@_PAST - newer; i > 0U; --i) {\n"
-            "            sum = @name@_multiply_add(sum, *a++, *x++);\n        }\n    }\n";
-    }
-    const std::string size = in_software ? "size" : "@NAME@_SAMPLES";
-    const auto on = [&](const std::string& by, int indent) {
-        return fmt::format("{0:{1}}at += {2};\n{0:{1}}at = at >= {3} ? at - {3} : at;\n", "", indent, by, size);
+    const Words words = {{"state.head", "head"},
+                         {"near_samples", "@NAME@_PAST"},
+                         {"per_level", "@NAME@_PER_LEVEL"},
+                         {"std::uint32_t", "size_t"},
+                         {"std::min", "@name@_min"},
+                         {"std::min<std::size_t>", "@name@_min"},
+                         {"around(", "@name@_around("},
+                         {"together<Format>", "@name@_together"},
+                         {"accumulate<Format, fused>", accumulate(false)},
+                         {"window.", ""}};
+    Words in_window = words;
+    in_window["size"] = "@NAME@_SAMPLES";
+    in_window["near_samples"] = "near_samples";
+    const auto kept = [](bool needed, const std::string& word) {
+        return needed ? "    @NAME@_KEEP_WORD(" + word + ");\n" : "";
     };
+    std::string text = "    @sample@ *past = S->past;\n" + kept(fixed, "past") +
+                       (near_samples > 0 ? "    const @coefficient@ *table = @name@_table;\n" : "");
+    text += near_samples > 0 ? "    size_t near_samples = @NAME@_PAST;\n" + kept(!fixed, "near_samples") : "";
+    text += (near_samples > 0 ? shared("nested window", in_window) : "") + shared("plain", words) +
+            (near_samples > 0 ? shared("plain newer", words) + shared("plain older", words) : "");
     if (blocks.count > 0) {
-        const std::string others =
-            blocks.per_level == 1
-                ? ""
-                : (in_software ? "@rolled@" : unrolled(8)) +
-                      "            for (i = (left < @NAME@_PER_LEVEL ? left : @NAME@_PER_LEVEL) - 1U; i > 0U; --i) "
-                      "{\n" +
-                      on("width", 16) +
-                      "                sum = @name@_multiply_add(sum, *weight++, past[at]);\n            }\n";
-        const std::string hidden = in_software ? "        size_t size = @NAME@_SAMPLES;\n        "
-                                                 "@NAME@_KEEP_WORD(size);\n        @NAME@_KEEP_WORD(left);\n"
-                                               : "";
         text +=
             "    {\n        const @coefficient@ *weight = @name@_table + @NAME@_PAST;\n"
-            "        size_t at = head;\n        size_t width = 1U;\n"
-            "        size_t left = @NAME@_BLOCKS;\n        @sample@ *past = S->past;\n" +
-            std::string(fixed ? "        @NAME@_KEEP_WORD(past);\n" : "") + hidden +
-            (near_samples > 0 ? on("@NAME@_PAST", 8) : "") +
-            "        for (;;) {\n            const @sample@ younger = past[at];\n"
-            "            @sample@ block;\n" +
-            on("width", 12) + "            block = past[at];\n" +
-            (fixed ? "            block = (younger | block) - ((younger ^ block) >> 1);\n"
-                   : "            block = younger + block;\n") +
-            "            past[at] = block;\n"
-            "            sum = @name@_multiply_add(sum, *weight++, block);\n            width *= 2U;\n" +
-            others +
-            "            if (left <= @NAME@_PER_LEVEL) {\n                break;\n            }\n"
-            "            left -= @NAME@_PER_LEVEL;\n" +
-            on("width", 12) + "        }\n    }\n";
+            "        size_t size = @NAME@_SAMPLES;\n" +
+            kept(in_software, "size") + "        size_t left = @NAME@_BLOCKS;\n" + kept(in_software, "left") +
+            shared("nested", words, 8) + (blocks.per_level > 1 ? shared("nested others", words, 12) : "") +
+            shared("nested on", words, 12) + "    }\n";
     }
-    return {.summary = "newest first, one accumulator; the taps, then the blocks", .sum = text};
+    return {
+        .summary = "newest first, one accumulator; the taps, then the blocks",
+        .sum = text,
+        .helpers = {{"min", helper("size_t", "min", "size_t a, size_t b", "    return b < a ? b : a;\n")},
+                    {"around", helper("size_t", "around", "size_t at, size_t far, size_t size", shared("around"))}}};
 }
 
 }  // namespace generate

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "glsum/error_bound.hpp"
-#include "glsum/exponentials/integral_bound.hpp"
+#include "glsum/exponentials/integrator_bound.hpp"
 #include "glsum/exponentials/modes_bound.hpp"
 #include "glsum/logmemory/nested_bound.hpp"
 #include "glsum/window/window_bound.hpp"

@@ -8,5 +8,7 @@
 #define GLSUM_KEEP(product)
 /// A number of one word that is not to be known: neither where it comes from nor what it is.
 #define GLSUM_KEEP_WORD(word)
+/// Before a loop of a few turns: in a header each is written out, at whatever optimisation.
+#define GLSUM_UNROLLED
 /// Before a loop: in software double no turn is to be written twice.
 #define GLSUM_ROLLED

@@ -61,8 +61,8 @@ template <Kernel K>
         entry.floating_point = !K::FormatPart::fixed_point;
         entry.exact_sums = K::FormatPart::fixed_point;
         entry.takes_order = K::order_in_range;
-        entry.integrator = keeps_running_sum<History>;
-        entry.family = keeps_modes<History> || keeps_running_sum<History>                     ? Family::exponentials
+        entry.integrator = has_integrator<History>;
+        entry.family = keeps_modes<History> || has_integrator<History>                        ? Family::exponentials
                        : keeps_blocks<History>                                                ? Family::logmemory
                        : std::is_same_v<History, Block> || std::is_same_v<History, HostBlock> ? Family::lookahead
                                                                                               : Family::window;

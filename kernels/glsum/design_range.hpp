@@ -16,15 +16,15 @@ template <class Technique, class Format>
     if (design.weights.empty()) {
         return true;
     }
-    // How far nested sums of any weights reach is not known beforehand, as it is for those of an order.
-    if (design.weights.size() < count || (Technique::nests && Format::fixed_point)) {
+    // How far Horner forms of any weights reach is not known beforehand, as it is for those of an order.
+    if (design.weights.size() < count || (Technique::horner_form && Format::fixed_point)) {
         return false;
     }
     Weights weights(design);
     for (std::size_t j = 1; j <= count; ++j) {
         weights.next();
         constexpr double largest = std::numeric_limits<double>::max();
-        if (!is_magnitude_at_most(Technique::nests ? weights.factor() : weights.weight(), largest)) {
+        if (!is_magnitude_at_most(Technique::horner_form ? weights.factor() : weights.weight(), largest)) {
             return false;
         }
     }

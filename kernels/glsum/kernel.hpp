@@ -16,7 +16,7 @@ namespace glsum {
 /// weight (1 - decay)^(j-K).
 struct Mode {
     /// d = 1 - r in (0, 1], in floating point below 2: beyond 1 its weights change their sign from lag to lag. r itself
-    /// would lose the slow modes in single precision. 0: a running sum
+    /// would lose the slow modes in single precision. 0: an integrator
     double decay;
     double weight;  ///< w
 };
@@ -41,7 +41,7 @@ struct Design {
     std::span<const Mode> modes = {};
     /// In place of the order's own weights, any others: a_1, a_2, ... as many as the taps before the modes need. So one
     /// kernel sums the merged table of a model of several orders, or weights of another discretisation. Empty: those of
-    /// the order. The nested forms refuse a weight behind a zero. They are copied.
+    /// the order. The Horner forms refuse a weight behind a zero. They are copied.
     std::span<const double> weights = {};
     /// For a kernel whose history is `nested`: the blocks behind the first K = L - M taps, K >= 1. Named weights must
     /// then be there for every lag that the blocks reach. Without any it ends where a window of L taps does. Others do
@@ -58,7 +58,7 @@ enum class Status {
     past_too_small,        ///< fewer samples than `past_count(taps)`
     format_too_narrow,     ///< the coefficients of this order and length do not fit the format with any scale
     modes_out_of_range,    ///< no tap is left beside the modes, or one that does not decay or is not a number
-    weights_out_of_range,  ///< fewer weights than taps, one that is not a number, or one that the technique cannot nest
+    weights_out_of_range,  ///< fewer weights than taps, one that is not a number, or one that has no Horner form
     blocks_out_of_range,   ///< no tap is left beside the blocks, a level has none, or they reach beyond 2^28 samples
 };
 

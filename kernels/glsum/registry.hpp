@@ -1,7 +1,7 @@
 // The registry as types. See registry.def for the list itself.
 #pragma once
 
-#include "glsum/exponentials/integral_sum.hpp"
+#include "glsum/exponentials/integrator_sum.hpp"
 #include "glsum/exponentials/modes_sum.hpp"
 #include "glsum/format/fixed.hpp"
 #include "glsum/format/floating.hpp"

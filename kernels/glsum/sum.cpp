@@ -3,7 +3,7 @@
 #include "glsum/registry.hpp"
 
 // Behind the types of the registry: what compilers make of the bodies depends on it.
-#include "glsum/exponentials/integral_body.hpp"
+#include "glsum/exponentials/integrator_body.hpp"
 #include "glsum/exponentials/modes_body.hpp"
 #include "glsum/logmemory/nested_body.hpp"
 #include "glsum/lookahead/block_body.hpp"

@@ -28,20 +28,20 @@
  * Measured cost a sample of the kernel that this is made from: 1227.6 model cycles, at most 1289.2, for stm32f746-itcm
  *
  * Command: glsum generate --order 0.5 --kernel ring_plain_f32 --taps 200 --quick --prefix half --out targets/example/half_derivative.h
- * glsum 0.1.0, commit 7c68522ab636a1f5de72ecc4a35841c965061413 with changes
+ * glsum 0.1.0, commit d83c3914e575af7f58c891dbc255bac078608a57 with changes
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
  * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -falign-functions=8 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
  *
  * Licence: the terms of glsum itself.
  */
-#if defined(HALF_F32_H) && !defined(HALF_F32_IS_FBF1373D57B055E8)
+#if defined(HALF_F32_H) && !defined(HALF_F32_IS_37CB5CCD9331D4D3)
 #define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"
 #error "half_f32: another design of this prefix was included before (see the two DESIGN); make one with another --prefix"
 #endif
 #ifndef HALF_F32_H
 #define HALF_F32_H
-#define HALF_F32_IS_FBF1373D57B055E8
+#define HALF_F32_IS_37CB5CCD9331D4D3
 #define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"
 
 #include <stddef.h>
@@ -154,11 +154,16 @@ HALF_F32_HELPER float half_f32_start(float newest)
     return newest;
 }
 
+HALF_F32_HELPER float half_f32_product(float a, float b)
+{
+    float rounded = a * b;
+    HALF_F32_KEEP(rounded);
+    return rounded;
+}
+
 HALF_F32_HELPER float half_f32_multiply(float a, float x)
 {
-    float product = (float)a * (float)x;
-    HALF_F32_KEEP(product);
-    return product;
+    return half_f32_product((float)(a), (float)(x));
 }
 
 HALF_F32_HELPER float half_f32_multiply_add(float sum, float a, float x)

@@ -102,7 +102,7 @@ TEST(Pitfalls, WeightsByTheGammaFunctionEndAt170) {
 }
 
 // The product of (x_i + c_(n-i)) has the look of the Horner form and is another number.
-TEST(Pitfalls, TheProductOfFactorsIsNotTheNestedSum) {
+TEST(Pitfalls, TheProductOfFactorsIsNotTheHornerForm) {
     const std::vector<double> x{0.5, -0.25, 0.75, 0.125, -0.5};
     const double v = 0.5;
     double product = 1.0;

@@ -74,6 +74,19 @@ TEST(Shared, LengthsAreConstantsWhereThatDoesNotCost) {
     EXPECT_THAT(header("ring_horner_f64"), Not(HasSubstr("_KEEP_WORD(samples)")));
 }
 
+// In software a call from each turn would cost more than the loop.
+TEST(Shared, LoopsOfAFewTurnsAreWrittenOut) {
+    const auto header = [](const char* kernel) {
+        return generate::make_header(
+            {.kernel = kernel, .order = 0.5, .taps = 50, .step_s = {}, .prefix = "my", .provenance = {}});
+    };
+    for (const char* kernel : {"block_oldestfma_f32", "block_plain_q31", "nested_plain_f32"}) {
+        EXPECT_THAT(header(kernel), HasSubstr("_UNROLLED _Pragma(\"GCC unroll 16\")")) << kernel;
+    }
+    EXPECT_THAT(header("nested_plain_f64"), HasSubstr("_UNROLLED _Pragma(\"GCC unroll 1\")"));
+    EXPECT_THAT(header("ring_plain_f32"), Not(HasSubstr("_UNROLLED")));
+}
+
 // A sum is a loop of the kernel's, whatever is called in it.
 TEST(Shared, CallsAreTheHeaders) {
     const auto step = [](const char* kernel) {
@@ -81,12 +94,19 @@ TEST(Shared, CallsAreTheHeaders) {
             {.kernel = kernel, .order = 0.5, .taps = 20, .step_s = {}, .prefix = "my", .provenance = {}});
         return text.substr(text.find("my_step_"));
     };
-    EXPECT_THAT(step("ring_horner_f32"), HasSubstr("my_f32_nest(older[i - 1], table[newer_count + i], sum);"));
-    EXPECT_THAT(step("ring_hornerfma_f32"), HasSubstr("my_f32_fused_nest(newer[i - 1], table[i], sum);"));
+    EXPECT_THAT(step("ring_horner_f32"), HasSubstr("my_f32_horner_step(older[i - 1], table[newer_count + i], sum);"));
+    EXPECT_THAT(step("ring_hornerfma_f32"), HasSubstr("my_f32_fused_horner_step(newer[i - 1], table[i], sum);"));
     EXPECT_THAT(step("ring_compensated_f32"),
                 HasSubstr("my_f32_add(&sum, &lost, my_f32_multiply(table[i], older[i]));"));
     EXPECT_THAT(step("mirror_hornersplit_f32"), HasSubstr("my_f32_product(table[3], t3)"));
     EXPECT_THAT(step("ring_multi_f32"), HasSubstr("s2 = my_f32_multiply_add(s2, table[i + 2], older[i + 2]);"));
+    EXPECT_THAT(step("nested_plain_f32"), HasSubstr("const float block = my_f32_together(younger, past[at]);"));
+    EXPECT_THAT(step("block_plain_q31"), HasSubstr("my_q31_add_share(S->coming + q, first + q, samples, count);"));
+    EXPECT_THAT(step("mirrordelta_plain_q31"), HasSubstr("my_q31_saturate((int64_t)(newest) - S->before);"));
+    EXPECT_THAT(step("mirrorlinear_plain_f32"),
+                HasSubstr("my_f32_carry(S->mean, from_mean / (float)(k - MY_F32_PAST));"));
+    EXPECT_THAT(step("mirror_scaled_q15"), HasSubstr("sum = sum * ((int64_t)(1) << (1));"));
+    EXPECT_THAT(step("shift_fir_q15"), HasSubstr("S->past[i] = moving;"));
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ struct AnyKernel {
     std::string_view name;
     std::string_view technique;
     reference::Dropped dropped;  ///< what its history takes for what leaves the window
-    bool of_window;  ///< its family
+    bool of_window;              ///< its family
     bool fixed_point;
     double smallest_sample;  ///< above 0
     bool (*order_in_range)(double order);
@@ -56,7 +56,7 @@ struct AnyKernel {
     [[nodiscard]] bool guesses() const {
         return dropped == reference::Dropped::held || dropped == reference::Dropped::line;
     }
-    /// Nested from the oldest sample: no weight may follow a zero.
+    /// In Horner form, from the oldest sample: no weight may follow a zero.
     [[nodiscard]] bool horner() const { return technique.starts_with("horner"); }
     /// The exact sums of what a design stands for.
     [[nodiscard]] reference::Sums exact_sums(const glsum::Design& design, std::span<const double> record) const {

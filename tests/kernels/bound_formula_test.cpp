@@ -201,7 +201,7 @@ TEST(BoundFormula, OfARunningSum) {
         absolute += std::fabs(with_sum[m].weight / with_sum[m].decay);
     }
     const double n = 3000.0;
-    expect_first_order(bound_of<Sum<Integral, Plain, F32>>(design, 0.75, 3000),
+    expect_first_order(bound_of<Sum<Integrator, Plain, F32>>(design, 0.75, 3000),
                        bound_of<Sum<Modes, Plain, F32>>(inner, 0.75) + u * 0.75 * absolute +
                            0.03 * n * 0.75 * (5.0 * u + n * u * n * u));
 }
@@ -296,7 +296,7 @@ TEST(Roundings, AreThoseOfTheOrderOfTheSum) {
         EXPECT_EQ(Oldest::sum_roundings<F32>(j, taps), j == 0 ? 1 : j + 2) << j;
         // Four chains in turn, then two additions of the four and what is left over, then x_k.
         EXPECT_EQ(Multi::sum_roundings<F32>(j, taps), j == 0 ? 1 : 1 + 22 / 4 + 2 + 3) << j;
-        // Nested: a product and an addition at each step, from its own to the newest.
+        // Horner form: a product and an addition at each step, from its own to the newest.
         EXPECT_EQ(Horner::sum_roundings<F32>(j, taps), 2 * j + 1) << j;
         EXPECT_EQ(HornerFma::sum_roundings<F32>(j, taps), j + 1) << j;
         EXPECT_EQ(HornerSplit::sum_roundings<F32>(j, taps), 2 * (j / 4 + 1) + 4) << j;
@@ -316,9 +316,9 @@ TEST(Roundings, AreThoseOfTheOrderOfTheSum) {
     EXPECT_EQ(Simd::sum_roundings<F32>(7, 601), 1U + 600U / (Simd::accumulators * Simd::block<F32>)+tree + 1U);
 }
 
-// Nested in fixed point: each factor errs by half a unit of the table, the product of the first j stands for a_j; each
-// step loses half a unit of 2^-31, which a_j carries to the output.
-TEST(BoundFormula, OfANestedWindowInFixedPoint) {
+// The Horner form in fixed point: each factor errs by half a unit of the table, the product of the first j stands for
+// a_j; each step loses half a unit of 2^-31, which a_j carries to the output.
+TEST(BoundFormula, OfAHornerFormInFixedPoint) {
     constexpr std::size_t taps = 12;
     const Design design{0.5, taps};
     bench::HostLine<Sum<Ring, Horner, Q31>> line(design);
@@ -353,7 +353,7 @@ TEST(BoundFormula, OfSilenceAreDenormals) {
     EXPECT_NEAR((bound_of<Sum<MirrorDelta, Plain, F32>>({1.0, 10}, 0.0)), (10.0 + 1.0) * least, 1e-3 * least);
     // A running sum that has lost as much at each of its samples.
     const std::vector<Mode> with_sum = {{0.0, 0.5}};
-    EXPECT_NEAR((bound_of<Sum<Integral, Plain, F32>>({-0.5, 6, with_sum}, 0.0, 1000)), (4.0 + 0.5 * 1000.0) * least,
+    EXPECT_NEAR((bound_of<Sum<Integrator, Plain, F32>>({-0.5, 6, with_sum}, 0.0, 1000)), (4.0 + 0.5 * 1000.0) * least,
                 1e-3 * least);
 }
 

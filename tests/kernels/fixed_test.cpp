@@ -40,13 +40,13 @@ public:
           sample_bits_(sample_bits),
           output_exponent_(output_exponent),
           fraction_(coefficient_bits - table_exponent) {
-        nested_ = technique == "horner";
+        horner_ = technique == "horner";
         const auto weights = reference::weights(Real(design.order), taps_);
         const Real unit = pow(Real(2), fraction_);
         Real lost = 0;
         for (std::size_t j = 1; j < taps_; ++j) {
             const Real factor = 1 - (1 + Real(design.order)) / Real(j);
-            const Real wanted = (nested_ ? factor : weights[j]) * unit + (technique == "smlaldshaped" ? lost : Real(0));
+            const Real wanted = (horner_ ? factor : weights[j]) * unit + (technique == "smlaldshaped" ? lost : Real(0));
             Integer rounded = round_half_away(wanted);
             const Integer highest = (Integer(1) << coefficient_bits_) - 1;
             rounded = rounded > highest ? highest : rounded;
@@ -62,7 +62,7 @@ public:
         past_.insert(past_.begin(), newest);
         const std::size_t held = std::min(taps_, past_.size());
         Integer sum = 0;
-        if (nested_) {
+        if (horner_) {
             for (std::size_t j = taps_ - 1; j > 0; --j) {
                 const Integer inner = (j < held ? past_[j] : Integer(0)) + sum;
                 sum = shift_rounded(table_[j - 1] * inner, fraction_);
@@ -74,7 +74,7 @@ public:
                 sum += table_[j - 1] * past_[j];
             }
         }
-        const int sum_bits = sample_bits_ + (nested_ ? 0 : fraction_);
+        const int sum_bits = sample_bits_ + (horner_ ? 0 : fraction_);
         const Integer rounded = shift_rounded(sum, sum_bits - 31 + output_exponent_);
         const Integer limit = Integer(1) << 31;
         if (rounded >= limit || rounded < -limit) {
@@ -111,7 +111,7 @@ private:
     int sample_bits_;
     int output_exponent_;
     int fraction_;
-    bool nested_ = false;
+    bool horner_ = false;
     std::vector<Integer> table_;
     std::vector<Integer> past_;
     unsigned saturations_ = 0;

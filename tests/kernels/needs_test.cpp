@@ -80,17 +80,17 @@ TEST(Needs, OfModesAreTwoCoefficientsAndAState) {
     expect_needs<Sum<ModesDelta, Plain, F32>>(design, {3 + 6, 3 + 3, 9});
     expect_needs<Sum<Modes, Plain, F32>>({0.5, 10}, {9, 9, 9});
     // Of a running sum the weight lies in the state, and its pole needs no product.
-    expect_needs<Sum<Integral, Plain, F32>>(design, {3 + 4, 3 + 2, 8});
-    expect_needs<Sum<Integral, Compensated, F32>>(design, {3 + 4, 3 + 4, 8});
-    expect_needs<Sum<Integral, Plain, F32>>({-0.5, 10}, {9, 9, 8});
-    EXPECT_EQ((Sum<Integral, Plain, F32>::multiplications(1)), 0U);
-    EXPECT_EQ((Sum<Integral, Plain, F32>::multiplications(2)), 1U);
-    EXPECT_EQ((Sum<Integral, Plain, F32>::multiplications(3)), 1U);
+    expect_needs<Sum<Integrator, Plain, F32>>(design, {3 + 4, 3 + 2, 8});
+    expect_needs<Sum<Integrator, Compensated, F32>>(design, {3 + 4, 3 + 4, 8});
+    expect_needs<Sum<Integrator, Plain, F32>>({-0.5, 10}, {9, 9, 8});
+    EXPECT_EQ((Sum<Integrator, Plain, F32>::multiplications(1)), 0U);
+    EXPECT_EQ((Sum<Integrator, Plain, F32>::multiplications(2)), 1U);
+    EXPECT_EQ((Sum<Integrator, Plain, F32>::multiplications(3)), 1U);
     // What serves any design of a length: the most modes that it could have.
     EXPECT_EQ((Sum<Modes, Plain, Q31>::table_count(10)), 9U + 4U);
     EXPECT_EQ((Sum<Modes, Plain, F32>::table_count(10)), 9U);
     EXPECT_EQ((Sum<Modes, Plain, F32>::past_count(10)), 9U);
-    EXPECT_EQ((Sum<Integral, Plain, F32>::table_count(10)), 9U);
+    EXPECT_EQ((Sum<Integrator, Plain, F32>::table_count(10)), 9U);
 }
 
 TEST(Needs, OfBlocksAreWhatTheyReach) {
@@ -260,10 +260,10 @@ TEST(Fixed, ScalesAtTheEdgesOfItsFormat) {
     EXPECT_EQ(status_of(0x1p31 - 1.0), Status::ok);
     EXPECT_EQ(status_of(0x1p31), Status::format_too_narrow);
     EXPECT_EQ(status_of(-0x1p31 - 1.0), Status::format_too_narrow);
-    // Nested sums reach the square of the length: to 40 000.
-    using Nest = Sum<Ring, Horner, Q31>;
-    EXPECT_EQ(bench::HostLine<Nest>({0.5, 40'000}).status(), Status::ok);
-    EXPECT_EQ(bench::HostLine<Nest>({0.5, 40'001}).status(), Status::format_too_narrow);
+    // Horner forms reach the square of the length: to 40 000.
+    using Horners = Sum<Ring, Horner, Q31>;
+    EXPECT_EQ(bench::HostLine<Horners>({0.5, 40'000}).status(), Status::ok);
+    EXPECT_EQ(bench::HostLine<Horners>({0.5, 40'001}).status(), Status::format_too_narrow);
 }
 
 TEST(Fixed, RoundsToIntegersAwayFromZero) {

@@ -78,7 +78,7 @@ if build -DGLSUM_CODE=itcm; then
     between "$(value "$elf" link_itcm_source)" $flash $flash_end "ITCM's content"
     [ $((0x$(value "$elf" link_itcm_end))) -gt 4096 ] || fail "expected all kernels in ITCM"
     # With what they call: a loop that stayed in flash would be measured as if it had not.
-    for part in dot_smlal dot_smlald dot_floats nest_floats; do
+    for part in dot_smlal dot_smlald dot_floats horner_floats; do
         between "$(arm-none-eabi-nm "$elf" | sed -n "s/^\([0-9a-f]*\) . _ZN5glsum3dspL[0-9]*${part}E.*/\1/p")" 0 0x4000 "$part in ITCM"
     done
 fi

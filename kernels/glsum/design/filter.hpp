@@ -12,7 +12,7 @@ namespace glsum::design {
 /// D_k = sum_{j<K} b_j x_(k-j) + sum_m w_m sum_{j>=K} (1-d_m)^(j-K) x_(k-j), the factor w_0 h^-v of a sum included.
 struct Filter {
     std::vector<double> taps;  ///< b_0 ... b_(K-1), K >= 1
-    std::vector<Mode> modes;   ///< decays in [0, 1]; 0: a running sum
+    std::vector<Mode> modes;   ///< decays in [0, 1]; 0: an integrator
 };
 
 /// What a kernel applies its taps and modes to.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "glsum/design/filter.hpp"
-#include "glsum/exponentials/integral_sum.hpp"
+#include "glsum/exponentials/integrator_sum.hpp"
 #include "glsum/exponentials/modes_sum.hpp"
 
 namespace glsum::design {
@@ -35,9 +35,9 @@ template <class Technique, class Format>
     return filter;
 }
 
-/// The same with a running sum as its slowest mode.
+/// The same with an integrator as its slowest mode.
 template <class Technique, class Format>
-[[nodiscard]] Filter held_with_integrator(const typename Sum<Integral, Technique, Format>::State& state) {
+[[nodiscard]] Filter held_with_integrator(const typename Sum<Integrator, Technique, Format>::State& state) {
     Filter filter = held<Technique, Format>(state);
     if (state.weight != 0) {
         filter.modes.insert(filter.modes.begin(), Mode{0.0, static_cast<double>(state.weight)});

@@ -4,14 +4,14 @@
 // bits; a_0 = 1, which no fraction holds, is added apart and is exact. Sum: exact, in 64 bits (32 for smlad); products
 // are not shortened. s is the smallest scale at which neither a coefficient nor the sum can overflow, whatever the
 // samples; that follows from sum |a_j|, not from the length: in 64 bits s = 0 for 0 < v <= 1, 1 for 1 < v <= 2, and
-// growing with the length only for v < 0. The nested form rounds at each step. Output: 32 bits with e integer bits, S_k
+// growing with the length only for v < 0. The Horner form rounds at each step. Output: 32 bits with e integer bits, S_k
 // = output 2^(e-31), rounded to nearest, halves up. e is the smallest number of integer bits that holds sum |a_j| (1
 // for 0 < v <= 1, 2 for 1 < v <= 2). q15 kernels give 32 bits too: the sum has them, and the factor h^-v, still to
 // come, would magnify what 16 bits drop. Overflow: none in the sum; the output saturates, and counts it in
 // `Scale::saturations`. With this e only a sum within half a unit of 2^e can reach it. Error: |S - exact| <= what the
 // technique's coefficients and steps lose (its `fixed_error`; (L-1) 2^(s-m-1) peak for a table that is rounded to
 // nearest) + 2^-(n+1) sum|a_j| (input) + 2^(e-32) (output). No rounding depends on the order of summation, so every
-// technique but the nested form gives the same bits from the same table.
+// technique but the Horner form gives the same bits from the same table.
 #pragma once
 
 #include <algorithm>
@@ -38,15 +38,26 @@ template <class Integer>
     return rounded >= highest ? std::numeric_limits<Integer>::max() : static_cast<Integer>(rounded);
 }
 
-/// sum 2^-shift to nearest, halves up, saturated to 32 bits; a negative shift multiplies.
-/// \return the output, and whether it saturated.
+/// A number of 32 bits, and whether it stands for one that these cannot hold.
 struct Rounded {
     std::int32_t value;
     bool saturated;
 };
+[[nodiscard]] constexpr Rounded saturate(std::int64_t value) {
+    // C99: saturate
+    const std::int32_t narrow = static_cast<std::int32_t>(value);
+    if (narrow != value) {
+        const Rounded limit = {value < 0 ? INT32_MIN : INT32_MAX, true};
+        return limit;
+    }
+    const Rounded held = {narrow, false};
+    return held;
+    // C99 end
+}
+
+/// sum 2^-shift to nearest, halves up, saturated to 32 bits; a negative shift multiplies.
 [[nodiscard]] constexpr Rounded round_shift(std::int64_t sum, int shift) {
-    constexpr std::int64_t lowest = std::numeric_limits<std::int32_t>::min();
-    constexpr std::int64_t highest = std::numeric_limits<std::int32_t>::max();
+    // C99: round shift
     std::int64_t value = sum;
     if (shift == 32) {
         // The common case of q31: the upper word and the bit below it.
@@ -55,14 +66,13 @@ struct Rounded {
         // Not (sum + half) >> shift: sum + half may leave the 64 bits.
         value = ((sum >> (shift - 1)) + 1) >> 1;
     } else if (shift < 0) {
-        const std::int64_t limit = highest >> -shift;
-        value = sum > limit ? highest + 1 : sum < -limit - 1 ? lowest - 1 : sum * (std::int64_t{1} << -shift);
+        const std::int64_t limit = static_cast<std::int64_t>(INT32_MAX) >> -shift;
+        value = sum > limit        ? static_cast<std::int64_t>(INT32_MAX) + 1
+                : sum < -limit - 1 ? static_cast<std::int64_t>(INT32_MIN) - 1
+                                   : sum * (static_cast<std::int64_t>(1) << -shift);
     }
-    const auto narrow = static_cast<std::int32_t>(value);
-    if (narrow != value) {
-        return {static_cast<std::int32_t>(value < 0 ? lowest : highest), true};
-    }
-    return {narrow, false};
+    // C99 end
+    return saturate(value);
 }
 
 template <class SampleInteger, class CoefficientInteger = SampleInteger>
@@ -132,9 +142,9 @@ struct Fixed {
         return Status::ok;
     }
 
-    /// The scale for a table of the factors c_j. The nested sums have 31 bits of fraction in 64: they stay below
+    /// The scale for a table of the factors c_j. The Horner forms have 31 bits of fraction in 64: they stay below
     /// taps^2 for every order, so that lengths to 40 000 cannot overflow.
-    static Status choose_nested_scale(const Design& design, Scale& scale) {
+    static Status choose_horner_scale(const Design& design, Scale& scale) {
         static_assert(sample_bits == 31 && coefficient_bits == 31);
         scale = {};
         if (design.taps > 40000) {
@@ -163,34 +173,43 @@ struct Fixed {
         if constexpr (sample_bits + coefficient_bits < 31) {  // 32 bits hold it
             return static_cast<std::int32_t>(sample) * (std::int32_t{1} << (coefficient_bits - scale.table_exponent));
         }
+        const int shift = coefficient_bits - scale.table_exponent;
+        // C99: start fixed
         // By a product of 32 bits, which -2^31 fits and 2^31 does not: a shift of 64 bits takes ten instructions.
-        const auto minus_one =
-            static_cast<std::int32_t>(0U - (std::uint32_t{1} << (coefficient_bits - scale.table_exponent)));
+        const std::int32_t minus_one = static_cast<std::int32_t>(0U - (static_cast<std::uint32_t>(1) << shift));
         return -(static_cast<std::int64_t>(sample) * minus_one);
+        // C99 end
     }
     static Accumulator zero() { return 0; }
     static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) {
+        // C99: multiply_add fixed
         return sum + static_cast<std::int64_t>(a) * x;
+        // C99 end
     }
     /// x + c inner, rounded to nearest, halves up; inner has 31 bits of fraction.
     template <bool fuse>
-    static Accumulator nest(Sample x, Coefficient c, Accumulator inner, const Scale& scale) {
+    static Accumulator horner_step(Sample x, Coefficient c, Accumulator inner, const Scale& scale) {
         static_assert(!fuse, "fixed point has no fused form");
-        // 64 by 32 bits in two products; the upper one is a whole number of units and needs no rounding.
         const int shift = coefficient_bits - scale.table_exponent;
-        const auto upper = static_cast<std::int64_t>(static_cast<std::int32_t>(inner >> 32)) * c;
-        const auto lower = static_cast<std::int64_t>(static_cast<std::uint32_t>(inner)) * c;
-        return x + upper * (std::int64_t{1} << (32 - shift)) + ((lower + (std::int64_t{1} << (shift - 1))) >> shift);
+        // C99: horner step fixed
+        // 64 by 32 bits in two products; the upper one is a whole number of units and needs no rounding.
+        const std::int64_t upper = static_cast<std::int64_t>(static_cast<std::int32_t>(inner >> 32)) * c;
+        const std::int64_t lower = static_cast<std::int64_t>(static_cast<std::uint32_t>(inner)) * c;
+        const std::int64_t half = static_cast<std::int64_t>(1) << (shift - 1);
+        return x + upper * (static_cast<std::int64_t>(1) << (32 - shift)) + ((lower + half) >> shift);
+        // C99 end
     }
     static Output finish(Accumulator sum, Scale& scale) {
         // The shift of orders in (0, 2], one comparison away.
         constexpr int usual = sample_bits + coefficient_bits - 30;
         const Rounded rounded =
             scale.output_shift == usual ? round_shift(sum, usual) : round_shift(sum, scale.output_shift);
+        // C99: finish fixed
         if (rounded.saturated) [[unlikely]] {  // else the count would be loaded and stored at each step
             ++scale.saturations;
         }
         return rounded.value;
+        // C99 end
     }
 
     static Sample from_real(double real) { return round_to_integer<Sample>(real * power_of_two(sample_bits)); }

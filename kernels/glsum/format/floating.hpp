@@ -10,6 +10,7 @@
 #include <limits>
 #include <string_view>
 
+#include "glsum/c99.hpp"
 #include "glsum/kernel.hpp"
 
 namespace glsum {
@@ -33,26 +34,46 @@ struct Floating {
     static Status choose_scale(const Design&, Scale&) {
         return Status::ok;
     }
-    static Status choose_nested_scale(const Design&, Scale&) { return Status::ok; }
+    static Status choose_horner_scale(const Design&, Scale&) { return Status::ok; }
     static Coefficient coefficient(double real, const Scale&) { return static_cast<Data>(real); }
 
     /// The accumulator that holds a_0 x_k = x_k alone.
     static Accumulator start(Sample sample, const Scale&) { return static_cast<Wide>(sample); }
     static Accumulator zero() { return Wide(0); }
-    static Accumulator product(Accumulator a, Accumulator b) { return a * b; }
-    static Accumulator multiply(Coefficient a, Sample x) { return product(a, x); }
-    static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) { return sum + multiply(a, x); }
+    static Accumulator product(Accumulator a, Accumulator b) {
+        // C99: product
+        Accumulator rounded = a * b;
+        GLSUM_KEEP(rounded);
+        return rounded;
+        // C99 end
+    }
+    static Accumulator multiply(Coefficient a, Sample x) {
+        // C99: multiply
+        return product(static_cast<Accumulator>(a), static_cast<Accumulator>(x));
+        // C99 end
+    }
+    static Accumulator multiply_add(Accumulator sum, Coefficient a, Sample x) {
+        // C99: multiply_add
+        return sum + multiply(a, x);
+        // C99 end
+    }
     /// One rounding in place of two.
     static Accumulator fused_multiply_add(Accumulator sum, Coefficient a, Sample x) {
-        return fused(static_cast<Wide>(a), static_cast<Wide>(x), sum);
+        // C99: fused_multiply_add
+        return fused(static_cast<Accumulator>(a), static_cast<Accumulator>(x), sum);
+        // C99 end
     }
-    /// x + c inner, a step of the nested form.
+    /// x + c inner, a step of the Horner form.
     template <bool fuse>
-    static Accumulator nest(Sample x, Coefficient c, Accumulator inner, const Scale&) {
+    static Accumulator horner_step(Sample x, Coefficient c, Accumulator inner, const Scale&) {
         if constexpr (fuse) {
-            return fused(static_cast<Wide>(c), inner, static_cast<Wide>(x));
+            // C99: fused horner step
+            return fused(static_cast<Accumulator>(c), inner, static_cast<Accumulator>(x));
+            // C99 end
         } else {
-            return static_cast<Wide>(x) + static_cast<Wide>(c) * inner;
+            // C99: horner step
+            return static_cast<Accumulator>(x) + product(static_cast<Accumulator>(c), inner);
+            // C99 end
         }
     }
     static Output finish(Accumulator sum, Scale&) { return static_cast<Data>(sum); }

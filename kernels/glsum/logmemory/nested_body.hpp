@@ -12,16 +12,22 @@ namespace glsum {
 template <class Format>
 typename Format::Sample together(typename Format::Sample one, typename Format::Sample other) {
     if constexpr (Format::fixed_point) {
+        // C99: together fixed
         return (one | other) - ((one ^ other) >> 1);  // (one + other) / 2, halves up, without its carry
+        // C99 end
     } else {
+        // C99: together
         return one + other;
+        // C99 end
     }
 }
 
 // By `far` words on in a ring, far <= size. Without a branch: how often it wraps must not show.
 inline std::size_t around(std::size_t at, std::size_t far, std::size_t size) {
+    // C99: around
     const std::size_t next = at + far;
     return next >= size ? next - size : next;
+    // C99 end
 }
 
 template <class Technique, class Format>
@@ -95,30 +101,41 @@ auto Sum<Nested, Technique, Format>::step(State& state, Sample newest) -> Output
     const std::size_t size = state.past_samples;
     const std::size_t near_samples = state.near_samples;
     Sample* const past = state.past;
-    const std::size_t newer = std::min<std::size_t>(near_samples, size - state.head);
-    auto sum = Plain::sum<Format>(state.table, {past + state.head, newer, past, near_samples - newer, state.head},
-                                  newest, state.scale);
+    // C99: nested window
+    const Sample* const newer = past + state.head;
+    const std::size_t newer_count = std::min<std::size_t>(near_samples, size - state.head);
+    const Sample* const older = past;
+    const std::size_t older_count = near_samples - newer_count;
+    // C99 end
+    auto sum =
+        Plain::sum<Format>(state.table, {newer, newer_count, older, older_count, state.head}, newest, state.scale);
     if (std::uint32_t left = state.blocks; left != 0) {
         const Coefficient* weight = state.table + near_samples;
         const std::uint32_t per_level = state.per_level;
+        // C99: nested
         std::size_t at = around(state.head, near_samples, size);  // x_(k-K)
-        for (std::size_t width = 1;;) {
+        std::size_t width = 1;
+        for (;;) {
             const Sample younger = past[at];
             at = around(at, width, size);
             const Sample block = together<Format>(younger, past[at]);
             past[at] = block;  // what the level below has dropped is the place of this one's newest
             sum = Format::multiply_add(sum, *weight++, block);
             width *= 2;
+            // C99: nested others
+            GLSUM_UNROLLED
             for (std::uint32_t others = std::min(left, per_level) - 1; others != 0; --others) {
                 at = around(at, width, size);
                 sum = Format::multiply_add(sum, *weight++, past[at]);
             }
+            // C99: nested on
             if (left <= per_level) {
                 break;
             }
             left -= per_level;
             at = around(at, width, size);
         }
+        // C99 end
     }
     Ring::template push<Sample>(past, size, state.head, newest);
     return Format::finish(sum, state.scale);

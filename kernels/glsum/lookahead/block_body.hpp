@@ -10,12 +10,14 @@ namespace glsum {
 // once a turn, not once a load.
 [[gnu::always_inline]] inline void load_all(float (&c)[11], float (&x)[8], float (&s)[4]) {
 #if defined(GLSUM_M7_FLOATS)
+    // C99: load all
     __asm__ volatile(""
                      : "+t"(c[0]), "+t"(c[1]), "+t"(c[2]), "+t"(c[3]), "+t"(c[4]), "+t"(c[5]), "+t"(c[6]), "+t"(c[7]),
                        "+t"(c[8]), "+t"(c[9]), "+t"(c[10]));
     __asm__ volatile(""
                      : "+t"(x[0]), "+t"(x[1]), "+t"(x[2]), "+t"(x[3]), "+t"(x[4]), "+t"(x[5]), "+t"(x[6]), "+t"(x[7]),
                        "+t"(s[0]), "+t"(s[1]), "+t"(s[2]), "+t"(s[3]));
+    // C99 end
 #else
     (void)c;
     (void)x;
@@ -86,48 +88,63 @@ void Sum<Block, Technique, Format>::add_groups(Accumulator (&s)[outputs],
                                                Coefficient (&c)[phases * groups - 1 + outputs], const Coefficient* a,
                                                const Sample* samples) {
     constexpr std::size_t count = phases * groups;
+    // C99: groups
     // Of output q and sample r: lag q - r behind that of the first.
-    for (std::size_t i = 0; i < std::size(c) - kept; ++i) {
+    GLSUM_UNROLLED
+    for (std::size_t i = 0; i < count - 1 + outputs - kept; ++i) {
         c[i] = *(a - count + i);
     }
     Sample x[count];
+    GLSUM_UNROLLED
     for (std::size_t r = 0; r < count; ++r) {
         x[r] = samples[r];
     }
+    // C99 end
     if constexpr (fused && groups == 2) {
         load_all(c, x, s);
     }
+    // C99: groups added
+    GLSUM_UNROLLED
     for (std::size_t r = 0; r < count; ++r) {
+        GLSUM_UNROLLED
         for (std::size_t q = 0; q < outputs; ++q) {
             s[q] = accumulate<Format, fused>(s[q], c[count - 1 + q - r], x[r]);
         }
     }
+    // C99 end
 }
 
 template <class Technique, class Format>
 template <std::size_t outputs>
 void Sum<Block, Technique, Format>::add_share(Accumulator* sums, const Coefficient* a, const Sample* samples,
                                               std::size_t count) {
+    // C99: share
     Accumulator s[outputs];
+    GLSUM_UNROLLED
     for (std::size_t q = 0; q < outputs; ++q) {
         s[q] = sums[q];
     }
     Coefficient c[phases - 1 + outputs];
+    // C99 end
     if constexpr (Format::fixed_point) {
+        // C99: share fixed
         // What the next group has too is kept: a move beside a product costs nothing.
-        constexpr std::size_t kept = outputs - 1;
-        for (std::size_t i = 0; i < kept; ++i) {
+        GLSUM_UNROLLED
+        for (std::size_t i = 0; i < outputs - 1; ++i) {
             c[phases + i] = a[i];
         }
         for (; count != 0; --count) {
-            add_groups<outputs, 1, kept>(s, c, a, samples);
-            for (std::size_t i = kept; i > 0; --i) {
+            add_groups<outputs, 1, outputs - 1>(s, c, a, samples);
+            GLSUM_UNROLLED
+            for (std::size_t i = outputs - 1; i > 0; --i) {
                 c[phases + i - 1] = c[i - 1];
             }
             a -= phases;
             samples += phases;
         }
+        // C99 end
     } else {
+        // C99: share floating
         // It is loaded again: a move is a floating-point operation more, a load goes beside one.
         if (count % 2 != 0) {
             add_groups<outputs, 1, 0>(s, c, a, samples);
@@ -140,10 +157,14 @@ void Sum<Block, Technique, Format>::add_share(Accumulator* sums, const Coefficie
             a -= 2 * phases;
             samples += 2 * phases;
         }
+        // C99 end
     }
+    // C99: share kept
+    GLSUM_UNROLLED
     for (std::size_t q = 0; q < outputs; ++q) {
         sums[q] = s[q];
     }
+    // C99 end
 }
 
 template <class Technique, class Format>
@@ -152,13 +173,17 @@ auto Sum<Block, Technique, Format>::sum_of(const State& state, Sample newest) ->
         return Format::start(newest, state.scale);
     }
     const std::size_t phase = state.phase;
+    // C99: block
     const Sample* const own = state.past + phases * state.own;
-    auto sum = state.ready[phase];
+    Accumulator sum = state.ready[phase];
     const Coefficient* a = state.table + phase;
     for (std::size_t i = 0; i < phase; ++i) {
         sum = accumulate<Format, fused>(sum, *--a, own[i]);
     }
-    return Format::start(newest, state.scale) + sum;
+    // C99: block closing
+    sum = Format::start(newest, state.scale) + sum;
+    // C99 end
+    return sum;
 }
 
 template <class Technique, class Format>
@@ -168,6 +193,8 @@ void Sum<Block, Technique, Format>::advance(State& state, Sample newest) {
         return;
     }
     const std::size_t phase = state.phase;
+    constexpr std::size_t outputs = Format::fixed_point ? 2 : phases;  // registers
+    // C99: block ahead
     state.past[phases * state.own + phase] = newest;
     // Its share of the groups that the next four outputs lack, the oldest first, in at most two pieces of the ring.
     std::size_t share = (groups + phase) / phases;
@@ -178,7 +205,6 @@ void Sum<Block, Technique, Format>::advance(State& state, Sample newest) {
         const std::size_t count = std::min(share, groups - from);
         const Coefficient* const first = state.table + phases * left;
         const Sample* const samples = state.past + phases * from;
-        constexpr std::size_t outputs = Format::fixed_point ? 2 : phases;  // registers
         for (std::size_t q = 0; q < phases; q += outputs) {
             add_share<outputs>(state.coming + q, first + q, samples, count);
         }
@@ -188,6 +214,7 @@ void Sum<Block, Technique, Format>::advance(State& state, Sample newest) {
     if (phase + 1 != phases) {
         state.phase = static_cast<std::uint32_t>(phase + 1);
     } else {
+        GLSUM_UNROLLED
         for (std::size_t q = 0; q < phases; ++q) {
             state.ready[q] = state.coming[q];
             state.coming[q] = Format::zero();
@@ -196,6 +223,7 @@ void Sum<Block, Technique, Format>::advance(State& state, Sample newest) {
         state.left = state.groups;
         state.own = state.own + 1 == groups ? 0 : state.own + 1;
     }
+    // C99 end
 }
 
 template <class Technique, class Format>

@@ -13,6 +13,7 @@ namespace glsum {
 
 struct Compensated : WeightTable {
     static constexpr std::string_view word = "compensated";
+    static constexpr std::string_view summary = "newest first, with the sum of what the additions lost";
 
     template <class Format>
     static typename Format::Accumulator sum(const typename Format::Coefficient* table,

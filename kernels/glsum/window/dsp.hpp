@@ -15,7 +15,7 @@
 /// And a unit for single precision, which some have not.
 #define GLSUM_M7_FLOATS
 #include "glsum/window/m7/dot_floats.h"
-#include "glsum/window/m7/nest_floats.h"
+#include "glsum/window/m7/horner_floats.h"
 #endif
 #endif
 
@@ -27,7 +27,7 @@ GLSUM_DOT_WORDS(dot_smlald, "smlald")
 #endif
 #if defined(GLSUM_M7_FLOATS)
 GLSUM_DOT_FLOATS(dot_floats)
-GLSUM_NEST_FLOATS(nest_floats)
+GLSUM_HORNER_FLOATS(horner_floats)
 #endif
 
 /// Two 16-bit numbers as one word; the lower address in the lower half (little-endian).
@@ -42,9 +42,11 @@ GLSUM_NEST_FLOATS(nest_floats)
 #if defined(__ARM_FEATURE_DSP)
     return __builtin_arm_smlald(a, b, sum);
 #else
+    // C99: two products
     const std::int32_t low = static_cast<std::int16_t>(a) * static_cast<std::int16_t>(b);
     const std::int32_t high = (a >> 16) * (b >> 16);
     return sum + low + high;
+    // C99 end
 #endif
 }
 

@@ -30,14 +30,18 @@ protected:
     [[gnu::always_inline]] static inline typename Format::Accumulator one_pass(
         const typename Format::Coefficient* table, typename Format::Sample* samples, std::size_t past,
         typename Format::Sample newest, const typename Format::Scale& scale) {
-        auto sum = Format::start(newest, scale);
-        auto moving = newest;
+        using Sample = typename Format::Sample;
+        using Accumulator = typename Format::Accumulator;
+        // C99: fir
+        Accumulator sum = Format::start(newest, scale);
+        Sample moving = newest;
         for (std::size_t i = 0; i < past; ++i) {
-            const auto sample = samples[i];
+            const Sample sample = samples[i];
             sum = accumulate<Format, fused>(sum, table[i], sample);
             samples[i] = moving;
             moving = sample;
         }
+        // C99 end
         return sum;
     }
 };

@@ -1,4 +1,4 @@
-// horner, hornerfma: the nested form, from the oldest sample to the newest, with the factors c_j = (j-1-v)/j in place
+// horner, hornerfma: the Horner form, from the oldest sample to the newest, with the factors c_j = (j-1-v)/j in place
 // of the weights:  S_k = x_k + c_1 (x_(k-1) + c_2 (x_(k-2) + ... + c_(L-1) x_(k-L+1) ... )). The same number as the sum
 // in exact arithmetic. In floating point the term of a_j passes j + 1 additions and j products, so the old, small terms
 // are summed before the large ones; each step waits for the one before it. hornerfma rounds product and addition once.
@@ -14,7 +14,7 @@ namespace glsum {
 
 struct Horner : WeightTable {
     static constexpr std::string_view word = "horner";
-    static constexpr bool nests = true;
+    static constexpr bool horner_form = true;
 
     /// c_1 ... c_past and a zero, by which the oldest sample needs no step of its own.
     template <class Format>
@@ -37,12 +37,12 @@ struct Horner : WeightTable {
     static typename Format::Accumulator sum(const typename Format::Coefficient* table,
                                             const Window<typename Format::Sample>& window,
                                             typename Format::Sample newest, const typename Format::Scale& scale) {
-        return nested<Format, false>(table, window, newest, scale);
+        return oldest_first<Format, false>(table, window, newest, scale);
     }
 
     template <class Format>
     static Status choose_scale(const Design& design, typename Format::Scale& scale) {
-        return Format::choose_nested_scale(design, scale);
+        return Format::choose_horner_scale(design, scale);
     }
 
     static constexpr std::size_t coefficient_roundings(std::size_t j) { return j; }
@@ -74,7 +74,7 @@ struct Horner : WeightTable {
 
 protected:
     template <class Format, bool fused>
-    [[gnu::always_inline]] static inline typename Format::Accumulator nested(
+    [[gnu::always_inline]] static inline typename Format::Accumulator oldest_first(
         const typename Format::Coefficient* table, const Window<typename Format::Sample>& window,
         typename Format::Sample newest, const typename Format::Scale& scale) {
         using Accumulator = typename Format::Accumulator;
@@ -83,15 +83,15 @@ protected:
         // C99: horner older
         GLSUM_ROLLED
         for (std::size_t i = window.older_count; i > 0; --i) {
-            sum = Format::template nest<fused>(window.older[i - 1], table[window.newer_count + i], sum, scale);
+            sum = Format::template horner_step<fused>(window.older[i - 1], table[window.newer_count + i], sum, scale);
         }
         // C99: horner newer
         GLSUM_ROLLED
         for (std::size_t i = window.newer_count; i > 0; --i) {
-            sum = Format::template nest<fused>(window.newer[i - 1], table[i], sum, scale);
+            sum = Format::template horner_step<fused>(window.newer[i - 1], table[i], sum, scale);
         }
         // C99: horner closing
-        sum = Format::template nest<fused>(newest, table[0], sum, scale);
+        sum = Format::template horner_step<fused>(newest, table[0], sum, scale);
         // C99 end
         return sum;
     }
@@ -105,7 +105,7 @@ struct HornerFma : Horner {
                                                                const Window<typename Format::Sample>& window,
                                                                typename Format::Sample newest,
                                                                const typename Format::Scale& scale) {
-        return nested<Format, true>(table, window, newest, scale);
+        return oldest_first<Format, true>(table, window, newest, scale);
     }
 
     template <class Format>

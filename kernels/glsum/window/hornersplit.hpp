@@ -1,7 +1,7 @@
-// hornersplit, hornersplitfma: the nested form in four independent chains, each of every fourth sample:
+// hornersplit, hornersplitfma: the Horner form in four independent chains, each of every fourth sample:
 //   t_r = x_(k-r) + C_(r+4) (x_(k-r-4) + C_(r+8) (x_(k-r-8) + ...)),  C_j = c_j c_(j-1) c_(j-2) c_(j-3),  r = 1 ... 4
 //   S_k = x_k + ((a_1 t_1 + a_2 t_2) + (a_3 t_3 + a_4 t_4))
-// Oldest first like horner, but no step waits for the one before it: the answer to the latency of the nested form.
+// Oldest first like horner, but no step waits for the one before it: the answer to the latency of the Horner form.
 // Floating point, contiguous windows. The term of a_j passes j / 4 steps. On a Cortex-M7 f32 takes the steps in the
 // order of its issue slots, with the same bits (window/m7/).
 #pragma once
@@ -19,7 +19,7 @@ namespace glsum {
 struct HornerSplit : WeightTable {
     static constexpr std::string_view word = "hornersplit";
     static constexpr bool contiguous_only = true;
-    static constexpr bool nests = true;
+    static constexpr bool horner_form = true;
 
     /// a_1 ... a_4, then C_5, C_6, ... C_(past+4): behind the four first, the factor at i + 4 belongs to sample i.
     template <class Format>
@@ -81,7 +81,7 @@ protected:
             if (past >= least) {
                 // C99: hornersplit floats
                 float t[chains] = {t0, t1, t2, t3};
-                dsp::nest_floats(t, table, samples, i / chains);
+                dsp::horner_floats(t, table, samples, i / chains);
                 // C99 end
                 return Format::start(newest, scale) +
                        ((table[0] * t[0] + table[1] * t[1]) + (table[2] * t[2] + table[3] * t[3]));
@@ -91,10 +91,10 @@ protected:
         // C99: hornersplit loop
         while (i > 0) {
             i -= chains;
-            t0 = Format::template nest<fused>(samples[i], table[i + 4], t0, scale);
-            t1 = Format::template nest<fused>(samples[i + 1], table[i + 5], t1, scale);
-            t2 = Format::template nest<fused>(samples[i + 2], table[i + 6], t2, scale);
-            t3 = Format::template nest<fused>(samples[i + 3], table[i + 7], t3, scale);
+            t0 = Format::template horner_step<fused>(samples[i], table[i + 4], t0, scale);
+            t1 = Format::template horner_step<fused>(samples[i + 1], table[i + 5], t1, scale);
+            t2 = Format::template horner_step<fused>(samples[i + 2], table[i + 6], t2, scale);
+            t3 = Format::template horner_step<fused>(samples[i + 3], table[i + 7], t3, scale);
         }
         // C99: hornersplit closing
         Accumulator sum =

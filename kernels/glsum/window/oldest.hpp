@@ -13,6 +13,7 @@ namespace glsum {
 
 struct Oldest : WeightTable {
     static constexpr std::string_view word = "oldest";
+    static constexpr std::string_view summary = "oldest first, one accumulator";
 
     template <class Format>
     static typename Format::Accumulator sum(const typename Format::Coefficient* table,

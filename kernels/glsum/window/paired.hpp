@@ -60,27 +60,37 @@ struct Paired : WeightTable {
                                             const Window<typename Format::Sample>& window,
                                             typename Format::Sample newest, const typename Format::Scale& scale) {
         static_assert(sizeof(typename Format::Sample) == 2 && sizeof(typename Format::Coefficient) == 2);
+        using Sample = typename Format::Sample;
+        using Coefficient = typename Format::Coefficient;
         const std::size_t past = window.newer_count;
+        // C99: paired
         // Whether the window begins in the middle of a word: at every other step, so no branch.
         const std::size_t middle = window.first_index & 1U;
-        const auto* coefficients = table + middle * 2 * aligned_words(past);
-        const auto* samples = window.newer - middle;
+        const Coefficient* coefficients = table + middle * 2 * aligned_words(past);
+        const Sample* samples = window.newer - middle;
         const std::size_t words = (past + 1 + middle) / 2;
-        auto sum = static_cast<Sum>(Format::start(newest, scale));
+        Sum sum = static_cast<Sum>(Format::start(newest, scale));
+        // C99 end
 #if defined(GLSUM_M7)
         if constexpr (sizeof(Sum) == 8) {
-            return dsp::dot_smlald_onto(sum, coefficients, samples, words);
+            // C99: paired on a Cortex-M7
+            sum = dsp::dot_smlald_onto(sum, coefficients, samples, words);
+            // C99 end
+            return sum;
         }
 #endif
-        for (std::size_t i = 0; i < words; ++i) {
-            const auto a = dsp::load_pair(coefficients + 2 * i);
-            const auto x = dsp::load_pair(samples + 2 * i);
+        const auto multiply_add = [](std::int32_t a, std::int32_t x, Sum before) {
             if constexpr (sizeof(Sum) == 8) {
-                sum = dsp::smlald(a, x, sum);
+                return dsp::smlald(a, x, before);
             } else {
-                sum = dsp::smlad(a, x, sum);
+                return dsp::smlad(a, x, before);
             }
+        };
+        // C99: paired words
+        for (std::size_t i = 0; i < words; ++i) {
+            sum = multiply_add(dsp::load_pair(coefficients + 2 * i), dsp::load_pair(samples + 2 * i), sum);
         }
+        // C99 end
         return sum;
     }
 

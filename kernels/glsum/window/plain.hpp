@@ -13,6 +13,7 @@ namespace glsum {
 
 struct Plain : WeightTable {
     static constexpr std::string_view word = "plain";
+    static constexpr std::string_view summary = "newest first, one accumulator";
 
     template <class Format>
     static typename Format::Accumulator sum(const typename Format::Coefficient* table,

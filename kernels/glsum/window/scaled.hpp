@@ -61,12 +61,16 @@ struct Scaled : WeightTable {
         int before = 0;
         for (std::size_t octave = 0; i < past; ++octave) {
             const int shift = table[past + octave];
-            sum = sum * (std::int64_t{1} << (shift - before));
+            // C99: scaled up
+            sum = sum * (static_cast<std::int64_t>(1) << (shift - before));
+            // C99 end
             before = shift;
             const std::size_t end = end_of(octave, past) - 1;
+            // C99: scaled octave
             for (; i < end; ++i) {
                 sum = Format::multiply_add(sum, table[i], window.newer[i]);
             }
+            // C99 end
         }
         return sum;
     }

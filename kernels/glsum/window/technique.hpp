@@ -1,9 +1,12 @@
 // The contract of a technique: how the products a_j x_(k-j), j >= 1, are summed.
 //
 //   word                              its word in kernel names
+//   summary                           how it sums, in the words of a generated header's comment; with it a header holds
+//                                     its texts "// C99: WORD", "WORD newer", "WORD older" and "WORD closing" as they
+//                                     stand there, and bench/generate need not know it
 //   host_only                         whether it needs the host's vector unit
 //   contiguous_only                   whether it needs a history that gives one contiguous piece
-//   nests                             whether its coefficients are factors, each of all that is older
+//   horner_form                       whether its coefficients are factors, each of all that is older
 //   table_count<Format>(past)         coefficients it keeps for `past` past samples
 //   held<Format>(past)                samples that the history holds for it; those beyond `past` meet zeros
 //   beside<Format>                    samples that it keeps beside the window
@@ -34,7 +37,7 @@ namespace glsum {
 struct WeightTable {
     static constexpr bool host_only = false;
     static constexpr bool contiguous_only = false;
-    static constexpr bool nests = false;
+    static constexpr bool horner_form = false;
 
     template <class Format>
     static constexpr std::size_t table_count(std::size_t past) {

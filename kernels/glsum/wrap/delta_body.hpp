@@ -30,16 +30,24 @@ void Sum<Delta<Kept>, Technique, Format>::reset(State& state) {
 // Flat: with the inner sum as a call, its cost would count as one of that kernel, too.
 template <class Kept, class Technique, class Format>
 [[gnu::flatten]] auto Sum<Delta<Kept>, Technique, Format>::step(State& state, Sample newest) -> Output {
+    // C99: increment
     Sample increment;
+    // C99 end
     if constexpr (Format::fixed_point) {
         static_assert(Format::sample_bits == 31);
-        const Rounded difference = round_shift(std::int64_t{newest} - state.before, 0);
+        // C99: increment fixed
+        const Rounded difference = saturate(static_cast<std::int64_t>(newest) - state.before);
         increment = difference.value;
         state.scale.saturations += difference.saturated ? 1U : 0U;
+        // C99 end
     } else {
+        // C99: increment floating
         increment = newest - state.before;
+        // C99 end
     }
+    // C99: increment kept
     state.before = newest;
+    // C99 end
     return Inner::step(state, increment);
 }
 

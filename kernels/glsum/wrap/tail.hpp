@@ -56,11 +56,13 @@ struct Carried {
     Number lost;
 
     void add(Number step) {
+        // C99: carried
         const Number whole = step + lost;
         const Number after = value + whole;
         const Number part = after - value;
         lost = (value - (after - part)) + (whole - part);
         value = after;
+        // C99 end
     }
 };
 

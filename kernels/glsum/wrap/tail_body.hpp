@@ -41,29 +41,45 @@ template <bool to_first, class Technique, class Format>
 auto Sum<Guess<to_first>, Technique, Format>::step(State& state, Sample newest) -> Output {
     const auto window = Mirror::template window<Sample>(state.past, state.past_samples, state.head);
     auto sum = Technique::template sum<Format>(state.table, window, newest, state.scale);
+    const std::size_t past = state.past_samples;
+    const Sample* const newer = window.newer;
+    // C99: guess
     const std::uint32_t k = state.count;
-    const bool dropped = k > state.past_samples;
+    const bool dropped = k > past;
     if (dropped && k != last_count) {
+        // C99 end
         if constexpr (to_first) {
-            Carried<Coefficient>& mean = state.line.mean;
-            mean.add((state.tail.value - mean.value) / static_cast<Coefficient>(k - state.past_samples));
+            // C99: guess mean
+            const Coefficient from_mean = state.tail.value - state.line.mean.value;
+            state.line.mean.add(from_mean / static_cast<Coefficient>(k - past));
+            // C99 end
         }
+        // C99: guess weight
         state.tail.add((state.in_window + state.tail.value) * state.minus_order / static_cast<Coefficient>(k));
     }
     if (dropped) {
-        const Sample oldest = state.past_samples == 0 ? newest : window.newer[state.past_samples - 1];
+        const Sample oldest = past == 0 ? newest : newer[past - 1];
+        // C99 end
         if constexpr (to_first) {
+            // C99: guess line
             const Coefficient mean = state.line.mean.value;
             sum = Format::multiply_add(sum, mean, oldest);
             sum = Format::multiply_add(sum, state.tail.value - mean, state.line.first);
+            // C99 end
         } else {
+            // C99: guess hold
             sum = Format::multiply_add(sum, state.tail.value, oldest);
+            // C99 end
         }
     }
     if constexpr (to_first) {
+        // C99: guess first
         state.line.first = k == 0 ? newest : state.line.first;
+        // C99 end
     }
+    // C99: guess count
     state.count = k == last_count ? k : k + 1;
+    // C99 end
     Mirror::template push<Sample>(state.past, state.past_samples, state.head, newest);
     return Format::finish(sum, state.scale);
 }

@@ -1,4 +1,5 @@
-// modessum: near taps, decaying averages and one running sum that never decays, for integrals, -1 <= v < 0:
+// modessum: near taps, decaying averages and one integrator, a running sum that never decays, for integrals, -1 <= v <
+// 0:
 //
 //   S_k = [modes: x_k + a_1 x_(k-1) + ... + g_1 s_1 + ... + g_(M-1) s_(M-1)] + w_0 r,     r = x_(k-K) + ... + x_0.
 //
@@ -12,7 +13,7 @@
 // and one more addition. Only what the loss itself loses stays behind, u^2 of the sum of all |r| of the record.
 // Range, floating point only: r grows without limit, up to the record's length times the peak, and no scale of a fixed
 // format holds what an integral comes to.
-// Error: glsum/exponentials/integral_bound.hpp, against the exact sum of the design's own taps, exponentials and
+// Error: glsum/exponentials/integrator_bound.hpp, against the exact sum of the design's own taps, exponentials and
 // running sum.
 #pragma once
 
@@ -22,18 +23,18 @@
 
 namespace glsum {
 
-struct Integral {
+struct Integrator {
     static constexpr std::string_view word = "modessum";
     static constexpr bool contiguous = true;
 };
 
 template <>
-inline constexpr bool keeps_modes<Integral> = true;
+inline constexpr bool keeps_modes<Integrator> = true;
 
-/// Whether the slowest mode of a history is a running sum.
+/// Whether the slowest mode of a history does not decay.
 template <class History>
-inline constexpr bool keeps_running_sum = false;
+inline constexpr bool has_integrator = false;
 template <>
-inline constexpr bool keeps_running_sum<Integral> = true;
+inline constexpr bool has_integrator<Integrator> = true;
 
 }  // namespace glsum

@@ -1,4 +1,4 @@
-/* Nested sums of floats in four chains, in the order of a Cortex-M7's issue slots. C99 and C++; generated headers hold this
+/* Horner forms of floats in four chains, in the order of a Cortex-M7's issue slots. C99 and C++; generated headers hold this
  * very text.
  *
  *   void name(float chains[4], const float *c, const float *x, size_t groups)
@@ -12,7 +12,7 @@
  * c[0 ... 3] too, which the last group needs no more.
  *
  * Basic assembly in a function without prologue: compilers take it to read and write any memory. */
-#define GLSUM_NEST_FLOATS(name)                                                                         \
+#define GLSUM_HORNER_FLOATS(name)                                                                         \
     __attribute__((naked, noinline, aligned(8), unused)) static void name(                              \
         float *chains __attribute__((unused)), const float *c __attribute__((unused)),                  \
         const float *x __attribute__((unused)), size_t groups __attribute__((unused)))                  \

@@ -1,19 +1,19 @@
-// Sum<Integral, Technique, Format>: near taps and modes, and a running sum (exponentials/integral.hpp).
+// Sum<Integrator, Technique, Format>: near taps and modes, and an integrator (exponentials/integrator.hpp).
 #pragma once
 
 #include <cstddef>
 #include <span>
 #include <string_view>
 
-#include "glsum/exponentials/integral.hpp"
+#include "glsum/exponentials/integrator.hpp"
 #include "glsum/exponentials/modes_sum.hpp"
 #include "glsum/sum.hpp"
 
 namespace glsum {
 
 template <class Technique, class Format>
-struct Sum<Integral, Technique, Format> : SumOf<Integral, Technique, Format> {
-    static_assert(!Format::fixed_point, "a running sum outgrows every scale");
+struct Sum<Integrator, Technique, Format> : SumOf<Integrator, Technique, Format> {
+    static_assert(!Format::fixed_point, "an integrator outgrows every scale");
 
     /// The near taps and the modes that decay.
     using Inner = Sum<Modes, Technique, Format>;
@@ -29,7 +29,7 @@ struct Sum<Integral, Technique, Format> : SumOf<Integral, Technique, Format> {
 
     static constexpr std::size_t table_count(std::size_t taps) { return Inner::table_count(taps); }
     static constexpr std::size_t past_count(std::size_t taps) { return Inner::past_count(taps); }
-    /// \param modes  the running sum among them
+    /// \param modes  the integrator among them
     static constexpr std::size_t table_count(std::size_t taps, std::size_t modes) {
         return modes == 0 ? Inner::table_count(taps, 0) : Inner::table_count(taps - 2, modes - 1);
     }

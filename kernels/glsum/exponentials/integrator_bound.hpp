@@ -1,4 +1,4 @@
-// What rounding costs a kernel with a running sum, with u the roundoff of its data, P the peak and N the samples of the
+// What rounding costs a kernel with an integrator, with u the roundoff of its data, P the peak and N the samples of the
 // record: what it costs the inner sum, and of the term w_0 r, |r| <= N P:
 //   input   u, coefficient u, product u, the addition of the loss u, that to the inner sum u
 //   r       two_sum is exact, and the loss l <= N u N P loses u l at each addition: N u u N P N at most, relative to
@@ -11,14 +11,14 @@
 #include <limits>
 
 #include "glsum/error_bound.hpp"
-#include "glsum/exponentials/integral_sum.hpp"
+#include "glsum/exponentials/integrator_sum.hpp"
 #include "glsum/wrap/delta_bound.hpp"
 
 namespace glsum {
 
 template <class Technique, class Format>
-struct ErrorBound<Sum<Integral, Technique, Format>> {
-    using K = Sum<Integral, Technique, Format>;
+struct ErrorBound<Sum<Integrator, Technique, Format>> {
+    using K = Sum<Integrator, Technique, Format>;
 
     static double of(const Design& design, const typename K::State& state, double peak, std::size_t samples) {
         constexpr double u = Format::data_roundoff;

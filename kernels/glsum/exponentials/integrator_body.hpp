@@ -1,15 +1,15 @@
-// The bodies of sums with a running sum. Included by sum.cpp alone.
+// The bodies of sums with an integrator. Included by sum.cpp alone.
 #pragma once
 
 #include "glsum/design_range.hpp"
-#include "glsum/exponentials/integral_sum.hpp"
+#include "glsum/exponentials/integrator_sum.hpp"
 #include "glsum/exponentials/modes_body.hpp"
 
 namespace glsum {
 
 template <class Technique, class Format>
-Status Sum<Integral, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
-                                                 std::span<Sample> past) {
+Status Sum<Integrator, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
+                                                   std::span<Sample> past) {
     if (!order_in_range(design.order)) {
         return Status::order_out_of_range;
     }
@@ -34,22 +34,28 @@ Status Sum<Integral, Technique, Format>::prepare(State& state, const Design& des
 }
 
 template <class Technique, class Format>
-void Sum<Integral, Technique, Format>::reset(State& state) {
+void Sum<Integrator, Technique, Format>::reset(State& state) {
     Inner::reset(state);
     state.total = 0;
     state.lost = 0;
 }
 
 template <class Technique, class Format>
-[[gnu::flatten]] auto Sum<Integral, Technique, Format>::step(State& state, Sample newest) -> Output {
+[[gnu::flatten]] auto Sum<Integrator, Technique, Format>::step(State& state, Sample newest) -> Output {
     const Sample leaving = state.near_samples != 0 ? state.past[state.near_samples - 1] : newest;
+    // C99: integrator
     const Sample total = state.total;
     const Sample lost = state.lost;
     const Sample after = total + leaving;
     const Sample leaving_part = after - total;
     state.total = after;
     state.lost = lost + ((total - (after - leaving_part)) + (leaving - leaving_part));
-    return Format::multiply_add(Inner::step(state, newest), state.weight, total + lost);
+    // C99 end
+    auto sum = Inner::step(state, newest);
+    // C99: integrator closing
+    sum = Format::multiply_add(sum, state.weight, total + lost);
+    // C99 end
+    return sum;
 }
 
 }  // namespace glsum

@@ -29,9 +29,9 @@ struct Line {
 
 template <class K>
 class IntegralTest : public ::testing::Test {};
-using Kernels = ::testing::Types<glsum::Sum<glsum::Integral, glsum::Plain, glsum::F64>,
-                                 glsum::Sum<glsum::Integral, glsum::Plain, glsum::F32>,
-                                 glsum::Sum<glsum::Integral, glsum::Compensated, glsum::F32>>;
+using Kernels = ::testing::Types<glsum::Sum<glsum::Integrator, glsum::Plain, glsum::F64>,
+                                 glsum::Sum<glsum::Integrator, glsum::Plain, glsum::F32>,
+                                 glsum::Sum<glsum::Integrator, glsum::Compensated, glsum::F32>>;
 TYPED_TEST_SUITE(IntegralTest, Kernels);
 
 TYPED_TEST(IntegralTest, OfOrderMinusOneIsTheRunningSum) {
