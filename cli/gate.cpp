@@ -73,6 +73,16 @@ std::string comparable_neighbour(Options options) {
     return "";
 }
 
+// Where two core files model other cycles of the same instructions, what is left to do; else empty.
+std::string way_on(const Verdict& verdict) {
+    const bool other_core = std::any_of(verdict.differences.begin(), verdict.differences.end(),
+                                        [](const auto& one) { return one.field.starts_with("core_file"); });
+    return !other_core
+               ? ""
+               : "; to go on: model the baseline's commit with this core file, and hold this run against that; or "
+                 "record this run by --update-baseline --reason TEXT";
+}
+
 void update_baseline(const Options& options) {
     if (options.reason.find_first_not_of(" \t\n") == std::string::npos) {
         throw Failure(Exit::bad_input, "--update-baseline: expected --reason TEXT, which the baseline's history keeps");
@@ -135,8 +145,9 @@ void run(const Options& options, const std::vector<Output>& outputs) {
         const std::string word = verdict.refusal.empty() ? "gate: " + verdict.word() + ": " : "";
         const std::string neighbour =
             verdict.status == Exit::not_comparable && verdict.refusal.empty() ? comparable_neighbour(options) : "";
-        throw Failure(verdict.status,
-                      word + verdict.headline() + (neighbour.empty() ? "" : "; " + neighbour + " can be compared"));
+        throw Failure(
+            verdict.status,
+            word + verdict.headline() + (neighbour.empty() ? way_on(verdict) : "; " + neighbour + " can be compared"));
     }
 }
 

@@ -2,14 +2,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
+#include <thread>
 
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
+#include "base/files.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
+#include "qemu/emulate/measured_calls.hpp"
+#include "qemu/emulate/predicted_calls.hpp"
+#include "qemu/emulate/rows_fit.hpp"
 #include "qemu/emulate/silicon.hpp"
 
 namespace cli {
@@ -18,18 +24,20 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
-constexpr double allowed_share = 0.05;
-constexpr double allowed_cycles = 8.0;
-
 struct Options {
     std::filesystem::path file =
         std::filesystem::path(build_info::source_folder) / "results" / "silicon" / "h747_per_sample_fir.csv";
     std::string core = "stm32h747-dtcm";
     std::vector<std::string> without;
+    std::filesystem::path rows;
+    std::filesystem::path json;
+    unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
+    unsigned timeout = 120;
 };
 
-bool misses(double predicted, double measured) {
-    return std::abs(predicted / measured - 1.0) > allowed_share && std::abs(predicted - measured) > allowed_cycles;
+[[noreturn]] void fail_by(std::size_t missed, std::size_t rows) {
+    throw Failure(Exit::check_failed, fmt::format("{} of {} rows are missed by more than {:.0f} % and {:.0f} cycles",
+                                                  missed, rows, 100 * qemu::allowed_share, qemu::allowed_cycles));
 }
 
 // How well each rule set of the core fits: which rivals these rows cannot part.
@@ -43,7 +51,7 @@ void print_sets(const timing::CoreFile& core, const std::vector<qemu::MeasuredCy
         for (std::size_t i = 0; i < rows.size(); ++i) {
             const double predicted = all[1 + s][i].nominal;
             errors.push_back(std::abs(predicted / rows[i].cycles - 1.0));
-            missed += misses(predicted, rows[i].cycles) ? 1 : 0;
+            missed += qemu::misses(predicted, rows[i].cycles) ? 1 : 0;
         }
         std::sort(errors.begin(), errors.end());
         fmt::print("{:<12} {:>7.1f}% {:>7.1f}% {:>8}  {}\n", core.sets[s].name, 100 * errors[errors.size() / 2],
@@ -78,7 +86,7 @@ void run(const Options& options) {
         const qemu::MeasuredCycles& row = rows[i];
         const qemu::PredictedCycles& p = predicted[i];
         const double error = p.nominal / row.cycles - 1.0;
-        const bool missing = misses(p.nominal, row.cycles);
+        const bool missing = qemu::misses(p.nominal, row.cycles);
         missed += missing ? 1 : 0;
         errors.push_back(std::abs(error));
         fmt::print("{:<26} {:<13} {:<5} {:>5} {:>9} {:>9.1f} {:>17} {:>+7.1f}% {:>+8.1f}{}\n", row.kernel, row.code,
@@ -101,11 +109,31 @@ void run(const Options& options) {
     std::sort(errors.begin(), errors.end());
     fmt::print("\nmedian error {:.1f} %, worst {:.1f} %; {} of {} rows within {:.0f} % or {:.0f} cycles\n",
                100 * errors[errors.size() / 2], 100 * errors.back(), rows.size() - missed, rows.size(),
-               100 * allowed_share, allowed_cycles);
+               100 * qemu::allowed_share, qemu::allowed_cycles);
     if (missed > 0) {
-        throw Failure(Exit::check_failed,
-                      fmt::format("{} of {} rows are missed by more than {:.0f} % and {:.0f} cycles", missed,
-                                  rows.size(), 100 * allowed_share, allowed_cycles));
+        fail_by(missed, rows.size());
+    }
+}
+
+// Rows of any program.
+void run_rows(const Options& options) {
+    const std::string name = options.rows.string();
+    const std::vector<qemu::MeasuredCall> rows = qemu::parse_measured_calls(
+        base::read_file(options.rows, qemu::MeasuredLimits::bytes), name, options.rows.parent_path());
+    if (!options.json.empty()) {
+        base::check_writable(options.json);
+    }
+    const qemu::CallsProgram program{
+        {emulate_script(), std::chrono::seconds(options.timeout), std::chrono::seconds(10)}, plugin(), cores_folder()};
+    const std::vector<qemu::PredictedCall> predicted =
+        qemu::predict_calls(program, rows, name, options.without, options.jobs);
+    const qemu::RowsFit fit = qemu::fit_of(rows, predicted);
+    fmt::print("{}", qemu::to_text(options.rows.filename().string(), rows, predicted, fit));
+    if (!options.json.empty()) {
+        base::write_file(options.json, qemu::to_json(name, rows, predicted, fit));
+    }
+    if (fit.missed > 0) {
+        fail_by(fit.missed, rows.size());
     }
 }
 
@@ -114,13 +142,31 @@ void run(const Options& options) {
 void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
     command.footer(
-        "Exit status 1 when a row is missed by more than 5 % and 8 cycles.\n"
-        "Example: glsum silicon results/silicon/h747_per_sample_fir.csv");
-    command.add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
-    command.add_option("--core", options->core, "Core file; each row's placement beats its own").capture_default_str();
+        "Exit status 1 when a row is missed by more than 5 % and 8 cycles of a call.\n"
+        "Rows of --rows: elf, a path from the CSV's folder; function and core as `glsum time` takes them; code itcm, "
+        "flash or\n"
+        "axi, data dtcm or axi, or nothing for the core's own; measured, the cycles of a call divided by per.\n"
+        "Examples: glsum silicon results/silicon/h747_per_sample_fir.csv\n"
+        "          glsum silicon --rows mine.csv --json fit.json");
+    Option file = command.add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
+    Option core = command.add_option("--core", options->core, "Core file; each row's placement beats its own");
+    core.capture_default_str();
     command.add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
         .delimiter(',');
-    command.callback([options] { run(*options); });
+    Option rows = command.add_option("--rows", options->rows,
+                                     "CSV of any programs' functions: elf,function,core,code,data,measured,per");
+    command.add_option("--json", options->json, "Writes the fit of --rows there").needs(rows);
+    command.add_option("--jobs", options->jobs, "Emulators at once, with --rows").between(1, 1024);
+    command.add_option("--timeout", options->timeout, "Seconds that a program of --rows may stay silent")
+        .at_least(1)
+        .capture_default_str();
+    command.callback([options, file, core, rows] {
+        if (rows.given() && (file.given() || core.given())) {
+            throw Failure(Exit::bad_input,
+                          "--rows: expected neither FILE nor --core beside it: its rows name their core");
+        }
+        rows.given() ? run_rows(*options) : run(*options);
+    });
 }
 
 }  // namespace cli

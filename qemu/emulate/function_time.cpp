@@ -32,23 +32,23 @@ private:
 
 }  // namespace
 
-FunctionTime function_time(const timing::TimingLog& log) {
+FunctionTime function_time(const timing::TimingLog& log, std::size_t core) {
     Distribution instructions;
-    std::vector<Distribution> sets(log.runs.front().call.cores.at(0).half_cycles.size());
+    std::vector<Distribution> sets(log.runs.front().call.cores.at(core).half_cycles.size());
     std::array<Distribution, timing::effect_count> lost;
     Distribution in_double;
     FunctionTime time;
     for (const timing::TimedRun& run : log.runs) {
         time.calls += run.calls;
         instructions.add(static_cast<std::int64_t>(run.call.instructions), run.calls);
-        const timing::CoreTime& core = run.call.cores.at(0);
+        const timing::CoreTime& taken = run.call.cores.at(core);
         for (std::size_t s = 0; s < sets.size(); ++s) {
-            sets[s].add(core.half_cycles[s], run.calls);
+            sets[s].add(taken.half_cycles[s], run.calls);
         }
         for (std::size_t e = 0; e < lost.size(); ++e) {
-            lost[e].add(core.losses[e], run.calls);
+            lost[e].add(taken.losses[e], run.calls);
         }
-        in_double.add(core.double_in_software, run.calls);
+        in_double.add(taken.double_in_software, run.calls);
     }
     time.instructions = instructions.spread();
     time.nominal = sets.front().spread();
@@ -60,7 +60,7 @@ FunctionTime function_time(const timing::TimingLog& log) {
     std::transform(lost.begin(), lost.end(), time.lost.begin(), [](const Distribution& one) { return one.spread(); });
     time.in_double = in_double.spread();
     if (!log.hot.empty()) {
-        time.hot.assign(log.hot[0].begin(), log.hot[0].end());
+        time.hot.assign(log.hot.at(core).begin(), log.hot.at(core).end());
     }
     std::stable_sort(time.hot.begin(), time.hot.end(),
                      [](const auto& a, const auto& b) { return a.second > b.second; });

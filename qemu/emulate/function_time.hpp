@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <utility>
@@ -34,7 +35,7 @@ struct FunctionTime {
     bool recursive = false;
 };
 
-/// Of the log's first core. \param log  of one call or more
-[[nodiscard]] FunctionTime function_time(const timing::TimingLog& log);
+/// \param log  of one call or more \param core  which of the log's cores
+[[nodiscard]] FunctionTime function_time(const timing::TimingLog& log, std::size_t core = 0);
 
 }  // namespace qemu

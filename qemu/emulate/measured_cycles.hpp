@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "qemu/emulate/measured_table.hpp"
+
 namespace qemu {
 
 /// One row of a measured file: kernel,code,data,maintenance,taps,cycles; further columns are allowed.
@@ -19,12 +21,6 @@ struct MeasuredCycles {
     double cycles;
     unsigned line;
     std::optional<double> instructions = {};  ///< of a call, where the file has that column
-};
-
-struct MeasuredLimits {
-    static constexpr std::size_t bytes = 64u << 20;
-    static constexpr std::size_t rows = 100'000;
-    static constexpr std::size_t columns = 100;
 };
 
 /// \param name  begins every message

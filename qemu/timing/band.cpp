@@ -6,7 +6,7 @@
 
 namespace timing {
 
-Band band_of(const CoreFile& core, std::span<const std::int64_t> figures) {
+Band band_of(const CoreFile& core, std::span<const std::int64_t> figures, std::int64_t guessed) {
     const auto nominal = static_cast<double>(figures[0]);
     double low = nominal;
     double high = nominal;
@@ -21,7 +21,9 @@ Band band_of(const CoreFile& core, std::span<const std::int64_t> figures) {
     }
     const double published = static_cast<double>(core.sets[0].figures.band_published_permille) / 1000.0;
     const double fitted = static_cast<double>(core.sets[0].figures.band_fitted_permille) / 1000.0;
-    const double share = nominal > 0.0 ? furthest / nominal : 0.0;
+    const double in_doubt =
+        furthest + static_cast<double>(core.sets[0].figures.band_predicted_permille * guessed) / 1000.0;
+    const double share = nominal > 0.0 ? in_doubt / nominal : 0.0;
     const double margin = std::min(published + share, std::max(fitted, published));
     const double middle = (low + high) / 2.0;
     const double half = std::min((high - low) / 2.0 + margin * middle, std::max(fitted, margin) * nominal);

@@ -212,12 +212,13 @@ void CallTimer::end_call() {
             taken[s] = core.replay.core().positions()[s] - core.begun[s] -
                        (core.file.double_in_software_off ? core.in_double[s] : 0);
         }
-        const Band band = band_of(core.file, std::span(taken).first(core.file.sets.size()));
-        call_.cores[c].half_cycles = {taken[0], band.low, band.high};
         for (std::size_t e = 0; e < effect_count; ++e) {
             call_.cores[c].losses[e] =
                 core.replay.core().losses()[e] - call_.cores[c].losses[e] - core.lost_in_double[e];
         }
+        const Band band = band_of(core.file, std::span(taken).first(core.file.sets.size()),
+                                  call_.cores[c].losses[index(Effect::branch_mispredict)]);
+        call_.cores[c].half_cycles = {taken[0], band.low, band.high};
         call_.cores[c].double_in_software = core.file.double_in_software_off ? 0 : core.in_double[0];
     }
     inside_ = false;

@@ -156,7 +156,8 @@ void read_rivals(const toml::node& node, Collected& into) {
         for (const auto& [key, row] : rival.rows) {
             // Memories and the predictor are the chip's: one for all sets.
             if (key.starts_with("cache.") || key.starts_with("memory.") || key.starts_with("band.") ||
-                key.starts_with("measurement.") || key == "fetch.bytes" || key == "branch.target_entries") {
+                key.starts_with("measurement.") || key == "fetch.bytes" || key == "branch.target_entries" ||
+                key == "branch.return_entries") {
                 throw Failure(Exit::bad_input, row.file + ":" + std::to_string(row.line) + ": " + key +
                                                    ": no row that a rival set may change");
             }

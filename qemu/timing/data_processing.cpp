@@ -64,8 +64,12 @@ void shifted_register(Decoded& d, uint32_t e) {
         d.kind = Kind::bitfield;
         d.mnemonic = (type & 2U) != 0 ? "pkhtb" : "pkhbt";
         d.sets_flags = false;
-        d.read(amount != 0 ? Role::shifted : Role::operand, rm(e));
-        d.uses_shifter = amount != 0;
+        // PKHBT takes its second operand early even without a shift, PKHTB both.
+        if ((type & 2U) != 0) {
+            d.reads[0].role = Role::shifted;
+        }
+        d.read(Role::shifted, rm(e));
+        d.uses_shifter = true;
         return;
     }
     if (amount == 0 && type == 0) {
@@ -109,10 +113,12 @@ void saturate(Decoded& d, uint32_t e) {
     d.read(Role::shifted, rn(e));
 }
 void extract(Decoded& d, uint32_t e) {
+    d.uses_shifter = true;
     d.write(rd(e));
     d.read(Role::shifted, rn(e));
 }
 void insert(Decoded& d, uint32_t e) {
+    d.uses_shifter = true;
     d.write(rd(e));
     d.read(Role::operand, rd(e));
     if (rn(e) == registers::pc) {
@@ -137,8 +143,9 @@ void extend(Decoded& d, uint32_t e) {
     }
     const bool adds = rn(e) != none;
     d.mnemonic = adds ? added[which] : alone[which];
+    d.uses_shifter = adds;
     d.write(rd(e));
-    d.read(adds || field(e, 4, 2) != 0 ? Role::shifted : Role::operand, rm(e));
+    d.read(adds ? Role::shifted : Role::operand, rm(e));
     if (adds) {
         d.read(Role::operand, rn(e));
     }
@@ -184,6 +191,7 @@ void doubled_saturating_sum(Decoded& d, uint32_t e) {  // Rm plus or minus twice
 }
 void reverse(Decoded& d, uint32_t e) {
     d.early_result = true;
+    d.uses_shifter = true;
     d.write(rd(e));
     d.read(Role::shifted, rm(e));
 }

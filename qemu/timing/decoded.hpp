@@ -53,7 +53,8 @@ enum class Kind : std::uint8_t {
 enum class Role : std::uint8_t {
     operand,       ///< of the ALU
     shifted,       ///< passes the shifter first, or is taken by the early ALU
-    address,       ///< base or index
+    address,       ///< the base
+    index,         ///< the register that is added to it
     multiplicand,  ///< of an integer or floating-point product, and of a division
     accumulator,   ///< what a product is added to
     store_data,

@@ -1,7 +1,6 @@
 #include "qemu/timing/latency.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace timing {
 
@@ -41,11 +40,18 @@ Latencies::Latencies(const Figures& f) {
         std::int64_t stage;
     };
     const Stage stages[] = {
-        {Consumer::address, f.read_address},         {Consumer::shifted, f.read_shifted},
-        {Consumer::operand, f.read_operand},         {Consumer::multiplicand, f.read_multiplicand},
-        {Consumer::accumulator, f.read_accumulator}, {Consumer::store_data, f.read_store_data},
-        {Consumer::condition, f.read_condition},     {Consumer::fp_operand, f.read_operand},
-        {Consumer::fma_accumulator, f.read_operand}, {Consumer::mla_accumulator, f.read_operand},
+        {Consumer::address, f.read_address},
+        {Consumer::index, f.read_address},
+        {Consumer::shifted, f.read_shifted},
+        {Consumer::operand, f.read_operand},
+        {Consumer::operand_beside_shifted, f.read_operand},
+        {Consumer::multiplicand, f.read_multiplicand},
+        {Consumer::accumulator, f.read_accumulator},
+        {Consumer::store_data, f.read_store_data},
+        {Consumer::condition, f.read_condition},
+        {Consumer::fp_operand, f.read_operand},
+        {Consumer::fma_accumulator, f.read_operand},
+        {Consumer::mla_accumulator, f.read_operand},
         {Consumer::fp_store, f.read_store_data},
     };
     const auto staged = [&](Producer producer, std::int64_t result) {
@@ -56,21 +62,27 @@ Latencies::Latencies(const Figures& f) {
     staged(Producer::early, f.result_early);
     staged(Producer::late, f.result_late);
     staged(Producer::younger_add, f.result_late);
-    set(Producer::younger_add, Consumer::address, f.result_younger_add_to_address - f.read_address);
+    const auto as_address = [&](Producer producer, std::int64_t result) {
+        set(producer, Consumer::address, result - f.read_address);
+        set(producer, Consumer::index, result - f.read_address);
+    };
+    as_address(Producer::younger_add, f.result_younger_add_to_address);
     staged(Producer::bitfield, f.result_bitfield);
     staged(Producer::reversed, f.result_reverse);
-    set(Producer::reversed, Consumer::address, f.result_bitfield - f.read_address);
+    as_address(Producer::reversed, f.result_bitfield);
+    set(Producer::reversed, Consumer::shifted, f.result_bitfield - f.read_shifted);
     staged(Producer::saturated, f.result_saturated);
     staged(Producer::base, f.result_base);
     staged(Producer::load_word, f.result_load_word);
     staged(Producer::load_narrow, f.result_load_narrow);
-    for (const auto& [producer, result] :
-         {std::pair(Producer::load_word, f.result_load_word), std::pair(Producer::load_narrow, f.result_load_narrow)}) {
-        set(producer, Consumer::address, result + f.result_load_to_address_extra - f.read_address);
-        set(producer, Consumer::multiplicand, result + f.result_load_to_multiplicand_extra - f.read_multiplicand);
-    }
+    // A word comes early, by a bypass that leads to the ALU alone; a byte or half comes a cycle later to every use.
+    set(Producer::load_word, Consumer::index, f.result_load_word + f.result_load_to_index_extra - f.read_address);
+    set(Producer::load_word, Consumer::operand_beside_shifted,
+        f.result_load_word + f.result_load_beside_shifted_extra - f.read_operand);
+    set(Producer::load_word, Consumer::multiplicand,
+        f.result_load_word + f.result_load_to_multiplicand_extra - f.read_multiplicand);
     staged(Producer::multiply, f.result_multiply);
-    set(Producer::multiply, Consumer::address, f.result_multiply + f.result_multiply_to_address_extra - f.read_address);
+    as_address(Producer::multiply, f.result_multiply + f.result_multiply_to_address_extra);
     staged(Producer::divide, f.result_late);
     staged(Producer::flags, f.result_flags);
     staged(Producer::to_core, f.fp_to_core);
@@ -113,6 +125,8 @@ Consumer consumer_of(const Decoded& reader, Role role) {
     switch (role) {
         case Role::address:
             return Consumer::address;
+        case Role::index:
+            return Consumer::index;
         case Role::shifted:
             return Consumer::shifted;
         case Role::condition:
@@ -128,6 +142,10 @@ Consumer consumer_of(const Decoded& reader, Role role) {
             return reader.fused ? Consumer::fma_accumulator : Consumer::mla_accumulator;
         case Role::operand:
             break;
+    }
+    const auto reads_early = [](const Read& read) { return read.role == Role::shifted; };
+    if (std::any_of(reader.reads.begin(), reader.reads.begin() + reader.read_count, reads_early)) {
+        return Consumer::operand_beside_shifted;
     }
     return reader.is_fp_arithmetic() || reader.kind == Kind::fp_move || reader.kind == Kind::fp_to_core
                ? Consumer::fp_operand

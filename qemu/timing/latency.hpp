@@ -46,8 +46,10 @@ enum class Producer : std::uint8_t {
 /// In which place a register is used.
 enum class Consumer : std::uint8_t {
     address,
+    index,
     shifted,
     operand,
+    operand_beside_shifted,  ///< of an instruction whose other operand is read early
     multiplicand,
     accumulator,
     store_data,

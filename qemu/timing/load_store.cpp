@@ -39,7 +39,7 @@ void single(Decoded& d, uint32_t e, std::uint8_t bytes) {
         if (field(e, 6, 5) != 0) {
             d.kind = Kind::unknown;
         }
-        d.read(Role::address, field(e, 0, 4));
+        d.read(Role::index, field(e, 0, 4));
         return;
     }
     const bool before = field(e, 10, 1) != 0;
@@ -130,7 +130,7 @@ void table_branch(Decoded& d, uint32_t e) {
     d.registers = 1;
     d.access_bytes = field(e, 4, 1) != 0 ? 2 : 1;
     d.read(Role::address, rn(e));
-    d.read(Role::address, field(e, 0, 4));
+    d.read(Role::index, field(e, 0, 4));
 }
 
 constexpr EncodingRow rows[] = {

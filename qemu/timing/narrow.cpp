@@ -121,7 +121,7 @@ template <std::uint8_t bytes>
 void memory_by_register(Decoded& d, uint32_t e) {
     memory(d, low(e), bytes);
     d.read(Role::address, middle(e));
-    d.read(Role::address, field(e, 6, 3));
+    d.read(Role::index, field(e, 6, 3));
 }
 template <std::uint8_t bytes>
 void memory_by_constant(Decoded& d, uint32_t e) {
@@ -150,6 +150,7 @@ void extend(Decoded& d, uint32_t e) {
 }
 void reverse(Decoded& d, uint32_t e) {
     d.early_result = true;
+    d.uses_shifter = true;
     d.write(low(e));
     d.read(Role::shifted, middle(e));
 }

@@ -5,13 +5,32 @@
 
 namespace timing {
 
-Predictor::Predictor(std::int64_t entries)
+Predictor::Predictor(std::int64_t targets, std::int64_t returns)
     : entries_(std::bit_floor(
-                   static_cast<std::size_t>(std::max<std::int64_t>(1, entries / static_cast<std::int64_t>(ways)))) *
+                   static_cast<std::size_t>(std::max<std::int64_t>(1, targets / static_cast<std::int64_t>(ways)))) *
                ways),
-      last_set_(entries_.size() / ways - 1) {}
+      last_set_(entries_.size() / ways - 1),
+      returns_(static_cast<std::size_t>(std::clamp<std::int64_t>(returns, 0, 1024))) {}
 
 Prediction Predictor::meet(const Decoded& branch, std::uint32_t address, std::uint32_t next) {
+    const bool taken = next != address + branch.bytes;
+    const bool calls = branch.branch == Branch::call || (branch.branch == Branch::indirect && branch.write_count > 0 &&
+                                                         branch.writes[0].reg == registers::lr);
+    if (taken && branch.branch == Branch::back && !branch.in_it_block && held_ > 0) {
+        const bool right = returns_[newest_] == next;
+        newest_ = (newest_ + returns_.size() - 1) % returns_.size();
+        --held_;
+        return right ? Prediction::right : Prediction::wrong;
+    }
+    if (calls && taken && !returns_.empty()) {
+        newest_ = (newest_ + 1) % returns_.size();
+        returns_[newest_] = address + branch.bytes;
+        held_ = std::min(held_ + 1, returns_.size());
+    }
+    return meet_in_table(branch, address, next);
+}
+
+Prediction Predictor::meet_in_table(const Decoded& branch, std::uint32_t address, std::uint32_t next) {
     const bool taken = next != address + branch.bytes;
     Entry* const first = &entries_[(address >> 1 & last_set_) * ways];
     Entry* const found = std::find_if(first, first + ways, [&](const Entry& one) { return one.address == address; });

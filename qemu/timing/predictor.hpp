@@ -1,6 +1,8 @@
-// The branch predictor: a table of targets with two-bit counters. Size and algorithm of the real one are not published.
+// The branch predictor: a table of targets with two-bit counters, and a stack of return addresses. Size and algorithm
+// of the real one are not published.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -16,7 +18,9 @@ enum class Prediction : std::uint8_t {
 
 class Predictor {
 public:
-    explicit Predictor(std::int64_t entries);
+    /// \param targets  branches that the table holds
+    /// \param returns  calls under way that the stack holds; what it does not hold is guessed as any indirect branch is
+    Predictor(std::int64_t targets, std::int64_t returns);
     /// What the predictor would have said; then it learns.
     /// \param next  address of the instruction that was executed next
     Prediction meet(const Decoded& branch, std::uint32_t address, std::uint32_t next);
@@ -27,9 +31,14 @@ private:
         std::uint32_t target = 0;
         int confidence = 0;  // 0 to 3; from 2 on: taken
     };
+    Prediction meet_in_table(const Decoded& branch, std::uint32_t address, std::uint32_t next);
+
     static constexpr std::size_t ways = 4;
     std::vector<Entry> entries_;  // of each set together, the most recently used first; a power of two of sets
     std::size_t last_set_;
+    std::vector<std::uint32_t> returns_;  // a ring
+    std::size_t newest_ = 0;              // of it
+    std::size_t held_ = 0;
 };
 
 }  // namespace timing

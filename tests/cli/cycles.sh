@@ -60,6 +60,7 @@ done
 sed 's/sha256:[0-9a-f]*/sha256:0123/' "$folder/one.json" >"$folder/other.json"
 gate one other
 [ $? -eq 4 ] && grep -q 'core_file' "$folder/said" || fail "another core file: expected status 4; found $(head -n 5 "$folder/said")"
+grep -q 'to go on: .*--update-baseline --reason TEXT' "$folder/said" || fail "another core file: expected a way on"
 # A core more beside it is no other condition.
 bench more --kernels 'null,ring_plain_q31,shift_plain_f32,ring_horner_f64' --taps 20,50 --core count,m7-ideal,stm32f746-itcm ||
     fail "more: $(tail -n 2 "$folder/more.txt")"

@@ -9,14 +9,15 @@
 namespace {
 
 timing::Band band(const std::vector<std::int64_t>& figures, bool rival_fits, std::int64_t published = 20,
-                  std::int64_t fitted = 105) {
+                  std::int64_t fitted = 105, std::int64_t guessed = 0) {
     timing::CoreFile core;
     for (std::size_t s = 0; s < figures.size(); ++s) {
         core.sets.push_back({"", "", {}, s == 0 || rival_fits});
     }
     core.sets[0].figures.band_published_permille = published;
     core.sets[0].figures.band_fitted_permille = fitted;
-    return timing::band_of(core, figures);
+    core.sets[0].figures.band_predicted_permille = 300;
+    return timing::band_of(core, figures, guessed);
 }
 
 void expect(const timing::Band& found, std::int64_t low, std::int64_t high) {
@@ -36,6 +37,12 @@ TEST(Band, HoldsTheSetsThatFit) {
 }
 
 TEST(Band, ARefutedSetMovesItNowhere) { expect(band({1010, 1050}, false), 949, 1071); }
+
+// 100 of 1000 are lost to wrong guesses: 3 % beside the 2 %.
+TEST(Band, GrowsWithWhatThePredictorDecides) {
+    expect(band({1000}, true, 20, 105, 100), 950, 1050);
+    expect(band({1000}, true, 20, 105, 900), 895, 1105);  // up to what it may be wrong by
+}
 
 // 10.5 % of the nominal figure, which stays inside.
 TEST(Band, IsNoWiderThanTheModelMayBeWrong) {

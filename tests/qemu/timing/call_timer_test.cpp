@@ -142,7 +142,8 @@ TEST(CallTimer, EachRuleSetIsTimedByItself) {
             in_double.insert(time.double_in_software);
         }
         const timing::CoreTime all = call_of(core);
-        const timing::Band band = timing::band_of(core, alone);
+        const timing::Band band =
+            timing::band_of(core, alone, all.losses[timing::index(timing::Effect::branch_mispredict)]);
         EXPECT_EQ(all.half_cycles[0], alone[0]);
         EXPECT_EQ(all.half_cycles[1], band.low);
         EXPECT_EQ(all.half_cycles[2], band.high);

@@ -68,9 +68,8 @@ std::vector<Line> assemble(const std::string& text) {
     const base::Scratch scratch;
     std::ofstream(scratch.file("probe.s")) << ".syntax unified\n.thumb\n.text\n" << text << '\n';
     const std::string object = scratch.file("probe.o").string();
-    const std::string said =
-        output_of("arm-none-eabi-as -mcpu=cortex-m7 -mfpu=fpv5-d16 -mfloat-abi=hard -o '" + object + "' '" +
-                  scratch.file("probe.s").string() + "' 2>&1");
+    const std::string said = output_of("arm-none-eabi-as -mcpu=cortex-m7 -mfpu=fpv5-d16 -mfloat-abi=hard -o '" +
+                                       object + "' '" + scratch.file("probe.s").string() + "' 2>&1");
     if (!std::filesystem::exists(object)) {
         throw std::runtime_error("the assembler said: " + said);
     }

@@ -45,7 +45,7 @@ timing::Decoded branch(timing::Branch kind) {
 }
 
 TEST(Predictor, ALoopIsMissedOnceAtItsEnd) {
-    timing::Predictor predictor(64);
+    timing::Predictor predictor(64, 0);
     auto bne = branch(timing::Branch::conditional);
     bne.backward = true;
     EXPECT_EQ(predictor.meet(bne, 0x210, 0x212), timing::Prediction::wrong);                // backward: taken, it says
@@ -58,7 +58,7 @@ TEST(Predictor, ALoopIsMissedOnceAtItsEnd) {
 }
 
 TEST(Predictor, AForwardBranchIsNotTakenAtFirst) {
-    timing::Predictor predictor(64);
+    timing::Predictor predictor(64, 0);
     const auto beq = branch(timing::Branch::conditional);
     EXPECT_EQ(predictor.meet(beq, 0x110, 0x112), timing::Prediction::right);
     EXPECT_EQ(predictor.meet(beq, 0x110, 0x120), timing::Prediction::wrong);
@@ -66,7 +66,7 @@ TEST(Predictor, AForwardBranchIsNotTakenAtFirst) {
 
 // Of four states two say taken: one that was taken once is turned by one miss, one that never was by two.
 TEST(Predictor, RemembersInTwoBits) {
-    timing::Predictor predictor(64);
+    timing::Predictor predictor(64, 0);
     const auto beq = branch(timing::Branch::conditional);
     const auto meets = [&](bool taken) { return predictor.meet(beq, 0x110, taken ? 0x120 : 0x112); };
     EXPECT_EQ(meets(true), timing::Prediction::wrong);
@@ -79,11 +79,39 @@ TEST(Predictor, RemembersInTwoBits) {
 }
 
 TEST(Predictor, AReturnGoesWhereItWentLast) {
-    timing::Predictor predictor(64);
+    timing::Predictor predictor(64, 0);
     const auto bx = branch(timing::Branch::back);
     EXPECT_EQ(predictor.meet(bx, 0x110, 0x200), timing::Prediction::wrong);
     EXPECT_EQ(predictor.meet(bx, 0x110, 0x200), timing::Prediction::right);
     EXPECT_EQ(predictor.meet(bx, 0x110, 0x300), timing::Prediction::wrong);
+}
+
+// As many as the stack holds come back to their callers, whoever called last; those before go where they went last.
+TEST(Predictor, AReturnGoesToItsCallAsFarAsTheStackHolds) {
+    timing::Predictor predictor(64, 2);
+    auto bl = branch(timing::Branch::call);
+    bl.bytes = 4;
+    const auto back = branch(timing::Branch::back);
+    for (const std::uint32_t caller : {0x200U, 0x300U, 0x400U}) {
+        (void)predictor.meet(bl, caller, 0x100);
+        EXPECT_EQ(predictor.meet(back, 0x110, caller + 4), timing::Prediction::right) << caller;
+    }
+    for (const std::uint32_t caller : {0x200U, 0x300U, 0x400U}) {  // each within the other
+        (void)predictor.meet(bl, caller, 0x100);
+    }
+    EXPECT_EQ(predictor.meet(back, 0x110, 0x404), timing::Prediction::right);
+    EXPECT_EQ(predictor.meet(back, 0x110, 0x304), timing::Prediction::right);
+    EXPECT_EQ(predictor.meet(back, 0x110, 0x204), timing::Prediction::wrong);  // it lies under them no more
+    // A return that goes elsewhere than its call came from.
+    (void)predictor.meet(bl, 0x200, 0x100);
+    EXPECT_EQ(predictor.meet(back, 0x110, 0x500), timing::Prediction::wrong);
+    // A call through a register is one, and a jump through one is none.
+    auto blx = branch(timing::Branch::indirect);
+    (void)predictor.meet(blx, 0x600, 0x100);
+    EXPECT_EQ(predictor.meet(back, 0x120, 0x602), timing::Prediction::wrong);
+    blx.write(timing::registers::lr);
+    (void)predictor.meet(blx, 0x600, 0x100);
+    EXPECT_EQ(predictor.meet(back, 0x130, 0x602), timing::Prediction::right);
 }
 
 TEST(StoreBuffer, IsFullWhenItsBankFallsBehind) {

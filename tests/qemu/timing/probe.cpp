@@ -132,6 +132,7 @@ Outcome run(const std::string& assembly, const Setting& setting) {
     timing::Model model(setting.figures, setting.placement, setting.off);
     Outcome outcome;
     std::map<std::size_t, unsigned> turns;
+    std::vector<std::size_t> returns;
     for (std::size_t i = 0; i < lines.size();) {
         const Decoded& d = prepared[i].decoded;
         outcome.unknown += d.kind == timing::Kind::unknown ? 1 : 0;
@@ -146,11 +147,19 @@ Outcome run(const std::string& assembly, const Setting& setting) {
             registers[place.base] += static_cast<std::uint32_t>(place.after);
         }
         std::size_t next = i + 1;
-        if (d.branch == timing::Branch::direct || d.branch == timing::Branch::conditional) {
+        if (d.branch == timing::Branch::back && !returns.empty()) {
+            next = returns.back();
+            returns.pop_back();
+        } else if (d.branch == timing::Branch::direct || d.branch == timing::Branch::conditional ||
+                   d.branch == timing::Branch::call) {
             const std::uint32_t target =
                 lines[i].address + static_cast<std::uint32_t>(branch_offset(lines[i].encoding, lines[i].bytes));
             const bool backward = target <= lines[i].address;
-            if (backward ? ++turns[i] < setting.turns : d.branch == timing::Branch::direct) {
+            const bool calls = d.branch == timing::Branch::call;
+            if (calls) {
+                returns.push_back(i + 1);
+            }
+            if (calls || (backward ? ++turns[i] < setting.turns : d.branch == timing::Branch::direct)) {
                 next = static_cast<std::size_t>(
                     std::find_if(lines.begin(), lines.end(), [&](const auto& line) { return line.address == target; }) -
                     lines.begin());

@@ -2,7 +2,7 @@
 //
 // Registers hold addresses only as far as loads and stores move them: r0 to r9 begin at 0x20000000 + 0x100 * n, sp at
 // 0x20010000; a written-back base moves. Nothing else is computed. A backward branch is taken on every turn but the
-// last, a forward one if it is unconditional.
+// last, a forward one if it is unconditional; what is called returns.
 #pragma once
 
 #include <cstdint>

@@ -68,6 +68,15 @@ constexpr Probe probes[] = {
     {"5.8", "rev.w r0,r1; eor.w r2,r0,r3", 1},               // reversed before the ALU
     {"5.9", "rev.w r0,r1; nop.w; ldr.w r2,[r0]; nop.w", 3},  // and yet no address in the next cycle
     {"5.10", "ubfx r0,r1,#1,#4; eor.w r2,r0,r3", 2},
+    // A rotated byte by itself is read as late as any; one that is added to, early, whether it is rotated or not.
+    {"5.13", "eor.w r0,r1,r2; nop.w; uxtb.w r3,r0,ror #8; nop.w", 2},
+    {"5.14", "eor.w r0,r1,r2; nop.w; uxtab r3,r4,r0,ror #8; nop.w", 3},
+    {"5.15", "eor.w r0,r1,r2; nop.w; uxtab r3,r4,r0; nop.w", 3},
+    {"5.16", "eor.w r0,r1,r2; nop.w; uxtab r3,r0,r4; nop.w", 2},
+    {"5.17", "eor.w r0,r1,r2; nop.w; pkhbt r3,r4,r0; nop.w", 3},
+    {"5.18", "eor.w r0,r1,r2; nop.w; pkhtb r3,r0,r4,asr #1; nop.w", 3},
+    {"5.19", "ubfx r0,r1,#1,#4; add.w r2,r3,r4,lsl #2", 2},  // one shifter
+    {"5.20", "rev.w r0,r1; nop.w; eor.w r2,r3,r0,lsl #2; nop.w", 3},
     {"5.11", "qadd r0,r0,r1", 2},
     {"5.12", "ssat r0,#16,r0", 3},  // reads early, too
     // 6: products
@@ -85,7 +94,8 @@ constexpr Probe probes[] = {
     {"6.12", "ldr.w r0,[r1]; nop.w; mul r2,r0,r3; nop.w", 3},
     {"6.13", "ldr.w r0,[r1]; nop.w; mla r2,r3,r4,r0; nop.w", 2},
     {"6.14", "ldrb.w r0,[r1]; nop.w; mla r2,r3,r4,r0; nop.w", 2},
-    {"6.15", "eor.w r0,r1,r2; mla r3,r4,r5,r0", 1},  // a late result of the same cycle
+    {"6.21", "ldrb.w r0,[r1]; nop.w; mul r2,r0,r3; nop.w", 3},  // a byte no later than to the ALU
+    {"6.15", "eor.w r0,r1,r2; mla r3,r4,r5,r0", 1},             // a late result of the same cycle
     {"6.16", "mul r0,r1,r2; nop.w; ldr.w r3,[r0]; nop.w", 5},
     {"6.17", "sdiv r0,r1,r2", 7},
     {"6.18", "sdiv r0,r1,r2; nop.w", 8},
@@ -95,8 +105,14 @@ constexpr Probe probes[] = {
     {"7.1", "ldr.w r0,[r1]; nop.w; eor.w r2,r0,r3; nop.w", 2},
     {"7.2", "ldrb.w r0,[r1]; nop.w; eor.w r2,r0,r3; nop.w", 3},
     {"7.3", "ldr.w r0,[r1]; nop.w; eor.w r2,r3,r0,lsl #2; nop.w", 3},
-    {"7.4", "ldr.w r0,[r0]", 3},
-    {"7.5", "ldrb.w r0,[r0]", 4},
+    {"7.4", "ldr.w r0,[r0]", 2},
+    {"7.5", "ldrb.w r0,[r0]", 3},
+    {"7.12", "ldr.w r0,[r1]; nop.w; ldr.w r2,[r3,r0]; nop.w", 4},  // 3 to the register that is added
+    {"7.13", "ldrb.w r0,[r1]; nop.w; ldr.w r2,[r3,r0]; nop.w", 4},
+    // The early bypass of a word leads to no instruction that reads another operand early.
+    {"7.14", "ldr.w r0,[r1]; nop.w; eor.w r2,r0,r3,lsl #2; nop.w", 3},
+    {"7.15", "ldrb.w r0,[r1]; nop.w; eor.w r2,r0,r3,lsl #2; nop.w", 3},
+    {"7.16", "ldr.w r0,[r1]; nop.w; uxtab r2,r0,r3; nop.w", 3},
     {"7.6", "ldr.w r0,[r1]; ldr.w r2,[r3,#4]", 1},
     {"7.7", "ldr.w r0,[r1]; ldr.w r2,[r3,#8]", 2},
     {"7.8", "ldr r0,[r1],#8; ldr.w r2,[r1]", 2},  // the base is used anew
@@ -196,10 +212,11 @@ constexpr Probe probes[] = {
     {"12.2", "1: subs.w r6,r6,#1; bne 1b", 1, "stm32f746-itcm", How::turns},
     {"12.3", "beq 2f; add.w r0,r1,r2; 2:", 1},  // not taken: pairs
     {"12.4", "1: add.w r0,r1,r2; subs.w r6,r6,#1; bne 1b", 2, "stm32f746-itcm", How::turns},
-    {"12.5", "9: subs.w r6,r6,#1; bne 9b", 9},  // not taken, against the static guess
-    {"12.6", "9: subs.w r6,r6,#1; nop.w; nop.w; nop.w; nop.w; nop.w; bne 9b", 10},  // the flags are known by then
-    {"12.7", "b 9f; nop.w; 9:", 3},                                                 // met for the first time
+    {"12.5", "9: subs.w r6,r6,#1; bne 9b", 5},  // not taken, against the static guess: 8 less 4
+    {"12.6", "9: subs.w r6,r6,#1; nop.w; nop.w; nop.w; nop.w; nop.w; bne 9b", 6},  // the flags are known by then
+    {"12.7", "b 9f; nop.w; 9:", 3},                                                // met for the first time
     {"12.8", "beq 9f; beq 9f; nop.w; 9:", 2},
+    {"12.10", "1: bl 8f; bl 8f; b 9f; 8: bx lr; 9: subs r6,r6,#1; bne 1b", 6, "stm32f746-itcm", How::turns},
     {"12.9", "beq 9f; add.w r0,r1,r2; add.w r3,r4,r5; 9:", 1.5},  // no slot is lost behind a branch that is not taken
     // 13: fetching
     {"13.1", ".p2align 3; nop; nop; nop; 1: nop; nop.w; nop.w; bne 1b", 3, "stm32f746-itcm", How::turns},
@@ -298,7 +315,8 @@ constexpr Probe movers[] = {
 
 // Not of the core: used by `glsum silicon`, whose rows hold them, and by the band, which has tests of its own.
 const std::set<std::string> of_measurements{"measurement.counter_reads", "measurement.maintenance",
-                                            "band.published_permille", "band.fitted_permille"};
+                                            "band.published_permille", "band.predicted_permille",
+                                            "band.fitted_permille"};
 // What the model divides by.
 const std::set<std::string> powers_of_two{"fetch.bytes", "cache.line_bytes", "memory.flash_line_bytes",
                                           "memory.sram_beat_bytes"};
@@ -367,7 +385,7 @@ TEST(Probe, LossesHaveTheNameOfTheirCause) {
         {nops, "flash_wait_states 16", "stm32f746-flash-art"},                  // 8 without the bus
         {"sdiv r0,r1,r2; nop.w", "result_latency 13"},                          // 7 cycles
         {"eor.w r0,r0,r1; eor.w r0,r0,r2", "result_latency 1"},                 // the next cycle
-        {"ldr.w r0,[r0]; ldr.w r0,[r0]", "load_use 5"},                         // 3
+        {"ldr.w r0,[r0]; ldr.w r0,[r0]", "load_use 3"},                         // 2
         {"mul r0,r0,r1; mul r0,r0,r1", "mac_latency 3"},                        // 2
         {"vadd.f32 s0,s0,s1; vadd.f32 s0,s0,s1", "fpu_latency 5"},              // 3
         {"vfma.f32 s0,s1,s2; vldr s3,[r0]", "fpu_latency 7"},                   // barred for 3: the fourth behind it

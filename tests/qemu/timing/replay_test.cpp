@@ -313,6 +313,8 @@ TEST(BlockReplay, RemembersNoMoreHoweverLongItRuns) {
 timing::CoreFile core_of_sets(std::initializer_list<bool> fits) {
     timing::CoreFile core = timing::read_core(TEST_CORES, "stm32f746-itcm");
     core.sets.resize(1);
+    core.sets[0].figures.band_published_permille = 50;
+    core.sets[0].figures.band_fitted_permille = 125;
     for (const bool one : fits) {
         core.sets.push_back({"rival", "", core.sets[0].figures, one});
     }

@@ -1,0 +1,29 @@
+// Files of cycles that were measured on silicon, of any program's functions.
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace qemu {
+
+/// One row of such a file: elf,function,core,code,data,measured,per; further columns are allowed.
+struct MeasuredCall {
+    std::filesystem::path elf;  ///< paths are relative to the file that names them
+    std::string function;       ///< as `Elf::function` takes it
+    std::string core;           ///< a core file's name
+    std::string code;           ///< placement as `TimingRequest::Core`; empty: as the core file has it
+    std::string data;
+    double cycles;  ///< measured: a call's, divided by `per`
+    double per;     ///< bytes, samples or turns of a call; 1 where the call itself is meant
+    unsigned line;
+};
+
+/// \param name    of the file; begins every message
+/// \param folder  that it lies in
+/// \throws glsum::Failure (bad input) as `MeasuredTable`, and for a word or number that is none
+[[nodiscard]] std::vector<MeasuredCall> parse_measured_calls(const std::string& text, const std::string& name,
+                                                             const std::filesystem::path& folder);
+
+}  // namespace qemu

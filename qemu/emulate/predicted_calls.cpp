@@ -1,0 +1,112 @@
+#include "qemu/emulate/predicted_calls.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include "base/failure.hpp"
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
+#include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/function_time.hpp"
+#include "qemu/emulate/timed_program.hpp"
+
+namespace qemu {
+namespace {
+
+// A function of a program, and the rows about it.
+struct Timed {
+    std::filesystem::path elf;
+    Function function;
+    timing::TimingRequest request;
+    std::vector<std::pair<std::size_t, std::size_t>> rows;  // and the request's core of each
+};
+
+// What goes wrong on the way to a row's figure names the row.
+template <class Work>
+auto for_row(const std::string& name, const MeasuredCall& row, Work work) {
+    try {
+        return work();
+    } catch (const glsum::Failure& failure) {
+        throw glsum::Failure(failure.status(), fmt::format("{}:{}: {}", name, row.line, failure.what()));
+    }
+}
+
+std::size_t core_of(timing::TimingRequest& request, const MeasuredCall& row, const std::vector<std::string>& without) {
+    for (std::size_t c = 0; c < request.cores.size(); ++c) {
+        const timing::TimingRequest::Core& core = request.cores[c];
+        if (core.name == row.core && core.code == row.code && core.data == row.data) {
+            return c;
+        }
+    }
+    request.cores.push_back({row.core, row.code, row.data});
+    request.cores.back().without = without;
+    return request.cores.size() - 1;
+}
+
+// Everything is looked up before the first emulation.
+std::vector<Timed> plan_of(const CallsProgram& program, const std::vector<MeasuredCall>& rows, const std::string& name,
+                           const std::vector<std::string>& without) {
+    std::map<std::filesystem::path, std::unique_ptr<Elf>> elves;
+    std::map<std::pair<std::filesystem::path, std::uint32_t>, std::size_t> known;
+    std::vector<Timed> plan;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const MeasuredCall& row = rows[i];
+        for_row(name, row, [&] {
+            std::unique_ptr<Elf>& elf = elves[row.elf];
+            if (!elf) {
+                elf = std::make_unique<Elf>(row.elf);
+                elf->check_runs_on_cortex_m7();
+            }
+            const Function function = elf->function(row.function);
+            const auto [at, is_new] = known.emplace(std::pair(row.elf, function.address), plan.size());
+            if (is_new) {
+                plan.push_back({row.elf, function, {program.cores_folder.string(), {}}, {}});
+            }
+            Timed& timed = plan[at->second];
+            const std::size_t cores = timed.request.cores.size();
+            timed.rows.emplace_back(i, core_of(timed.request, row, without));
+            if (timed.request.cores.size() > cores) {
+                (void)timing::cores_of({program.cores_folder.string(), {timed.request.cores.back()}});
+            }
+        });
+    }
+    return plan;
+}
+
+}  // namespace
+
+std::vector<PredictedCall> predict_calls(const CallsProgram& program, const std::vector<MeasuredCall>& rows,
+                                         const std::string& name, const std::vector<std::string>& without,
+                                         unsigned jobs) {
+    const std::vector<Timed> plan = plan_of(program, rows, name, without);
+    std::vector<PredictedCall> predicted(rows.size());
+    base::Progress progress("programs", plan.size());
+    base::parallel_for(plan.size(), jobs, [&](std::size_t p) {
+        const Timed& timed = plan[p];
+        const timing::TimingLog log = for_row(name, rows[timed.rows.front().first], [&] {
+            return time_program(program.emulator, program.plugin, timed.elf, {timed.function.name},
+                                {timed.function.address}, timed.request, {}, {})
+                .front();
+        });
+        for (const auto& [row, core] : timed.rows) {
+            const FunctionTime time = function_time(log, core);
+            const double per = rows[row].per;
+            const auto cycles = [per](std::int64_t half) { return static_cast<double>(half) / 2.0 / per; };
+            predicted[row] = {cycles(time.nominal.median),
+                              cycles(time.low),
+                              cycles(time.high),
+                              static_cast<double>(time.instructions.median) / per,
+                              {}};
+            for (std::size_t e = 0; e < timing::effect_count; ++e) {
+                predicted[row].lost[e] = cycles(time.lost[e].median);
+            }
+        }
+        progress.advance();
+    });
+    return predicted;
+}
+
+}  // namespace qemu

@@ -1,0 +1,39 @@
+// What the timing model predicts for measured cycles of any program's functions.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "qemu/emulate/emulator.hpp"
+#include "qemu/emulate/measured_calls.hpp"
+#include "qemu/timing/effects.hpp"
+
+namespace qemu {
+
+/// Medians of a function's calls, as `glsum time` has them, divided by the row's `per`.
+struct PredictedCall {
+    double cycles;
+    double low;  ///< of the band
+    double high;
+    double instructions;
+    std::array<double, timing::effect_count> lost;  ///< of `cycles`, to each effect
+};
+
+struct CallsProgram {
+    Emulator emulator;
+    std::filesystem::path plugin;
+    std::filesystem::path cores_folder;
+};
+
+/// Row by row. Each function of a program runs once, on all the cores and placements that rows ask of it.
+/// \param name     of the file of the rows; with a row's line it begins every message
+/// \param without  effects that cost nothing
+/// \param jobs     emulators at once
+/// \throws glsum::Failure as `Elf`, `timing::cores_of` and `time_program` do
+[[nodiscard]] std::vector<PredictedCall> predict_calls(const CallsProgram& program,
+                                                       const std::vector<MeasuredCall>& rows, const std::string& name,
+                                                       const std::vector<std::string>& without, unsigned jobs);
+
+}  // namespace qemu

@@ -1,0 +1,94 @@
+// Measured rows of any program: how they are read, and what is said of how well they are met.
+#include "qemu/emulate/rows_fit.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+qemu::MeasuredCall measured(const std::string& function, double cycles, double per = 1.0) {
+    return {"own.elf", function, "core", "itcm", "dtcm", cycles, per, 1};
+}
+qemu::PredictedCall predicted(double cycles, double low, double high, double instructions = 10.0) {
+    return {cycles, low, high, instructions, {}};
+}
+
+TEST(MeasuredCalls, PathsCountFromTheFilesFolderAndEmptyPlacesAreTheCores) {
+    const auto rows = qemu::parse_measured_calls(
+        "# note\nper,measured,data,code,core,function,elf,board\n2,31.5,,flash_cached,c,f(int),sub/a.elf,mine\n"
+        "1,7,axi,,c,g,/b.elf,mine\n",
+        "m.csv", "folder");
+    ASSERT_EQ(rows.size(), 2U);
+    EXPECT_EQ(rows[0].elf, "folder/sub/a.elf");
+    EXPECT_EQ(rows[0].function, "f(int)");
+    EXPECT_EQ(rows[0].code, "flash");
+    EXPECT_EQ(rows[0].data, "");
+    EXPECT_EQ(rows[0].cycles, 31.5);
+    EXPECT_EQ(rows[0].per, 2.0);
+    EXPECT_EQ(rows[1].elf, "/b.elf");
+    EXPECT_EQ(rows[1].line, 4U);
+}
+
+TEST(RowsFit, ErrorsCoverageWidthAndScore) {
+    // Errors +10 %, 0, -20 % and +2 %; half-widths 5, 10, 12.5 and 4.9 %; the third lies outside by 10.
+    const std::vector<qemu::MeasuredCall> rows{measured("a", 100), measured("b", 200), measured("c", 100),
+                                               measured("d", 50)};
+    const std::vector<qemu::PredictedCall> calls{predicted(110, 100, 111), predicted(200, 180, 220),
+                                                 predicted(80, 70, 90), predicted(51, 49, 54)};
+    const qemu::RowsFit fit = qemu::fit_of(rows, calls);
+    EXPECT_NEAR(fit.median_error, 0.06, 1e-12);
+    EXPECT_NEAR(fit.worst_error, -0.2, 1e-12);
+    EXPECT_THAT(fit.worst, ElementsAre(2, 0, 3, 1));
+    EXPECT_NEAR(fit.inside, 0.75, 1e-12);
+    EXPECT_NEAR(fit.median_half_width, (5.5 / 110 + 0.1) / 2, 1e-12);
+    // Widths 11, 40, 20, 5, and 40 times the 10 cycles outside.
+    EXPECT_NEAR(fit.mean_interval_score, (0.11 + 0.2 + 0.2 + 40 * 0.1 + 0.1) / 4, 1e-12);
+    EXPECT_EQ(fit.missed, 2U);
+    EXPECT_TRUE(fit.rows[0].inside);  // on its edge
+    EXPECT_FALSE(fit.rows[2].inside);
+    EXPECT_FALSE(fit.rows[3].missed);
+    EXPECT_TRUE(fit.lines.empty());
+}
+
+TEST(RowsFit, ARowIsMissedByCyclesOfACallNotOfItsParts) {
+    const qemu::RowsFit fit =
+        qemu::fit_of({measured("a", 10, 1000), measured("b", 10)}, {predicted(11, 9, 12), predicted(17.9, 9, 18)});
+    EXPECT_TRUE(fit.rows[0].missed);   // 1000 cycles
+    EXPECT_FALSE(fit.rows[1].missed);  // 7.9 cycles
+}
+
+TEST(RowsFit, ALineThroughCallsOfDifferentLength) {
+    // Measured 0.8 cycles an instruction and 6, predicted 0.7 and 5, of which one row is told by a tenth.
+    const qemu::RowsFit fit = qemu::fit_of(
+        {measured("a", 14), measured("a", 22), measured("a", 3, 10), measured("b", 9)},
+        {predicted(12, 0, 99, 10), predicted(19, 0, 99, 20), predicted(2.6, 0, 99, 3), predicted(9, 8, 10)});
+    ASSERT_EQ(fit.lines.size(), 1U);
+    EXPECT_EQ(fit.lines[0].function, "a");
+    EXPECT_EQ(fit.lines[0].rows, 3U);
+    EXPECT_NEAR(fit.lines[0].measured_slope, 0.8, 1e-9);
+    EXPECT_NEAR(fit.lines[0].predicted_slope, 0.7, 1e-9);
+    EXPECT_NEAR(fit.lines[0].measured_constant, 6.0, 1e-9);
+    EXPECT_NEAR(fit.lines[0].predicted_constant, 5.0, 1e-9);
+}
+
+TEST(RowsFit, SaysWhereTheWorstRowsLostTheirCycles) {
+    std::vector<qemu::PredictedCall> calls{predicted(100, 90, 110), predicted(150, 140, 160)};
+    calls[1].lost[timing::index(timing::Effect::load_use)] = 12.0;
+    calls[1].lost[timing::index(timing::Effect::branch_mispredict)] = 30.5;
+    const std::vector<qemu::MeasuredCall> rows{measured("near", 100), measured("far", 100)};
+    const qemu::RowsFit fit = qemu::fit_of(rows, calls);
+    const std::string text = qemu::to_text("m.csv", rows, calls, fit);
+    EXPECT_THAT(text, HasSubstr("branch_mispredict 30.5, load_use 12"));
+    const auto json = nlohmann::json::parse(qemu::to_json("m.csv", rows, calls, fit));
+    EXPECT_EQ(json["rows"][1]["stalls"]["branch_mispredict"], 30.5);
+    EXPECT_EQ(json["rows"][1]["inside_band"], false);
+    EXPECT_EQ(json["missed"], 1);
+    EXPECT_EQ(json["inside_band"], 0.5);
+}
+
+}  // namespace
