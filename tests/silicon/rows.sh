@@ -1,6 +1,6 @@
 #!/bin/sh
 # rows.sh FIRMWARE FOLDER [GROUP...]: builds the programs of others whose cycles were measured on silicon, and writes
-# FOLDER/GROUP.csv for `glsum silicon --rows`. GROUP: aes, coremark, or both. Their sources stay where GLSUM_SHARED says
+# FOLDER/GROUP.csv for `glsum silicon --rows`. GROUP: aes, coremark, dhrystone, or all. Their sources stay where GLSUM_SHARED says
 # that they lie; without it there is nothing to do (77). FIRMWARE: the build folder of the emulated board's firmware.
 set -eu
 if [ -z "${GLSUM_SHARED:-}" ]; then
@@ -12,7 +12,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 targets=$here/../../targets
 firmware=$1 folder=$2
 shift 2
-[ $# -gt 0 ] || set -- aes coremark
+[ $# -gt 0 ] || set -- aes coremark dhrystone
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 core="-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"
@@ -97,9 +97,26 @@ coremark() {
     } >"$folder/coremark.csv"
 }
 
+# Calls, strings, records: 100 turns. 2.14 DMIPS/MHz are 10^6 / (2.14 * 1757) cycles a turn of Dhrystone.
+# shellcheck disable=SC2086
+dhrystone() {
+    into=$folder/dhrystone
+    rm -rf "$into"
+    mkdir -p "$into"
+    echo 'extern "C" int dhrystone_main(int); int firmware_main() { return dhrystone_main(100) == -1; }' >"$into/main.cpp"
+    arm-none-eabi-gcc $core -O2 -c "$here/dhrystone.c" -o "$into/dhrystone.o"
+    arm-none-eabi-g++ $core -O2 -fno-exceptions -fno-rtti -c "$into/main.cpp" -o "$into/main.o"
+    link "$into/dhrystone.elf" "$into/dhrystone.o" "$into/main.o"
+    {
+        echo "# a mix as Dhrystone's: Arm's figure for the Cortex-M7, of its own compiler, without inlining"
+        echo "$header"
+        echo "dhrystone/dhrystone.elf,dhrystone_turns,stm32h747-dtcm,itcm,dtcm,265.96,100"
+    } >"$folder/dhrystone.csv"
+}
+
 for group in "$@"; do
     case $group in
-        aes | coremark) "$group" ;;
-        *) echo "rows.sh: expected aes or coremark, found $group" >&2; exit 2 ;;
+        aes | coremark | dhrystone) "$group" ;;
+        *) echo "rows.sh: expected aes, coremark or dhrystone, found $group" >&2; exit 2 ;;
     esac
 done
