@@ -22,7 +22,7 @@ std::vector<MeasuredCall> parse_measured_calls(const std::string& text, const st
         rows.push_back({folder / table.text(i, "elf"), table.text(i, "function"), table.text(i, "core"),
                         code == "flash_cached" ? "flash" : code, table.one_of(i, "data", {"dtcm", "axi", ""}),
                         table.number<double>(i, "measured", 1e-6, 1e12), table.number<double>(i, "per", 1e-6, 1e12),
-                        table.line(i)});
+                        table.line(i), table.has("group") ? table.text(i, "group") : ""});
     }
     return rows;
 }

@@ -8,7 +8,8 @@
 
 namespace qemu {
 
-/// One row of such a file: elf,function,core,code,data,measured,per; further columns are allowed.
+/// One row of such a file: elf,function,core,code,data,measured,per; further columns are allowed, of which group is
+/// read.
 struct MeasuredCall {
     std::filesystem::path elf;  ///< paths are relative to the file that names them
     std::string function;       ///< as `Elf::function` takes it
@@ -18,6 +19,7 @@ struct MeasuredCall {
     double cycles;  ///< measured: a call's, divided by `per`
     double per;     ///< bytes, samples or turns of a call; 1 where the call itself is meant
     unsigned line;
+    std::string group = {};  ///< rows of one author, kernel or commit, where the file has that column
 };
 
 /// \param name    of the file; begins every message

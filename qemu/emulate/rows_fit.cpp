@@ -49,6 +49,46 @@ std::vector<RowLine> lines_of(const std::vector<MeasuredCall>& rows, const std::
     return lines;
 }
 
+// The least half-width that holds so many of these: the split-conformal quantile, which counts the row to come.
+double holding(std::vector<double> distances) {
+    std::sort(distances.begin(), distances.end());
+    const auto nth = static_cast<std::size_t>(std::ceil(band_coverage * static_cast<double>(distances.size() + 1)));
+    return distances[std::min(nth, distances.size()) - 1];
+}
+
+std::vector<GroupLeftOut> leave_out(const std::vector<MeasuredCall>& rows,
+                                    const std::vector<PredictedCall>& predicted) {
+    std::map<std::string, std::vector<std::size_t>> groups;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        groups[rows[i].group].push_back(i);
+    }
+    if (groups.size() < 2) {
+        return {};
+    }
+    const auto distance = [&](std::size_t i) { return std::abs(rows[i].cycles / predicted[i].cycles - 1.0); };
+    std::vector<GroupLeftOut> found;
+    for (const auto& [name, members] : groups) {
+        std::vector<double> others;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+            if (rows[i].group != name) {
+                others.push_back(distance(i));
+            }
+        }
+        GroupLeftOut left_out{name, members.size(), holding(others), 0.0, 0.0};
+        const auto share = 1.0 / static_cast<double>(members.size());
+        for (const std::size_t i : members) {
+            PredictedCall even = predicted[i];
+            even.low = even.cycles * (1.0 - left_out.half_width);
+            even.high = even.cycles * (1.0 + left_out.half_width);
+            const RowFit fit = fit_row(rows[i], even);
+            left_out.inside += fit.inside ? share : 0.0;
+            left_out.interval_score += share * fit.interval_score;
+        }
+        found.push_back(left_out);
+    }
+    return found;
+}
+
 }  // namespace
 
 bool misses(double predicted, double measured) {
@@ -82,6 +122,7 @@ RowsFit fit_of(const std::vector<MeasuredCall>& rows, const std::vector<Predicte
     fit.median_error = median_of(errors);
     fit.median_half_width = median_of(half_widths);
     fit.lines = lines_of(rows, predicted);
+    fit.left_out = leave_out(rows, predicted);
     return fit;
 }
 

@@ -46,6 +46,16 @@ struct RowLine {
     double predicted_constant;
 };
 
+/// A band of one width to either side, wide enough for `band_coverage` of the rows of all other groups: what it does on
+/// this one, which it has not seen.
+struct GroupLeftOut {
+    std::string group;
+    std::size_t rows;
+    double half_width;  ///< share of the predicted cycles
+    double inside;      ///< share of the group's rows
+    double interval_score;
+};
+
 struct RowsFit {
     std::vector<RowFit> rows;
     double median_error;       ///< absolute
@@ -54,8 +64,9 @@ struct RowsFit {
     double median_half_width;  ///< share of the predicted cycles
     double mean_interval_score;
     std::size_t missed;
-    std::vector<RowLine> lines;      ///< of functions with calls of different length, a quarter more at least
-    std::vector<std::size_t> worst;  ///< rows, the worst first
+    std::vector<RowLine> lines;          ///< of functions with calls of different length, a quarter more at least
+    std::vector<std::size_t> worst;      ///< rows, the worst first
+    std::vector<GroupLeftOut> left_out;  ///< where the rows are of several groups
 };
 
 /// \param predicted  a row each

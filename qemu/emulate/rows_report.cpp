@@ -60,6 +60,20 @@ std::string to_text(const std::string& name, const std::vector<MeasuredCall>& ro
         text += fmt::format("{:>5} {:<32} {:>+7.1f}%  {}\n", rows[i].line, rows[i].function, 100 * fit.rows[i].error,
                             losses_of(predicted[i]));
     }
+    if (!fit.left_out.empty()) {
+        text += fmt::format("\n{:<28} {:>5} {:>10} {:>8} {:>15}\n", "a band that holds the others", "rows",
+                            "half-width", "inside", "interval score");
+        double inside = 0.0;
+        double score = 0.0;
+        for (const GroupLeftOut& one : fit.left_out) {
+            text += fmt::format("{:<28} {:>5} {:>9.1f}% {:>7.1f}% {:>14.1f}%\n", one.group, one.rows,
+                                100 * one.half_width, 100 * one.inside, 100 * one.interval_score);
+            inside += one.inside * static_cast<double>(one.rows) / static_cast<double>(rows.size());
+            score += one.interval_score * static_cast<double>(one.rows) / static_cast<double>(rows.size());
+        }
+        text += fmt::format("{:<28} {:>5} {:>10} {:>7.1f}% {:>14.1f}%\n", "all, each unseen", rows.size(), "",
+                            100 * inside, 100 * score);
+    }
     text += fmt::format(
         "\nmedian error {:.2f} %, worst {:+.1f} %; {} of {} rows within {:.0f} % or {:.0f} cycles\n"
         "{:.1f} % of the rows inside the band; its median half-width {:.1f} %, mean interval score {:.1f} %\n",
@@ -107,6 +121,14 @@ std::string to_json(const std::string& name, const std::vector<MeasuredCall>& ro
              {"rows", line.rows},
              {"cycles_per_instruction", {{"measured", line.measured_slope}, {"predicted", line.predicted_slope}}},
              {"constant", {{"measured", line.measured_constant}, {"predicted", line.predicted_constant}}}});
+    }
+    json["left_out"] = Json::array();
+    for (const GroupLeftOut& one : fit.left_out) {
+        json["left_out"].push_back({{"group", one.group},
+                                    {"rows", one.rows},
+                                    {"half_width", one.half_width},
+                                    {"inside", one.inside},
+                                    {"interval_score", one.interval_score}});
     }
     json["median_error"] = fit.median_error;
     json["worst_error"] = fit.worst_error;

@@ -365,12 +365,12 @@ void Pipeline::follow_branch(const Decoded& d, const Event& event) {
             const State::Value& flags = state.values[registers::flags];
             const bool conditional = d.branch == Branch::conditional && d.condition != 0xE;
             const bool known = conditional && cycle - flags.cycle >= figures_.branch_flags_known_after;
-            const auto cycles = static_cast<std::int32_t>(
-                (known ? figures_.branch_mispredict_flags_known : figures_.branch_mispredict) -
-                (event.taken ? 0 : figures_.branch_fall_through_saves));
-            hold_next(Effect::branch_mispredict, 2 * (cycle + 1 + cycles));
+            // What a right guess would have let issue in the branch's own cycle issues so much later.
+            const auto cycles =
+                static_cast<std::int32_t>(known ? figures_.branch_mispredict_flags_known : figures_.branch_mispredict);
+            hold_next(Effect::branch_mispredict, 2 * (cycle + cycles));
             if (!off_[index(Effect::branch_mispredict)]) {
-                state.fetch_ready = std::max(state.fetch_ready, cycle + cycles);
+                state.fetch_ready = std::max(state.fetch_ready, cycle + cycles - 1);
             }
             break;
         }

@@ -1,7 +1,8 @@
 #!/bin/sh
 # rows.sh FIRMWARE FOLDER [GROUP...]: builds the programs of others whose cycles were measured on silicon, and writes
-# FOLDER/GROUP.csv for `glsum silicon --rows`. GROUP: aes, coremark, or both. Their sources stay where GLSUM_SHARED says
-# that they lie; without it there is nothing to do (77). FIRMWARE: the build folder of the emulated board's firmware.
+# FOLDER/GROUP.csv and FOLDER/all.csv for `glsum silicon --rows`. GROUP: aes, coremark, dhrystone; all of them unless given.
+# Their sources stay where GLSUM_SHARED says that they lie; without it there is nothing to do (77). FIRMWARE: the build
+# folder of the emulated board's firmware.
 set -eu
 if [ -z "${GLSUM_SHARED:-}" ]; then
     echo "GLSUM_SHARED is not set: no measured programs of others"
@@ -12,11 +13,11 @@ here=$(cd "$(dirname "$0")" && pwd)
 targets=$here/../../targets
 firmware=$1 folder=$2
 shift 2
-[ $# -gt 0 ] || set -- aes coremark
+[ $# -gt 0 ] || set -- aes coremark dhrystone
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 core="-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"
-header=elf,function,core,code,data,measured,per
+header=elf,function,core,code,data,measured,per,group
 
 # shellcheck disable=SC2086 # the core's flags are words
 link() {  # ELF OBJECT...
@@ -41,7 +42,7 @@ aes() {
         echo "$header"
     } >"$folder/aes.csv"
     nth=0
-    while IFS=, read -r _ function kind bits measured unit source schedule_source schedule tables; do
+    while IFS=, read -r commit function kind bits measured unit source schedule_source schedule tables; do
         nth=$((nth + 1))
         case $kind in
             "key schedule") number=0 ;;
@@ -72,7 +73,7 @@ aes() {
         object=$into/$(echo "$tables" | tr '/.' '__').o
         [ -e "$object" ] || arm-none-eabi-gcc $core -O2 -fdata-sections -c "$from/$tables" -o "$object"
         link "$into/$nth.elf" $objects "$object"
-        echo "aes/$nth.elf,$function,stm32h747-dtcm,itcm,dtcm,$measured,$per" >>"$folder/aes.csv"
+        echo "aes/$nth.elf,$function,stm32h747-dtcm,itcm,dtcm,$measured,$per,$commit" >>"$folder/aes.csv"
     done <"$into/rows"
 }
 
@@ -93,13 +94,35 @@ coremark() {
     {
         echo "# CoreMark, 10^6 / 4.08 cycles an iteration: by GCC -O3 of other versions than this one"
         echo "$header"
-        echo "coremark/coremark.elf,iterate,stm32h747-dtcm,itcm,dtcm,245098,10"
+        echo "coremark/coremark.elf,iterate,stm32h747-dtcm,itcm,dtcm,245098,10,coremark"
     } >"$folder/coremark.csv"
 }
 
+# Calls, strings, records: 100 turns. 2.14 DMIPS/MHz are 10^6 / (2.14 * 1757) cycles a turn of Dhrystone.
+# shellcheck disable=SC2086
+dhrystone() {
+    into=$folder/dhrystone
+    rm -rf "$into"
+    mkdir -p "$into"
+    echo 'extern "C" int dhrystone_main(int); int firmware_main() { return dhrystone_main(100) == -1; }' >"$into/main.cpp"
+    arm-none-eabi-gcc $core -O2 -c "$here/dhrystone.c" -o "$into/dhrystone.o"
+    arm-none-eabi-g++ $core -O2 -fno-exceptions -fno-rtti -c "$into/main.cpp" -o "$into/main.o"
+    link "$into/dhrystone.elf" "$into/dhrystone.o" "$into/main.o"
+    {
+        echo "# a mix as Dhrystone's: Arm's figure for the Cortex-M7, of its own compiler, without inlining"
+        echo "$header"
+        echo "dhrystone/dhrystone.elf,dhrystone_turns,stm32h747-dtcm,itcm,dtcm,265.96,100,dhrystone"
+    } >"$folder/dhrystone.csv"
+}
+
+{
+    echo "# All groups in one; the assembly by its commits"
+    echo "$header"
+} >"$folder/all.csv"
 for group in "$@"; do
     case $group in
-        aes | coremark) "$group" ;;
-        *) echo "rows.sh: expected aes or coremark, found $group" >&2; exit 2 ;;
+        aes | coremark | dhrystone) "$group" ;;
+        *) echo "rows.sh: expected aes, coremark or dhrystone, found $group" >&2; exit 2 ;;
     esac
+    sed '/^#/d; /^elf,/d' "$folder/$group.csv" >>"$folder/all.csv"
 done

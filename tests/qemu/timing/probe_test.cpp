@@ -212,10 +212,13 @@ constexpr Probe probes[] = {
     {"12.2", "1: subs.w r6,r6,#1; bne 1b", 1, "stm32f746-itcm", How::turns},
     {"12.3", "beq 2f; add.w r0,r1,r2; 2:", 1},  // not taken: pairs
     {"12.4", "1: add.w r0,r1,r2; subs.w r6,r6,#1; bne 1b", 2, "stm32f746-itcm", How::turns},
-    {"12.5", "9: subs.w r6,r6,#1; bne 9b", 5},  // not taken, against the static guess: 8 less 4
-    {"12.6", "9: subs.w r6,r6,#1; nop.w; nop.w; nop.w; nop.w; nop.w; bne 9b", 6},  // the flags are known by then
+    {"12.5", "9: subs.w r6,r6,#1; bne 9b", 8},  // not taken, against the static guess
+    {"12.6", "9: subs.w r6,r6,#1; nop.w; nop.w; nop.w; nop.w; nop.w; bne 9b", 9},  // the flags are known by then
     {"12.7", "b 9f; nop.w; 9:", 3},                                                // met for the first time
     {"12.8", "beq 9f; beq 9f; nop.w; 9:", 2},
+    // A foreseen branch issues with the first instruction at its target, where the fetch is ahead of it.
+    {"12.11", "1: add r0,r0,r1; subs r6,r6,#1; bne 1b", 1.5, "stm32f746-itcm", How::turns},
+    {"12.12", "1: add r0,r0,r1; b 2f; .p2align 3; 2: subs r6,r6,#1; bne 1b", 2, "stm32f746-itcm", How::turns},
     {"12.10", "1: bl 8f; bl 8f; b 9f; 8: bx lr; 9: subs r6,r6,#1; bne 1b", 6, "stm32f746-itcm", How::turns},
     {"12.9", "beq 9f; add.w r0,r1,r2; add.w r3,r4,r5; 9:", 1.5},  // no slot is lost behind a branch that is not taken
     // 13: fetching
@@ -226,11 +229,12 @@ constexpr Probe probes[] = {
      How::turns},                                                                                  // 3 lines, 2 ways
     {"13.5", "nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w", 8, "stm32f746-flash-art"},  // read ahead
     // 14: data memories
-    {"14.1", "1: ldr r0,[r1],#32; bne 1b", 16, "stm32h747-axi", How::turns},    // 14 more each; the branch behind it
-    {"14.2", "1: ldr r0,[r1],#4; bne 1b", 2.875, "stm32h747-axi", How::turns},  // one in eight
+    {"14.1", "1: ldr r0,[r1],#32; bne 1b", 15, "stm32h747-axi", How::turns},  // 14 more each, behind which the branch
+    {"14.2", "1: ldr r0,[r1],#4; bne 1b", 2.75, "stm32h747-axi",
+     How::turns},  // one in eight; the next load is beside it
     {"14.3", "1: ldr.w r0,[r1]; ldr.w r0,[r2]; ldr.w r0,[r3]; ldr.w r0,[r4]; bne 1b", 4, "stm32h747-axi", How::turns},
     {"14.4",
-     "1: ldr.w r0,[r1]; ldr.w r0,[r1,#1024]; ldr.w r0,[r1,#2048]; ldr.w r0,[r1,#3072]; ldr.w r0,[r9,#2048]; bne 1b", 36,
+     "1: ldr.w r0,[r1]; ldr.w r0,[r1,#1024]; ldr.w r0,[r1,#2048]; ldr.w r0,[r1,#3072]; ldr.w r0,[r9,#2048]; bne 1b", 35,
      "stm32f746-itcm", How::turns, true},  // five lines of one set of four: 7 each
     {"14.5", "1: ldr.w r0,[r1]; ldr.w r0,[r1,#1024]; ldr.w r0,[r1,#2048]; ldr.w r0,[r1,#3072]; bne 1b", 4,
      "stm32f746-itcm", How::turns, true},

@@ -20,8 +20,8 @@ qemu::PredictedCall predicted(double cycles, double low, double high, double ins
 
 TEST(MeasuredCalls, PathsCountFromTheFilesFolderAndEmptyPlacesAreTheCores) {
     const auto rows = qemu::parse_measured_calls(
-        "# note\nper,measured,data,code,core,function,elf,board\n2,31.5,,flash_cached,c,f(int),sub/a.elf,mine\n"
-        "1,7,axi,,c,g,/b.elf,mine\n",
+        "# note\nper,measured,data,code,core,function,elf,group\n2,31.5,,flash_cached,c,f(int),sub/a.elf,mine\n"
+        "1,7,axi,,c,g,/b.elf,\n",
         "m.csv", "folder");
     ASSERT_EQ(rows.size(), 2U);
     EXPECT_EQ(rows[0].elf, "folder/sub/a.elf");
@@ -30,6 +30,7 @@ TEST(MeasuredCalls, PathsCountFromTheFilesFolderAndEmptyPlacesAreTheCores) {
     EXPECT_EQ(rows[0].data, "");
     EXPECT_EQ(rows[0].cycles, 31.5);
     EXPECT_EQ(rows[0].per, 2.0);
+    EXPECT_EQ(rows[0].group, "mine");
     EXPECT_EQ(rows[1].elf, "/b.elf");
     EXPECT_EQ(rows[1].line, 4U);
 }
@@ -74,6 +75,35 @@ TEST(RowsFit, ALineThroughCallsOfDifferentLength) {
     EXPECT_NEAR(fit.lines[0].predicted_slope, 0.7, 1e-9);
     EXPECT_NEAR(fit.lines[0].measured_constant, 6.0, 1e-9);
     EXPECT_NEAR(fit.lines[0].predicted_constant, 5.0, 1e-9);
+}
+
+// Each group is judged by a band that holds 95 % of the others' rows.
+TEST(RowsFit, LeavesEachGroupOut) {
+    std::vector<qemu::MeasuredCall> rows;
+    std::vector<qemu::PredictedCall> calls;
+    const auto add = [&](const std::string& group, double cycles) {
+        rows.push_back(measured("f", cycles));
+        rows.back().group = group;
+        calls.push_back(predicted(100, 99, 101));
+    };
+    for (int row = 1; row <= 20; ++row) {
+        add("a", 100 + 0.1 * row);  // 0.1 to 2 %
+    }
+    add("b", 101);
+    add("b", 104);
+    const auto left_out = qemu::fit_of(rows, calls).left_out;
+    ASSERT_EQ(left_out.size(), 2U);
+    EXPECT_EQ(left_out[0].group, "a");
+    EXPECT_NEAR(left_out[0].half_width, 0.04, 1e-12);  // of two rows the greater
+    EXPECT_NEAR(left_out[0].inside, 1.0, 1e-12);
+    EXPECT_EQ(left_out[1].rows, 2U);
+    EXPECT_NEAR(left_out[1].half_width, 0.02, 1e-12);  // 0.95 of 21: the twentieth
+    EXPECT_NEAR(left_out[1].inside, 0.5, 1e-12);
+    EXPECT_NEAR(left_out[1].interval_score, (4.0 / 101 + (4.0 + 40 * 2.0) / 104) / 2, 1e-12);
+    for (qemu::MeasuredCall& row : rows) {
+        row.group = "one";
+    }
+    EXPECT_TRUE(qemu::fit_of(rows, calls).left_out.empty());
 }
 
 TEST(RowsFit, SaysWhereTheWorstRowsLostTheirCycles) {
