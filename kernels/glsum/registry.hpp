@@ -18,6 +18,7 @@
 #include "glsum/window/multi.hpp"
 #include "glsum/window/oldest.hpp"
 #include "glsum/window/paired.hpp"
+#include "glsum/window/pairwise.hpp"
 #include "glsum/window/plain.hpp"
 #include "glsum/window/ring.hpp"
 #include "glsum/window/scaled.hpp"

@@ -100,6 +100,7 @@ TEST(Shared, CallsAreTheHeaders) {
                 HasSubstr("my_f32_add(&sum, &lost, my_f32_multiply(table[i], older[i]));"));
     EXPECT_THAT(step("mirror_hornersplit_f32"), HasSubstr("my_f32_product(table[3], t3)"));
     EXPECT_THAT(step("ring_multi_f32"), HasSubstr("s2 = my_f32_multiply_add(s2, table[i + 2], older[i + 2]);"));
+    EXPECT_THAT(step("mirror_pairwise_f32"), HasSubstr("const float p7 = my_f32_multiply(a[7], x[7]);"));
     EXPECT_THAT(step("nested_plain_f32"), HasSubstr("const float block = my_f32_together(younger, past[at]);"));
     EXPECT_THAT(step("block_plain_q31"), HasSubstr("my_q31_add_share(S->coming + q, first + q, samples, count);"));
     EXPECT_THAT(step("mirrordelta_plain_q31"), HasSubstr("my_q31_saturate((int64_t)(newest) - S->before);"));

@@ -307,6 +307,16 @@ TEST(Roundings, AreThoseOfTheOrderOfTheSum) {
         EXPECT_EQ(HornerSplit::coefficient_roundings(j), j == 0 ? 0 : (j + 3) / 4);
     }
     EXPECT_EQ(Compensated::sum_roundings<F32>(1, 4096), 5U);  // second order: L^2 u twice
+    // 22 past samples are 16 and 6: a product, three additions among eight and one of two eights, which is joined to
+    // the six, and x_k. One of the six: the product, six additions, one half that waits, and x_k.
+    EXPECT_EQ(Pairwise::sum_roundings<F32>(0, taps), 1U);
+    EXPECT_EQ(Pairwise::sum_roundings<F32>(1, taps), 1U + 3 + 1 + 1 + 1);
+    EXPECT_EQ(Pairwise::sum_roundings<F32>(16, taps), 1U + 3 + 1 + 1 + 1);
+    EXPECT_EQ(Pairwise::sum_roundings<F32>(17, taps), 1U + 6 + 1 + 1);
+    // Each doubling of the length costs one.
+    for (std::size_t doublings = 3; doublings < 20; ++doublings) {
+        EXPECT_EQ(Pairwise::sum_roundings<F32>(1, (std::size_t{1} << doublings) + 1), doublings + 3) << doublings;
+    }
     // Four accumulators of as many lanes as fit 64 bytes, then a tree of them all, and x_k.
     EXPECT_EQ(Simd::sum_roundings<F32>(0, 601), 1U);
     std::size_t tree = 0;
