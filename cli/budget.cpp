@@ -12,9 +12,8 @@
 #include "base/failure.hpp"
 #include "bench/choose/derivative_plot.hpp"
 #include "bench/sweep/signals.hpp"
-#include "cli/band.hpp"
 #include "cli/board.hpp"
-#include "cli/name_value.hpp"
+#include "cli/derivative_goal.hpp"
 #include "glsum/weights.hpp"
 
 namespace cli {
@@ -52,50 +51,6 @@ std::vector<std::string> to_signals(const Budget& budget) {
         }
     }
     return signals;
-}
-
-// "5%" or "0.05".
-double to_share(const std::string& text) {
-    const bool percent = text.ends_with('%');
-    const auto value = to_number<double>(percent ? text.substr(0, text.size() - 1) : text);
-    if (!value || !(*value > 0.0) || !std::isfinite(*value)) {
-        refuse(fmt::format("--derivative-error: expected a share above 0, as in 5%, found {}", text));
-    }
-    return percent ? *value / 100.0 : *value;
-}
-
-// What is asked of the derivative itself; nothing where --max-error asks about the sum.
-std::optional<glsum::design::DerivativeGoal> to_goal(const Budget& budget) {
-    if (budget.derivative_error.empty()) {
-        if (!budget.band.empty() || budget.step_until_s != 0.0 || !budget.plot.empty()) {
-            refuse("--band, --step-until and --plot: only with --derivative-error");
-        }
-        return std::nullopt;
-    }
-    if (budget.max_error != 0.0 || !budget.signals.empty()) {
-        refuse(
-            "--derivative-error: it takes the place of --max-error and --signal, which speak of the sum; expected one");
-    }
-    if (budget.band.empty() && budget.step_until_s == 0.0) {
-        refuse("--derivative-error: expected --band, --step-until or both beside it");
-    }
-    glsum::design::DerivativeGoal goal{budget.order, budget.step_s};
-    if (!budget.band.empty()) {
-        goal.band = to_band("--band", budget.band, budget.step_s);
-    }
-    if (budget.step_until_s != 0.0) {
-        if (!glsum::design::has_step(budget.order)) {
-            refuse(fmt::format("--step-until: the derivative of order {:g} of a step is 0: no relative error",
-                               budget.order));
-        }
-        const double samples = budget.step_until_s / budget.step_s;
-        if (!(samples >= static_cast<double>(glsum::design::first_of_step) && samples <= most_samples)) {
-            refuse(fmt::format("--step-until: expected {} to {:g} samples, found {:g}", glsum::design::first_of_step,
-                               most_samples, samples));
-        }
-        goal.step_until_s = budget.step_until_s;
-    }
-    return goal;
 }
 
 }  // namespace
@@ -169,7 +124,7 @@ choose::Question to_question(const Budget& budget) {
     if (!(budget.step_s > 0.0 && budget.step_s <= 1000.0)) {
         refuse(fmt::format("--step-s: expected seconds above 0, up to 1000, found {}", budget.step_s));
     }
-    const auto goal = to_goal(budget);
+    const auto goal = derivative_goal(budget);
     if (!goal && !(std::isfinite(budget.max_error) && budget.max_error > 0.0)) {
         refuse(fmt::format("--max-error: expected a number above 0, found {}", budget.max_error));
     }
@@ -202,7 +157,7 @@ choose::Question to_question(const Budget& budget) {
     const bool counts = question.target == choose::Target::host || (budget.max_instructions && budget.core.empty());
     question.core = counts ? "" : budget.core.empty() ? default_core : budget.core;
     question.kernels = choose::kernels_of(question.target, question.conditions.order);
-    question.max_error = goal ? to_share(budget.derivative_error) : budget.max_error;
+    question.max_error = goal ? derivative_error(budget) : budget.max_error;
     question.goal = goal;
     question.max_cycles = budget.max_cycles;
     question.max_instructions = budget.max_instructions;

@@ -9,18 +9,17 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
-#include "base/glob.hpp"
 #include "bench/choose/derivative_text.hpp"
 #include "bench/choose/report.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/generate/provenance.hpp"
 #include "bench/generate/verify.hpp"
-#include "bench/sweep/designs.hpp"
 #include "bench/target/target_rows.hpp"
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
 #include "cli/generate_controller.hpp"
+#include "cli/header_options.hpp"
 
 namespace cli {
 namespace {
@@ -28,39 +27,7 @@ namespace {
 using glsum::Exit;
 using glsum::Failure;
 
-struct Options {
-    std::string kernel;
-    std::string taps;
-    std::string prefix;
-    std::string licence;
-    std::string out;
-    std::string controller;
-    std::string plant;
-    std::string json;
-    bool verify = false;
-};
-
 [[noreturn]] void refuse(const std::string& what) { throw Failure(Exit::bad_input, what); }
-
-// Kernels that match what was typed; one that is there but cannot be generated is refused by name. Of several those
-// that do not take the order are left out, and named.
-std::vector<std::string> named_kernels(const std::string& glob, double order) {
-    std::vector<std::string> kernels = generate::generatable();
-    std::erase_if(kernels, [&](const std::string& kernel) { return !base::matches(glob, kernel); });
-    if (kernels.size() > 1) {
-        std::erase_if(kernels, [&](const std::string& kernel) {
-            const bool serves = bench::serves(kernel, order);
-            if (!serves) {
-                fmt::print("{} is left out: it does not take order {}\n", kernel, order);
-            }
-            return !serves;
-        });
-    }
-    if (kernels.empty()) {
-        kernels = {glob};  // make_header says why not
-    }
-    return kernels;
-}
 
 choose::Answer choose_one(const Budget& budget) {
     choose::Question question = to_question(budget);
@@ -77,47 +44,7 @@ choose::Answer choose_one(const Budget& budget) {
     return answer;
 }
 
-// The length as a kernel counts it: a number, or 2+7 of near taps and modes or blocks, parted as a design of so many
-// has them.
-std::size_t to_taps(const std::string& text, const std::string& kernel, double order, std::size_t samples) {
-    const auto length = text == "full" ? std::nullopt : bench::parse_length(text, 0);
-    if (!length || length->taps > 8000) {
-        refuse(
-            fmt::format("--taps: expected 1 to 8000 with --kernel, or 2+7 of a kernel with modes or blocks, found {}",
-                        text.empty() ? "nothing" : text));
-    }
-    if (length->modes) {
-        const std::vector<std::string> known = generate::generatable();
-        const bench::Length written = bench::as_counted(kernel, *length);
-        const bench::Length parted = std::find(known.begin(), known.end(), kernel) == known.end()
-                                         ? written
-                                         : bench::length_of(kernel, order, written.taps, samples);
-        if (parted.text() != written.text()) {
-            refuse(fmt::format("--taps: {} at order {} with as many coefficients has {}, found {}", kernel, order,
-                               parted.text(), text));
-        }
-        return written.taps;
-    }
-    return length->taps;
-}
-
-generate::Spec to_spec(const Options& options, const Budget& budget, const std::string& kernel, std::size_t taps) {
-    generate::Spec spec;
-    spec.kernel = kernel;
-    spec.order = budget.order;
-    spec.taps = taps;
-    spec.step_s = budget.step_s;
-    spec.prefix = !options.prefix.empty() ? options.prefix
-                  : options.out.empty()   ? spec.prefix
-                                          : generate::prefix_of_file(options.out);
-    spec.horizon = samples_of(budget);
-    if (!options.licence.empty()) {
-        spec.licence = options.licence;
-    }
-    return spec;
-}
-
-void run(const Options& options, Budget budget, const std::string& command) {
+void run(const HeaderOptions& options, Budget budget, const std::string& command) {
     if (!options.controller.empty()) {
         if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
             refuse(
@@ -208,7 +135,7 @@ void run(const Options& options, Budget budget, const std::string& command) {
 
 void add_options(Command& command, const Words& words) {
     auto budget = add_budget(command, false);
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<HeaderOptions>();
     command.add_option("--kernel", options->kernel, "This kernel instead of a choice (with --verify: a glob)");
     command.add_option("--taps", options->taps,
                        "Its length, with --kernel: a number, or 2+7 of near taps and modes or blocks");

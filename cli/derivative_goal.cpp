@@ -1,0 +1,62 @@
+#include "cli/derivative_goal.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/failure.hpp"
+#include "cli/band.hpp"
+#include "cli/name_value.hpp"
+
+namespace cli {
+namespace {
+
+[[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
+
+}  // namespace
+
+std::optional<glsum::design::DerivativeGoal> derivative_goal(const Budget& budget) {
+    if (budget.derivative_error.empty()) {
+        if (!budget.band.empty() || budget.step_until_s != 0.0 || !budget.plot.empty()) {
+            refuse("--band, --step-until and --plot: only with --derivative-error");
+        }
+        return std::nullopt;
+    }
+    if (budget.max_error != 0.0 || !budget.signals.empty()) {
+        refuse(
+            "--derivative-error: it takes the place of --max-error and --signal, which speak of the sum; expected one");
+    }
+    if (budget.band.empty() && budget.step_until_s == 0.0) {
+        refuse("--derivative-error: expected --band, --step-until or both beside it");
+    }
+    glsum::design::DerivativeGoal goal{budget.order, budget.step_s};
+    if (!budget.band.empty()) {
+        goal.band = to_band("--band", budget.band, budget.step_s);
+    }
+    if (budget.step_until_s != 0.0) {
+        if (!glsum::design::has_step(budget.order)) {
+            refuse(fmt::format("--step-until: the derivative of order {:g} of a step is 0: no relative error",
+                               budget.order));
+        }
+        const double samples = budget.step_until_s / budget.step_s;
+        if (!(samples >= static_cast<double>(glsum::design::first_of_step) && samples <= most_samples)) {
+            refuse(fmt::format("--step-until: expected {} to {:g} samples, found {:g}", glsum::design::first_of_step,
+                               most_samples, samples));
+        }
+        goal.step_until_s = budget.step_until_s;
+    }
+    return goal;
+}
+
+double derivative_error(const Budget& budget) {
+    const std::string& text = budget.derivative_error;
+    const bool percent = text.ends_with('%');
+    const auto value = to_number<double>(percent ? text.substr(0, text.size() - 1) : text);
+    if (!value || !(*value > 0.0) || !std::isfinite(*value)) {
+        refuse(fmt::format("--derivative-error: expected a share above 0, as in 5%, found {}", text));
+    }
+    return percent ? *value / 100.0 : *value;
+}
+
+}  // namespace cli
