@@ -29,7 +29,10 @@ public:
         typename K::Output newest{};
         const auto* samples = samples_.data();
         for (std::size_t k = from; k < from + count; ++k) {
-            benchmark::DoNotOptimize(newest = line.step(samples[k % stream_samples]));
+            // A constant: what may be changed, GCC may lose in the statement that keeps it.
+            const typename K::Output output = line.step(samples[k % stream_samples]);
+            benchmark::DoNotOptimize(output);
+            newest = output;
         }
         return K::to_real(line.state(), newest);
     }

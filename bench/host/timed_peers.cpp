@@ -24,7 +24,10 @@ public:
         typename Dot::Sum newest{};
         const auto* samples = samples_.data();
         for (std::size_t k = from; k < from + count; ++k) {
-            benchmark::DoNotOptimize(newest = line.step(samples[k % stream_samples]));
+            // A constant: what may be changed, GCC may lose in the statement that keeps it.
+            const typename Dot::Sum output = line.step(samples[k % stream_samples]);
+            benchmark::DoNotOptimize(output);
+            newest = output;
         }
         return numbers_.real(newest);
     }
