@@ -29,9 +29,10 @@ public:
         typename K::Output newest{};
         const auto* samples = samples_.data();
         for (std::size_t k = from; k < from + count; ++k) {
-            // A constant: what may be changed, GCC may lose in the statement that keeps it.
+            // A copy: GCC may lose what the statement may change, and newer benchmark libraries refuse a constant.
             const typename K::Output output = line.step(samples[k % stream_samples]);
-            benchmark::DoNotOptimize(output);
+            typename K::Output kept = output;
+            benchmark::DoNotOptimize(kept);
             newest = output;
         }
         return K::to_real(line.state(), newest);

@@ -24,9 +24,10 @@ public:
         typename Dot::Sum newest{};
         const auto* samples = samples_.data();
         for (std::size_t k = from; k < from + count; ++k) {
-            // A constant: what may be changed, GCC may lose in the statement that keeps it.
+            // A copy: GCC may lose what the statement may change, and newer benchmark libraries refuse a constant.
             const typename Dot::Sum output = line.step(samples[k % stream_samples]);
-            benchmark::DoNotOptimize(output);
+            typename Dot::Sum kept = output;
+            benchmark::DoNotOptimize(kept);
             newest = output;
         }
         return numbers_.real(newest);
