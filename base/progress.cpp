@@ -35,6 +35,13 @@ void Progress::advance(std::size_t steps) {
     }
 }
 
+std::string Progress::remaining(double seconds) const {
+    if (done_ == 0 || done_ >= total_) {
+        return "";
+    }
+    return fmt::format(", {:.0f} s left", seconds / static_cast<double>(done_) * static_cast<double>(total_ - done_));
+}
+
 void Progress::show() {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     shown_tenth_ = done_ * 10 / total_;
@@ -44,8 +51,8 @@ void Progress::show() {
     }
     constexpr std::size_t width = 30;
     const std::size_t filled = std::min(width, done_ * width / total_);
-    fmt::print(stderr, "\r{:<26} [{:#<{}}{:.<{}}] {}/{} {:.0f} s ", title_, "", filled, "", width - filled, done_,
-               total_, seconds);
+    fmt::print(stderr, "\r{:<26} [{:#<{}}{:.<{}}] {}/{} {:.0f} s{:<16}", title_, "", filled, "", width - filled, done_,
+               total_, seconds, remaining(seconds));
     std::fflush(stderr);
 }
 

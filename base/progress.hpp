@@ -1,4 +1,4 @@
-// Progress of long work: a bar on a terminal, a plain line every tenth elsewhere. Thread-safe.
+// Progress of long work: a bar with what remains on a terminal, a plain line every tenth elsewhere. Thread-safe.
 #pragma once
 
 #include <chrono>
@@ -19,6 +19,8 @@ public:
 
 private:
     void show();
+    /// As if the rest took as long a step as what is done; on a terminal.
+    [[nodiscard]] std::string remaining(double seconds) const;
 
     std::mutex mutex_;
     std::string title_;

@@ -35,6 +35,7 @@ struct Options {
     std::optional<unsigned> repetitions;
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
     std::filesystem::path out;
+    std::string table;
 };
 
 std::vector<std::string> targets_of(const Options& options) {
@@ -129,7 +130,7 @@ void run(const Options& options, const std::vector<std::string>& flags) {
     }
     const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
     if (!shard) {
-        finish_run(out, results, sweep.jobs);
+        finish_run(out, results, sweep.jobs, options.table);
         return;
     }
     bench::write_results(out, results.context, results.rows);
@@ -181,6 +182,7 @@ void add_options(Command& command, const Words& words) {
     command.add_option("--jobs", options->jobs, "Threads and emulators at once").between(1, 1024);
     command.add_option("--out", options->out,
                        "Result file (default: results/latest.json); .csv, .svg and .png are written beside it");
+    add_table_option(command, options->table);
     command.callback([options, &words] { run(*options, words.passed_on); });
 }
 

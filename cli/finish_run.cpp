@@ -8,6 +8,7 @@
 
 #include "base/failure.hpp"
 #include "bench/report/discretisation_table.hpp"
+#include "bench/report/front_table.hpp"
 #include "bench/report/plot.hpp"
 #include "bench/report/table.hpp"
 #include "bench/rows/csv.hpp"
@@ -15,7 +16,31 @@
 
 namespace cli {
 
-void finish_run(const std::filesystem::path& out, const bench::Results& results, unsigned jobs) {
+namespace {
+
+constexpr std::ptrdiff_t screen_lines = 60;
+
+std::string tables(const std::vector<bench::Group>& groups, const bench::Results& results, const std::string& table) {
+    std::string all = bench::to_table(groups, isatty(STDOUT_FILENO) == 1) +
+                      bench::discretisation_table(results.context, results.rows);
+    if (table == "all" || (table.empty() && std::count(all.begin(), all.end(), '\n') <= screen_lines)) {
+        return all;
+    }
+    const auto costs = bench::report::costs_of(groups);
+    const std::string front = bench::report::front_table(bench::report::curve_points(groups, costs), costs);
+    return front.empty() ? all : front;
+}
+
+}  // namespace
+
+void add_table_option(Command& command, std::string& table) {
+    command.add_option("--table", table, "front: the cheapest kernels of each order; all: every kernel at every length")
+        .one_of({"front", "all"})
+        .default_str("all where it fits a screen");
+}
+
+void finish_run(const std::filesystem::path& out, const bench::Results& results, unsigned jobs,
+                const std::string& table) {
     const std::vector<bench::Group> groups = bench::group(results.rows);
     if (groups.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input,
@@ -29,10 +54,9 @@ void finish_run(const std::filesystem::path& out, const bench::Results& results,
     std::filesystem::path csv = stem;
     csv += ".csv";
     bench::write_csv(csv, results.rows);
-    fmt::print("{}{}", bench::to_table(groups, isatty(STDOUT_FILENO) == 1),
-               bench::discretisation_table(results.context, results.rows));
     bench::plot_error(groups, worst_of_signals(bench::truncation_bounds(results.context, results.rows, jobs)), stem);
-    fmt::print("\n{} rows in {}; beside it .csv, .svg and .png\n", results.rows.size(), out.string());
+    fmt::print("{}\n{} rows in {}; beside it .csv, .svg and .png; glsum report makes a page of it\n",
+               tables(groups, results, table), results.rows.size(), out.string());
     check_rows(results);
 }
 

@@ -16,6 +16,7 @@ struct Options {
     bool allow_mixed_hosts = false;
     unsigned jobs = 1;
     std::filesystem::path out = std::filesystem::path(build_info::source_folder) / "results" / "latest.json";
+    std::string table;
 };
 
 void run(const Options& options) {
@@ -24,7 +25,7 @@ void run(const Options& options) {
     for (const auto& path : options.shards) {
         shards.push_back({path.string(), bench::read_results(path)});
     }
-    finish_run(options.out, bench::merge(std::move(shards), options.allow_mixed_hosts), options.jobs);
+    finish_run(options.out, bench::merge(std::move(shards), options.allow_mixed_hosts), options.jobs, options.table);
 }
 
 }  // namespace
@@ -40,6 +41,7 @@ void add_options(Command& command, const Words&) {
     command.add_option("--jobs", options->jobs, "Threads at once, for the bound that the picture draws")
         .between(1, 1024);
     command.add_option("--out", options->out, "Result file; .csv, .svg and .png are written beside it");
+    add_table_option(command, options->table);
     command.callback([options] { run(*options); });
 }
 

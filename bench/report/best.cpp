@@ -5,35 +5,43 @@
 
 #include <algorithm>
 
-namespace bench::report {
-bool is_window(const CurvePoint& point) { return point.group->taps.find('+') == std::string::npos; }
+#include "bench/rows/key.hpp"
 
-std::vector<Best> best_of(const std::vector<CurvePoint>& points, const std::vector<Cost>& costs, std::size_t cost) {
+namespace bench::report {
+
+std::vector<std::string> orders_of(const std::vector<CurvePoint>& points) {
     std::vector<std::string> orders;
     for (const CurvePoint& point : points) {
         if (std::find(orders.begin(), orders.end(), point.group->order) == orders.end()) {
             orders.push_back(point.group->order);
         }
     }
+    return orders;
+}
+
+const CurvePoint* cheapest(const std::vector<CurvePoint>& points, const Cost& cost, const std::string& order,
+                           double limit, Memory memory) {
+    const CurvePoint* held = nullptr;
+    for (const CurvePoint& point : points) {
+        const auto now = ranked_cost(point, cost);
+        if (point.group->order != order || !now || *point.entry->error_max > limit ||
+            (memory == Memory::window && !is_window(point.group->taps))) {
+            continue;
+        }
+        const auto before = held == nullptr ? std::nullopt : ranked_cost(*held, cost);
+        if (!before || *now < *before || (*now == *before && *point.entry->error_max < *held->entry->error_max)) {
+            held = &point;
+        }
+    }
+    return held;
+}
+
+std::vector<Best> best_of(const std::vector<CurvePoint>& points, const std::vector<Cost>& costs, std::size_t cost) {
     std::vector<Best> all;
-    for (const std::string& order : orders) {
+    for (const std::string& order : orders_of(points)) {
         for (const double limit : error_limits) {
-            Best best{order, limit};
-            const auto take = [&](const CurvePoint*& held, const CurvePoint& point, double now) {
-                if (held == nullptr || now < *ranked_cost(*held, costs[cost])) {
-                    held = &point;
-                }
-            };
-            for (const CurvePoint& point : points) {
-                const auto now = ranked_cost(point, costs[cost]);
-                if (point.group->order == order && now && *point.entry->error_max <= limit) {
-                    take(best.point, point, *now);
-                    if (is_window(point)) {
-                        take(best.window, point, *now);
-                    }
-                }
-            }
-            all.push_back(best);
+            all.push_back({order, limit, cheapest(points, costs[cost], order, limit, Memory::any),
+                           cheapest(points, costs[cost], order, limit, Memory::window)});
         }
     }
     return all;

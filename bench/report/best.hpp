@@ -14,8 +14,14 @@ namespace bench::report {
 /// Limits of `error_max`, the worst of the signals.
 inline constexpr std::array<double, 4> error_limits = {1e-2, 1e-3, 1e-4, 1e-6};
 
-/// Whether the point's length is a window's: not near taps with modes or blocks.
-[[nodiscard]] bool is_window(const CurvePoint& point);
+/// The orders of the points, in the order of appearance.
+[[nodiscard]] std::vector<std::string> orders_of(const std::vector<CurvePoint>& points);
+
+enum class Memory { any, window };
+
+/// The cheapest of the order's ranked points that errs no more, of two that cost the same the more exact; null: none.
+[[nodiscard]] const CurvePoint* cheapest(const std::vector<CurvePoint>& points, const Cost& cost,
+                                         const std::string& order, double limit, Memory memory);
 
 struct Best {
     std::string order;

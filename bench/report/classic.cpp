@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "bench/report/best.hpp"
+#include "bench/rows/key.hpp"
 #include "glsum/catalogue.hpp"
 
 namespace bench::report {
@@ -36,7 +37,7 @@ std::string spread(const std::vector<Gain>& gains, double limit, const Cost& cos
 
 bool is_classic(const CurvePoint& point) {
     const glsum::CatalogueEntry* const kernel = glsum::find_kernel(point.entry->kernel);
-    return is_window(point) && kernel != nullptr && kernel->family == glsum::Family::window &&
+    return is_window(point.group->taps) && kernel != nullptr && kernel->family == glsum::Family::window &&
            kernel->forgotten == glsum::Forgotten::zero;
 }
 

@@ -96,7 +96,7 @@ std::string data_block(const std::vector<Group>& groups, const std::string& orde
     std::string block;
     for (const Group& group : groups) {
         // A line of windows alone: a design's modes have another truncation.
-        const bool is_of_line = !series.kernel.empty() || group.taps.find('+') == std::string::npos;
+        const bool is_of_line = !series.kernel.empty() || is_window(group.taps);
         const auto taps = is_of_line ? taps_of(group, groups) : std::nullopt;
         for (const Entry& entry : group.entries) {
             if (taps && group.order == order && (series.kernel.empty() || entry.kernel == series.kernel)) {
@@ -125,7 +125,7 @@ std::string tics(const std::vector<Group>& groups) {
             const bool has_room = taps && std::none_of(marked.begin(), marked.end(), [&](double other) {
                                       return windows ? other == *taps : other < *taps * room && *taps < other * room;
                                   });
-            if (has_room && (group.taps.find('+') == std::string::npos) == windows) {
+            if (has_room && is_window(group.taps) == windows) {
                 marked.push_back(*taps);
                 marks.push_back(fmt::format("\"{}\" {}", base::gnuplot_text(group.taps), *taps));
             }

@@ -154,6 +154,8 @@ std::string number_format_of(const std::string& kernel) {
     return entry != nullptr ? std::string(entry->format) : kernel.substr(kernel.rfind('_') + 1);
 }
 
+bool is_window(std::string_view taps) { return taps.find('+') == taps.npos; }
+
 std::optional<double> taps_number(const std::string& taps) {
     double sum = 0.0;
     const char* at = taps.data();

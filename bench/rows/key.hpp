@@ -68,6 +68,9 @@ inline constexpr const char* count_only = "count";
 /// A glob of all of a kernel's rows of sums.
 [[nodiscard]] std::string rows_of(const std::string& kernel);
 
+/// Whether a length of a name is a window's ("600", "full"), not one of near taps with modes or blocks ("2+7").
+[[nodiscard]] bool is_window(std::string_view taps);
+
 /// The length of "<near>[+<modes>]": how many terms its sum has. Nothing for `full`, whose length the name does not
 /// tell, and for what is no length.
 [[nodiscard]] std::optional<double> taps_number(const std::string& taps);

@@ -15,7 +15,7 @@ bench() {
         --out "$folder/$name.json" >"$folder/$name.txt" 2>"$folder/$name.err"
 }
 
-bench first --taps 50,120 || fail "first run: $(tail -n 3 "$folder/first.err")"
+bench first --taps 50,120 --table all || fail "first run: $(tail -n 3 "$folder/first.err")"
 bench second --taps 50,full --kernels 'ring_*_f32,ring_*_q31,modes_*,null,peer_std_f32' || fail "second run failed: $(tail -n 3 "$folder/second.err")"
 for file in first.json first.csv first.svg first.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
@@ -39,6 +39,15 @@ grep -q '"label": "instructions only; counted at order 0.5; double precision in 
     fail "expected the order of the count in the label"
 grep -qi 'nan\|infinity' "$folder/first.csv" && fail "a counter is not a number"
 grep -q 'double in software' "$folder/first.txt" || fail "expected the mark of double precision in software"
+
+# Without more said, the answer: a screen, no wider than 120 columns. All of it, where that fits a screen.
+bench screen --taps 50,120,200,600,full --kernels "*_plain_f32,*_multi_f32" --targets m7 || fail "third run: $(tail -n 3 "$folder/screen.err")"
+[ "$(wc -l <"$folder/screen.txt")" -le 60 ] && [ "$(wc -L <"$folder/screen.txt")" -le 120 ] ||
+    fail "expected at most 60 lines of 120 columns, found $(wc -lL <"$folder/screen.txt")"
+grep -q "^order 0.5: the cheapest within each decade of error, by cycles of a Cortex-M7, modelled for stm32f746-itcm$" "$folder/screen.txt" &&
+    grep -q "^  Within 1e-4: modes[a-z]*_plain_f32 .* cycles; the cheapest window, " "$folder/screen.txt" || fail "expected the cheapest of each decade: $(head -n 9 "$folder/screen.txt")"
+bench few --taps 50 --kernels ring_plain_f32 --targets m7 && grep -q "error max  rounding" "$folder/few.txt" || fail "expected the whole table of few rows"
+bench none --table most; [ $? -eq 2 ] || fail "expected --table to be refused"
 grep -q '"error_occurred": true' "$folder/first.json" && fail "a row is wrong"
 
 # Same seed, same numbers, whatever is measured beside: everything but the host's times.

@@ -18,6 +18,7 @@
 #include "bench/report/columns.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/difference.hpp"
+#include "bench/report/front_table.hpp"
 #include "bench/rows/csv.hpp"
 #include "bench/rows/front.hpp"
 #include "bench/rows/key.hpp"
@@ -198,6 +199,46 @@ TEST(Best, IsTheCheapestThatKeepsTheLimitAndTheCheapestWindow) {
     EXPECT_NE(best_table(points, costs).find("dominated at every order and length: shift_plain_f32"),
               std::string::npos);
     EXPECT_EQ(best_table({}, costs), "");
+}
+
+// The answer of a run: a screen for four orders, whoever wins.
+TEST(FrontTable, SaysTheCheapestOfEachDecadeAndWhatThatSavesBesideAWindow) {
+    std::vector<bench::Json> rows;
+    const auto add = [&](const std::string& kernel, const std::string& order, const std::string& taps, double error,
+                         double cycles) {
+        const std::string name = "gl/" + kernel + "/order:" + order + "/taps:" + taps;
+        rows.emplace_back(bench::make_row(name + "/accuracy/signal:step", 1))["error_max"] = error;
+        auto& cost = rows.emplace_back(bench::make_row(name + "/m7:f746", 1));
+        cost["model_cycles_per_sample"] = cycles;
+        cost["state_bytes"] = 100;
+        cost["coefficient_bytes"] = 20;
+    };
+    add("ring_plain_f32", "0.5", "600", 5e-3, 900);
+    add("ring_plain_f32", "0.5", "full", 5e-5, 5000);
+    add("modes_plain_f32", "0.5", "2+7", 5e-3, 60);
+    add("modes_compensated_f32", "0.5", "2+7", 4e-3, 60);  // as cheap, more exact
+    add("modes_plain_f32", "0.5", "2+11", 9e-5, 90.4);
+    add("ring_plain_f32", "-0.5", "600", 7e-3, 650);
+    const auto groups = bench::group(rows);
+    const auto costs = costs_of(groups);
+    EXPECT_EQ(front_table(curve_points(groups, costs), costs), R"(
+order 0.5: the cheapest within each decade of error, by cycles of a Cortex-M7, modelled for f746
+      error   kernel                       taps           cycles     bytes
+    4.0e-03   modes_compensated_f32        2+7                60       120
+    9.0e-05   modes_plain_f32              2+11               90       120
+  Within 1e-2: modes_compensated_f32 2+7, 60 cycles; the cheapest window, ring_plain_f32 600: 15.0 times as much.
+  Within 1e-4: modes_plain_f32 2+11, 90 cycles; the cheapest window, ring_plain_f32 full: 55.3 times as much.
+
+order -0.5: the cheapest within each decade of error, by cycles of a Cortex-M7, modelled for f746
+      error   kernel                       taps           cycles     bytes
+    7.0e-03   ring_plain_f32               600               650       120
+  Within 1e-2: ring_plain_f32 600, 650 cycles; a window.
+  Within 1e-4: no kernel of this run.
+
+  error: worst of the signals, relative to the largest exact sum. Every kernel and length: --table all.
+)");
+    EXPECT_EQ(front_table({}, costs), "");
+    EXPECT_EQ(front_table({}, {}), "");
 }
 
 // Of one signal: what each costs and errs. The newer order comes first and has no classic window.
