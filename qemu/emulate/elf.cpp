@@ -13,6 +13,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "base/failure.hpp"
 #include "base/nearest_name.hpp"
@@ -44,14 +45,20 @@ struct Attributes {
     unsigned architecture = 0;
     unsigned profile = 0;
 };
-Attributes parse(const std::vector<unsigned char>& bytes) {
+Attributes parse(std::span<const unsigned char> bytes) {
     Attributes found;
     // 'A', then a section: its length, "aeabi", then of the whole file: tag 1, a length, and pairs of tag and value.
-    std::size_t at = 1 + 4 + 6 + 1 + 4;
+    constexpr std::size_t head = 1 + 4 + 6 + 1 + 4;
+    bytes = bytes.subspan(std::min(head, bytes.size()));
+    const auto next = [&] {
+        const unsigned char byte = bytes.front();
+        bytes = bytes.subspan(1);
+        return byte;
+    };
     const auto number = [&] {
         unsigned value = 0;
-        for (unsigned shift = 0; at < bytes.size(); shift += 7) {
-            const unsigned char byte = bytes[at++];
+        for (unsigned shift = 0; !bytes.empty(); shift += 7) {
+            const unsigned char byte = next();
             value |= (byte & 0x7FU) << (shift & 31U);
             if ((byte & 0x80U) == 0) {
                 break;
@@ -60,10 +67,10 @@ Attributes parse(const std::vector<unsigned char>& bytes) {
         return value;
     };
     const auto skip_text = [&] {
-        while (at < bytes.size() && bytes[at++] != 0) {
+        while (!bytes.empty() && next() != 0) {
         }
     };
-    while (at < bytes.size()) {
+    while (!bytes.empty()) {
         const unsigned tag = number();
         if (tag == 4 || tag == 5 || (tag > 32 && tag % 2 == 1)) {
             skip_text();

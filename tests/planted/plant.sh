@@ -87,7 +87,7 @@ tests_of() {
         gap/cycles/*) echo gap_cycles_tests ;;
         gap/*) echo gap_parts_tests gap_tests ;;
         qemu/timing/marked_timer.*) echo qemu_tests bench_tests ;;
-        qemu/timing/* | qemu/emulate/measured_* | qemu/emulate/rows_fit.cpp | qemu/emulate/silicon.cpp) echo timing_tests ;;
+        qemu/timing/* | qemu/emulate/measured_* | qemu/emulate/predicted_* | qemu/emulate/rows_* | qemu/emulate/silicon*) echo timing_tests ;;
         *) echo qemu_tests bench_tests ;;
     esac
 }

@@ -226,6 +226,9 @@ TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
         total += call.cores[0].half_cycles[0];
     }
     EXPECT_GT(p.calls[0].cores[0].losses[timing::index(timing::Effect::mac_latency)], 0);
+    // What the caller's next instruction moves is the return's doing.
+    EXPECT_FALSE(hot[0].contains(0x14));
+    EXPECT_TRUE(hot[0].contains(0x108));
     EXPECT_EQ(std::accumulate(hot[0].begin(), hot[0].end(), std::int64_t{0},
                               [](std::int64_t sum, const auto& row) { return sum + row.second; }),
               total);

@@ -22,6 +22,8 @@ TEST(CoreFile, TheNamedCoresAreThere) {
         const timing::CoreFile core = timing::read_core(cores, name);
         EXPECT_GE(core.sets.size(), 2U) << name;
         EXPECT_EQ(core.sets[0].name, "nominal");
+        EXPECT_NE(core.text.find("note = \"" + core.note), std::string::npos) << name;
+        EXPECT_FALSE(core.note.empty()) << name;
         for (const timing::Origin& origin : core.origins) {
             EXPECT_FALSE(origin.source.empty()) << origin.key;
             if (origin.mark == timing::Mark::fitted) {  // on which rows?
@@ -92,6 +94,17 @@ TEST(CoreFile, DamageIsNamedWithFileAndLine) {
     EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "effects_off = [\"friction\"]\nnote")
                   .find("no such effect: friction"),
               std::string::npos);
+}
+
+TEST(CoreFile, OneThatCannotBeReadIsNamed) {
+    const base::Scratch scratch;
+    std::filesystem::create_directory(scratch.file("folder.toml"));
+    try {
+        (void)timing::read_core(scratch.file(""), "folder");
+        FAIL();
+    } catch (const glsum::Failure& failure) {
+        EXPECT_NE(std::string(failure.what()).find("folder.toml: cannot read"), std::string::npos) << failure.what();
+    }
 }
 
 TEST(CoreFile, ACoreOrEffectThatDoesNotExistIsNamedWithThoseThatDo) {

@@ -166,6 +166,10 @@ TEST(Memory, PlacesDecideWhatAnAccessCosts) {
     EXPECT_EQ(flash.fetch(0x11F).cycles, 0);
     EXPECT_EQ(flash.load(0x20000000).cycles, 4 + 2);  // the bus, two beats of 32 bits
     EXPECT_EQ(flash.load(0x2000001C).cycles, 0);
+    // A store allocates: the line is read once.
+    EXPECT_EQ(flash.store(0x20000040).cycles, 4 + 2);
+    EXPECT_EQ(flash.store(0x20000040).cycles, 0);
+    EXPECT_EQ(flash.load(0x20000044).cycles, 0);
     timing::Figures accelerated = figures;
     accelerated.memory_art_lines = 64;
     accelerated.memory_art_prefetch = 1;

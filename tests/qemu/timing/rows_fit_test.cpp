@@ -100,6 +100,9 @@ TEST(RowsFit, LeavesEachGroupOut) {
     EXPECT_NEAR(left_out[1].half_width, 0.02, 1e-12);  // 0.95 of 21: the twentieth
     EXPECT_NEAR(left_out[1].inside, 0.5, 1e-12);
     EXPECT_NEAR(left_out[1].interval_score, (4.0 / 101 + (4.0 + 40 * 2.0) / 104) / 2, 1e-12);
+    const std::string text = qemu::to_text("m.csv", rows, calls, qemu::fit_of(rows, calls));
+    EXPECT_THAT(text, HasSubstr("\nb                                2       2.0%    50.0%           42.4%\n"));
+    EXPECT_THAT(text, HasSubstr("\nall, each unseen                22               95.5%"));
     for (qemu::MeasuredCall& row : rows) {
         row.group = "one";
     }
