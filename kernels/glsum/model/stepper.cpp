@@ -1,33 +1,16 @@
 #include "glsum/model/stepper.hpp"
 
+#include "glsum/model/stepper_body.hpp"
+
 namespace glsum {
 namespace {
 
 constexpr double magnitude(double real) { return real < 0.0 ? -real : real; }
 
-// What acts of two inputs by half each: in floating point their sum, the half being the factor's; in fixed point their
-// mean, rounded down, as the sum need not fit.
+// Of two inputs that act by half each: their mean, rounded down, as their sum need not fit.
 template <class Sample>
-Sample halves(Sample one, Sample other) {
-    if constexpr (std::is_floating_point_v<Sample>) {
-        return one + other;
-    } else {
-        return static_cast<Sample>((std::int64_t{one} + other) >> 1);
-    }
-}
-
-// Most models have one table: the branch of a loop over it would point backward and never be taken, which branch
-// predictors guess wrong at each step.
-template <class State, class Visit>
-[[gnu::always_inline]] inline void for_each_table(const State& state, Visit visit) {
-    if (state.tables != 0) {
-        visit(0);
-    }
-    if (state.tables > 1) [[unlikely]] {
-        for (std::uint32_t i = 1; i < state.tables; ++i) {
-            visit(i);
-        }
-    }
+Sample mean(Sample one, Sample other) {
+    return static_cast<Sample>((std::int64_t{one} + other) >> 1);
 }
 
 }  // namespace
@@ -87,11 +70,13 @@ Status Stepper<K>::prepare(State& state, const ModelDesign& design, std::span<Co
 
 template <class K>
 auto Stepper<K>::step(State& state, Sample input) -> Output {
-    Sample acting = state.line[state.line_at];
-    state.line[state.line_at] = input;
-    state.line_at = state.line_at + 1 == state.line_length ? 0 : state.line_at + 1;
+    Sample acting = exchange(state, input);
     if (state.half_input != 0) {
-        acting = halves(acting, state.line[state.line_at]);
+        if constexpr (fixed) {
+            acting = mean(acting, state.line[state.line_at]);
+        } else {
+            acting = with_next(state, acting);
+        }
     }
     if constexpr (fixed) {
         const auto times = [&](std::int32_t value, int exponent, const Gain& gain, unsigned bit) {
@@ -111,25 +96,10 @@ auto Stepper<K>::step(State& state, Sample input) -> Output {
         state.saturations += stored.saturated ? 1U : 0U;
         state.newest = stored.value;
         state.output = state.increments != 0 ? state.output + stored.value : stored.value;
+        return state.output;
     } else {
-        Sample sum = acting * state.input;
-        if (state.increments != 0) {
-            sum -= state.constant * state.output;
-        }
-        for_each_table(state, [&](std::uint32_t i) { sum -= state.factor[i] * K::step(state.sums[i], state.newest); });
-        state.newest = sum;
-        if (state.increments == 0) {
-            state.output = sum;
-        } else if constexpr (std::is_same_v<typename K::TechniquePart, Compensated>) {
-            const Output before = state.output;
-            const Output added = sum + state.lost;
-            state.output = before + added;
-            state.lost = added - (state.output - before);
-        } else {
-            state.output += sum;
-        }
+        return step_floating<K>(state, acting);
     }
-    return state.output;
 }
 
 template class Stepper<Sum<Ring, Plain, F32>>;
