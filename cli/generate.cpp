@@ -19,6 +19,7 @@
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
 #include "cli/generate_controller.hpp"
+#include "cli/generate_model.hpp"
 #include "cli/header_options.hpp"
 
 namespace cli {
@@ -60,10 +61,27 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
             command);
         return;
     }
-    for (const auto& [option, value] : {std::pair("--plant", &options.plant), std::pair("--json", &options.json)}) {
-        if (!value->empty()) {
-            refuse(fmt::format("{}: expected --controller beside it", option));
+    if (!options.model.empty()) {
+        if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty() ||
+            !options.plant.empty()) {
+            refuse(
+                "--model: expected --out, --step-s, --max-error, --samples, --verify, --core, --json, --prefix and "
+                "--licence alone beside it");
         }
+        if (!budget.core.empty() && !options.verify) {
+            refuse("--core: expected --verify beside it and --model");
+        }
+        generate_model({options.model, options.json, options.out, options.prefix, options.licence,
+                        budget.core.empty() ? default_core : budget.core, options.verify, budget.max_error,
+                        budget.step_s, budget.samples},
+                       command);
+        return;
+    }
+    if (!options.plant.empty()) {
+        refuse("--plant: expected --controller beside it");
+    }
+    if (!options.json.empty()) {
+        refuse("--json: expected --controller or --model beside it");
     }
     if (std::isnan(budget.order)) {
         refuse("--order is required");
@@ -145,10 +163,14 @@ void add_options(Command& command, const Words& words) {
     command.add_option("--out", options->out, "The header");
     command.add_option("--controller", options->controller,
                        "A controller file instead of a sum: a fractional PID with limits as one header");
+    command.add_option("--model", options->model,
+                       "A model file instead of a sum: a plant in real time as one header, stepped with the fewest "
+                       "multiplications that keep --max-error");
     command.add_option("--plant", options->plant,
                        "With --controller: a model file; the loop is measured beside full memory in double, and its "
                        "margins are told; an unstable one is refused");
-    command.add_option("--json", options->json, "With --controller: what was found, schema glsum-controller-1");
+    command.add_option("--json", options->json,
+                       "What was found: with --controller schema glsum-controller-1, with --model glsum-model-1");
     command.add_flag("--verify", options->verify,
                      "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
                      "modelled cycles and the kernel's; of a controller, steps it here and there, compares its bits, "

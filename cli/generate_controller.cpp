@@ -9,8 +9,9 @@
 #include "bench/generate/controller/certificate.hpp"
 #include "bench/generate/controller/controller_header.hpp"
 #include "bench/generate/controller/report.hpp"
-#include "bench/generate/controller/verify.hpp"
+#include "bench/generate/controller/written.hpp"
 #include "bench/generate/header.hpp"
+#include "bench/generate/stepper/verify.hpp"
 #include "bench/target/target_rows.hpp"
 #include "cli/board.hpp"
 #include "drive/model_file.hpp"
@@ -26,15 +27,16 @@ generate::LoopReport report_of_loop(const generate::ControllerSpec& spec, const 
 }
 
 // Here, and on the target where it was built, beside the integer PID of the same gains.
-void verify(generate::ControllerReport& report, const generate::WrittenController& written,
-            const std::string& licence) {
+void verify(generate::ControllerReport& report, const generate::ControllerSpec& spec,
+            const generate::WrittenStepper& written, const std::string& licence) {
     report.checked = {generate::check_bits_here(written)};
-    std::vector<generate::WrittenController> controllers = {written};
-    const generate::ControllerSpec whole = generate::whole_orders(written.spec);
-    const drive::Gains& gains = written.spec.controller.gains;
+    std::vector<generate::WrittenStepper> controllers = {written};
+    const generate::ControllerSpec whole = generate::whole_orders(spec);
+    const drive::Gains& gains = spec.controller.gains;
     if (gains.integral_order != 1.0 || (gains.kd != 0.0 && gains.derivative_order != 1.0)) {
         const std::string prefix = written.prefix + "_whole";
-        controllers.push_back({prefix, generate::make_controller_header(whole, prefix, licence, {}), whole});
+        controllers.push_back(
+            generate::written(whole, prefix, generate::make_controller_header(whole, prefix, licence, {})));
     }
     try {
         const auto all =
@@ -101,7 +103,7 @@ void generate_controller(const ControllerOptions& options, const std::string& co
                gains.kd != 0.0 ? fmt::format(" and {}", generate::derivative_sum(spec).taps) : "");
     if (options.verify) {
         report.core = options.core;
-        verify(report, {prefix, header, spec}, licence);
+        verify(report, spec, generate::written(spec, prefix, header), licence);
     }
     if (!options.json.empty()) {
         base::write_file(options.json, generate::to_json(report, spec));

@@ -17,6 +17,7 @@ struct HeaderOptions {
     std::string licence;
     std::string out;
     std::string controller;
+    std::string model;
     std::string plant;
     std::string json;
     bool verify = false;

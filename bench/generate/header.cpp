@@ -114,17 +114,7 @@ std::string truncation_bound(double order, std::size_t taps, const KernelData& d
     return base::rounded_up(largest * std::max(0.0, all - glsum::absolute_sum(order, taps)) * (1.0 + 1e-9) + 1e-14);
 }
 
-// Of two headers under one prefix the second would be left out in silence, and its callers be given the first one's
-// sum. The compiler shows both definitions of DESIGN.
-const char* const head = R"(#if defined(@NAME@_H) && !defined(@NAME@_IS_@fingerprint@)
-#define @NAME@_DESIGN "@design@"
-#error "@name@: another design of this prefix was included before (see the two DESIGN); make one with another --prefix"
-#endif
-#ifndef @NAME@_H
-#define @NAME@_H
-#define @NAME@_IS_@fingerprint@
-#define @NAME@_DESIGN "@design@"
-
+const char* const head = R"(
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -405,22 +395,26 @@ std::string helpers_of(const KernelData& data, const std::string& body) {
 
 std::string opening_comment(const Spec& spec, const KernelData& data, const Places& places) {
     const std::string name = places.at("name");
-    std::string text = fmt::format(
-        "{}, {}: {} of order v = {}\n{}\n"
-        "{} {} S_k approximates the derivative of order v (v < 0: the integral).\n"
-        "Made by glsum; make it again rather than edit it.\n\n",
-        spec.kernel,
-        data.blocks.count > 0 ? fmt::format("{} taps and {} blocks", data.past + 1, data.blocks.count)
-        : data.modes == 0     ? fmt::format("{} taps", spec.taps)
-                              : fmt::format("{} taps and {} modes", data.past + 1, data.modes),
-        spec.fitted ? "a sum fitted to the derivative" : "the Grünwald-Letnikov sum", spec.order,
-        spec.use.empty() ? "" : "\n" + spec.use,
-        spec.fitted ? "  S_k = sum a_j x_(k-j), a_0 = 1, a_j of the table;"
-        : data.history_text.formula.empty()
-            ? "  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 "
-              "- (1+v)/j)\n\none sum a sample;"
-            : data.history_text.formula,
-        spec.fitted ? "w_0 h^-v" : "h^-v");
+    const std::string length = data.blocks.count > 0
+                                   ? fmt::format("{} taps and {} blocks", data.past + 1, data.blocks.count)
+                               : data.modes == 0 ? fmt::format("{} taps", spec.taps)
+                                                 : fmt::format("{} taps and {} modes", data.past + 1, data.modes);
+    std::string text =
+        spec.past_of_model
+            ? fmt::format("{}, {}: the past of a model\n\n  S_k = sum a_j x_(k-j), a_0 = 1, a_j of the table\n\n",
+                          spec.kernel, length)
+            : fmt::format(
+                  "{}, {}: {} of order v = {}\n{}\n"
+                  "{} {} S_k approximates the derivative of order v (v < 0: the integral).\n",
+                  spec.kernel, length, spec.fitted ? "a sum fitted to the derivative" : "the Grünwald-Letnikov sum",
+                  spec.order, spec.use.empty() ? "" : "\n" + spec.use,
+                  spec.fitted ? "  S_k = sum a_j x_(k-j), a_0 = 1, a_j of the table;"
+                  : data.history_text.formula.empty()
+                      ? "  S_k = sum_{j=0..min(k, L-1)} a_j x_(k-j),   a_0 = 1,   a_j = a_(j-1) (1 "
+                        "- (1+v)/j)\n\none sum a sample;"
+                      : data.history_text.formula,
+                  spec.fitted ? "w_0 h^-v" : "h^-v");
+    text += "Made by glsum; make it again rather than edit it.\n\n";
     text += fmt::format(
         "  static {0}_instance line;\n  {1}_init_{2}(&line);\n  {3} sum = {1}_step_{2}(&line, x);  once a sample\n\n",
         name, spec.prefix, data.format, data.output);
@@ -458,15 +452,6 @@ std::size_t past_held(const Spec& spec) {
     return glsum::reach_of(bench::design_of(spec.kernel, spec.order, length, spec.horizon)) - 1;
 }
 
-// FNV-1a.
-std::uint64_t fingerprint_of(std::string_view text) {
-    std::uint64_t hash = 0xCBF29CE484222325U;
-    for (const char letter : text) {
-        hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3U;
-    }
-    return hash;
-}
-
 bool is_identifier(const std::string& text) {
     return !text.empty() && text.size() <= 60 && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
            std::all_of(text.begin(), text.end(),
@@ -487,6 +472,10 @@ std::string prefix_of_file(const std::filesystem::path& file) {
         letter = is_identifier(std::string("_") + letter) ? letter : '_';
     }
     return is_identifier(prefix) ? prefix : ("glsum_" + prefix).substr(0, 60);
+}
+
+std::string floating_guard(const std::string& name) {
+    return fill(guard_floating, {{"name", name}, {"NAME", upper(name)}, {"fp_bit", "4"}, {"fp_register", "t"}});
 }
 
 std::string format_word(const std::string& kernel) { return std::string(bench::facts_of(kernel).format); }
@@ -563,11 +552,14 @@ std::string make_header(const Spec& spec) {
     text += uses ? fill(m7_loop_of(data.technique_text.m7), places) : "";
     text += fill(helpers, places);
     text += fill(step, places) + fill(self_check, places);
-    places["design"] = fmt::format("{}, {}, v = {}{}", spec.kernel, length_of(spec).text(), spec.order,
-                                   (spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "") +
-                                       (spec.fitted ? ", fitted to the derivative" : ""));
-    places["fingerprint"] = fmt::format("{:016X}", fingerprint_of(places["constants"] + text));
-    return opening_comment(spec, data, places) + fill(head, places) + text;
+    places["design"] = fmt::format(
+        "{}, {}, v = {}{}", spec.kernel, length_of(spec).text(), spec.order,
+        (spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "") + (spec.past_of_model ? ", the past of a model"
+                                                                        : spec.fitted ? ", fitted to the derivative"
+                                                                                      : ""));
+    places["fingerprint"] = fingerprint(places["constants"] + text);
+    return opening_comment(spec, data, places) + include_guard(name, places["design"], places["fingerprint"]) +
+           fill(head, places) + text;
 }
 
 }  // namespace generate

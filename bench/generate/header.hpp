@@ -22,6 +22,7 @@ struct Spec {
     std::string licence = "the terms of glsum itself";
     std::size_t horizon = 5000;                              ///< samples that a design with modes is for
     std::optional<glsum::design::FittedFilter> fitted = {};  ///< in place of the order's own weights, with `step_s`
+    bool past_of_model = false;                              ///< what is fitted stands for a model's past
     std::string use = {};  ///< with it, what the comment says first: where it may be used, and how near it comes
     std::vector<std::string> provenance;  ///< lines of the comment: where it comes from, what was measured
 };
@@ -36,6 +37,10 @@ struct Spec {
 /// \throws glsum::Failure (bad input) for a kernel that is not there or cannot be generated, a prefix that is no
 ///         identifier, and a design that the kernel refuses.
 [[nodiscard]] std::string make_header(const Spec& spec);
+
+/// Against reordered, fused and wider arithmetic: what a floating-point header begins with. It defines `<NAME>_KEEP`,
+/// for single precision, which lets nobody fuse what made its argument. \param name  of the header
+[[nodiscard]] std::string floating_guard(const std::string& name);
 
 /// The prefix of a header in this file: its name, so that two files of one program go together, and one that is made
 /// again for another design keeps its callers.

@@ -1,5 +1,6 @@
 #include "bench/generate/parts.hpp"
 #include "bench/generate/shared.hpp"
+#include "bench/generate/text.hpp"
 
 namespace generate {
 namespace {
@@ -8,12 +9,6 @@ const char* const clear = R"(    for (i = 0; i < @NAME@_SAMPLES; ++i) {
         S->past[i] = 0;
     }
 )";
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
-        text.replace(at, what.size(), with);
-    }
-    return text;
-}
 
 const Words in_window = {{"T", "@sample@"}};
 Words in_push(const std::string& past) {

@@ -23,4 +23,18 @@ using Places = std::map<std::string, std::string, std::less<>>;
 [[nodiscard]] std::string accumulate(bool fused);
 [[nodiscard]] std::string rounded_once(bool fused);
 
+/// `text` with every `what` replaced.
+[[nodiscard]] std::string replaced(std::string text, const std::string& what, const std::string& with);
+
+/// A C literal of single precision; what is larger than all of it is its largest.
+[[nodiscard]] std::string float_literal(double value);
+
+/// 16 digits that another text hardly has.
+[[nodiscard]] std::string fingerprint(std::string_view text);
+
+/// What a header begins with, which ends with #endif: another of this name that says something else is an error and not
+/// left out in silence. \param design  on one line \param identity  its `fingerprint`
+[[nodiscard]] std::string include_guard(const std::string& name, const std::string& design,
+                                        const std::string& identity);
+
 }  // namespace generate

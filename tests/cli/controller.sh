@@ -17,7 +17,7 @@ expect 2 "--controller: expected --out" generate --controller "$folder/pid.json"
 expect 2 "--order is required" generate --kernel ring_plain_f32 --taps 3 --out "$folder/no.h"
 expect 2 "--core: expected --verify" generate --controller "$folder/pid.json" --core m7-ideal --out "$folder/no.h"
 expect 2 "nosuch: no such core" generate --controller "$folder/pid.json" --verify --core nosuch --out "$folder/no.h"
-expect 2 "--json: expected --controller beside it" generate --order 0.5 --kernel ring_plain_f32 --taps 3 --json "$folder/no.json" --out "$folder/no.h"
+expect 2 "--json: expected --controller or --model beside it" generate --order 0.5 --kernel ring_plain_f32 --taps 3 --json "$folder/no.json" --out "$folder/no.h"
 # Ten times the gains: no header of a loop that grows, and none of a plant that does by itself.
 sed 's/"kp": 0.3, "ki": 0.5/"kp": 3, "ki": 5/' "$folder/pid.json" >"$folder/ten.json"
 echo '{"kind": "fotf", "denominator": [{"coefficient": 1, "order": 1}, {"coefficient": -1, "order": 0}]}' >"$folder/growing.json"

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <cstdlib>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,10 +12,12 @@
 #include "bench/generate/controller/certificate.hpp"
 #include "bench/generate/controller/controller_header.hpp"
 #include "bench/generate/controller/report.hpp"
-#include "bench/generate/controller/verify.hpp"
+#include "bench/generate/controller/written.hpp"
+#include "bench/generate/stepper/verify.hpp"
 #include "bench/target/target_rows.hpp"
 #include "drive/tune/margins.hpp"
 #include "tests/drive/plants.hpp"
+#include "tests/generate/board_here.hpp"
 
 namespace {
 
@@ -213,7 +214,7 @@ TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
         const std::size_t at = other.find(what);
         EXPECT_NE(at, std::string::npos) << what;
         other.replace(at, what.size(), with);
-        return generate::check_bits_here({"own", other, spec});
+        return generate::check_bits_here(generate::written(spec, "own", other));
     };
     EXPECT_TRUE(checked("kp = 0.3F", "kp = 0.3F").good());
     EXPECT_EQ(checked("kp = 0.3F", "kp = 0.30000004F").first_wrong, 1U);
@@ -228,17 +229,6 @@ TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
               "bits of 4000 steps and of the self-check, there: others from step 17 on");
 }
 
-std::optional<qemu::Board> board_here() {
-    try {
-        qemu::Board board = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
-        (void)qemu::emulator_version();
-        return board;
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(std::getenv("GLSUM_REQUIRE_FIRMWARE"), nullptr) << failure.what();
-        return std::nullopt;
-    }
-}
-
 // 1 + 15 and 1 + 9 taps and modes: two words a compensated mode and one a plain one, behind ten of the statements'.
 TEST(ControllerOnTarget, BitsCyclesAndBytes) {
     const auto board = board_here();
@@ -250,11 +240,11 @@ TEST(ControllerOnTarget, BitsCyclesAndBytes) {
     const std::string text = generate::make_controller_header(spec, "own", "none", {});
     std::string other = generate::make_controller_header(spec, "other", "none", {});
     other.replace(other.find("kp = 0.3F"), 9, "kp = 0.4F");
-    const auto all =
-        generate::check_on_target({{"own", text, spec},
-                                   {"whole", generate::make_controller_header(whole, "whole", "none", {}), whole},
-                                   {"other", other, spec}},
-                                  *board, bench::timing_request(TEST_CORES, {"stm32f746-itcm"}));
+    const auto all = generate::check_on_target(
+        {generate::written(spec, "own", text),
+         generate::written(whole, "whole", generate::make_controller_header(whole, "whole", "none", {})),
+         generate::written(spec, "other", other)},
+        *board, bench::timing_request(TEST_CORES, {"stm32f746-itcm"}));
     ASSERT_EQ(all.size(), 3U);
     EXPECT_TRUE(all[0].bits.good());
     EXPECT_TRUE(all[1].bits.good());
@@ -274,8 +264,8 @@ TEST(ControllerOnTarget, BitsCyclesAndBytes) {
     EXPECT_GT(all[0].cost.cycles, 3.0 * all[1].cost.cycles);
     EXPECT_EQ(all[0].cost.instructions, all[2].cost.instructions);
     // Two instructions a cycle, any pair, and nothing else costs.
-    const auto ideal =
-        generate::check_on_target({{"own", text, spec}}, *board, bench::timing_request(TEST_CORES, {"m7-ideal"}));
+    const auto ideal = generate::check_on_target({generate::written(spec, "own", text)}, *board,
+                                                 bench::timing_request(TEST_CORES, {"m7-ideal"}));
     EXPECT_EQ(ideal.at(0).cost.instructions, all[0].cost.instructions);
     EXPECT_NEAR(ideal.at(0).cost.cycles, 0.5 * all[0].cost.instructions, 0.5);
 }

@@ -51,7 +51,7 @@ library_of() {
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/report/*) echo bench/libglsum_report.a ;;
-        bench/generate/controller/*) echo bench/libglsum_generate_controller.a ;;
+        bench/generate/controller/* | bench/generate/model/* | bench/generate/stepper/*) echo bench/libglsum_generate_steppers.a ;;
         bench/generate/*) echo bench/libglsum_generate.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
@@ -76,7 +76,7 @@ tests_of() {
         kernels/*) echo kernel_tests bench_tests ;;
         base/*) echo base_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;
-        bench/generate/controller/*) echo controller_tests ;;
+        bench/generate/controller/* | bench/generate/model/* | bench/generate/stepper/*) echo controller_tests ;;
         bench/generate/*) echo choose_tests make_headers ;;
         bench/report/table.* | bench/report/plot.* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
         bench/report/*) echo bench_tests browser_tests ;;

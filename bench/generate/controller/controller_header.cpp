@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bench/generate/controller/texts.hpp"
 #include "bench/generate/header.hpp"
@@ -15,19 +13,6 @@ namespace generate {
 namespace {
 
 constexpr std::size_t steps = 37 * 16;
-
-std::string real(double value) {
-    constexpr double most = std::numeric_limits<float>::max();
-    std::string text = fmt::format("{}", static_cast<float>(std::clamp(value, -most, most)));
-    return text + (text.find_first_of(".e") == std::string::npos ? ".0F" : "F");
-}
-
-std::string replaced(std::string text, const std::string& what, const std::string& with) {
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
-        text.replace(at, what.size(), with);
-    }
-    return text;
-}
 
 std::string sum_header(const ControllerSpec& spec, const char* kernel, const SumOfController& of,
                        const std::string& prefix, const std::string& licence) {
@@ -68,16 +53,16 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     const Places places{
         {"prefix", prefix},
         {"NAME", name},
-        {"step", real(controller.sample_time_s)},
-        {"weight", real(controller.setpoint_weight)},
-        {"per_ki", real(factors.integral)},
-        {"per_kd", real(factors.derivative)},
-        {"kp", real(gains.kp)},
-        {"ki", real(gains.ki * factors.integral)},
-        {"kd", real(gains.kd * factors.derivative)},
-        {"passes", real(factors.passes)},
-        {"low", real(controller.low)},
-        {"high", real(controller.high)},
+        {"step", float_literal(controller.sample_time_s)},
+        {"weight", float_literal(controller.setpoint_weight)},
+        {"per_ki", float_literal(factors.integral)},
+        {"per_kd", float_literal(factors.derivative)},
+        {"kp", float_literal(gains.kp)},
+        {"ki", float_literal(gains.ki * factors.integral)},
+        {"kd", float_literal(gains.kd * factors.derivative)},
+        {"passes", float_literal(factors.passes)},
+        {"low", float_literal(controller.low)},
+        {"high", float_literal(controller.high)},
         {"derivative_field", derives ? "    " + prefix + "_derivative_f32_instance derivative;\n" : ""},
         {"derivative_init", derives ? "    " + prefix + "_derivative_init_f32(&S->derivative);\n" : ""},
         {"derivative_index", derives ? "    size_t i;\n" : ""},
@@ -105,12 +90,17 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     for (const std::string& line : lines) {
         text += line.empty() ? " *\n" : " * " + replaced(line, "*/", "* /") + "\n";
     }
-    text += fmt::format(" * Licence: {}.\n */\n#ifndef {}_H\n#define {}_H\n\n", licence, name, name) + integral + "\n" +
-            derivative + "\n";
+    text += fmt::format(" * Licence: {}.\n */\n", licence);
     std::string statements = replaced(std::string(pid_text), "glsum_pid", prefix + "_pid");
     statements = replaced(statements, "GLSUM_REAL", "float");
     statements = replaced(statements, "GLSUM_PID_KEEP", sums + "_INTEGRAL_F32_KEEP");
-    return text + statements + fill(controller_text, places);
+    const std::string code = integral + "\n" + derivative + "\n" + statements + fill(controller_text, places);
+    return text +
+           include_guard(prefix + "_f32",
+                         fmt::format("kp = {}, ki = {}, kd = {}, orders {} and {}, h = {} s", gains.kp, gains.ki,
+                                     gains.kd, gains.integral_order, gains.derivative_order, controller.sample_time_s),
+                         fingerprint(code)) +
+           "\n" + code;
 }
 
 }  // namespace generate

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/generate/controller/certificate.hpp"
+#include "bench/generate/stepper/json.hpp"
 
 namespace generate {
 namespace {
@@ -36,32 +37,17 @@ Json to_json(const LoopReport& loop) {
     return json;
 }
 
-Json to_json(const ControllerCost& cost) {
-    return {{"model_cycles", cost.cycles},       {"model_cycles_low", cost.low},    {"model_cycles_high", cost.high},
-            {"instructions", cost.instructions}, {"state_bytes", cost.state_bytes}, {"table_bytes", cost.table_bytes},
-            {"code_bytes", cost.code_bytes}};
-}
-
-std::string row(const std::string& name, const ControllerCost& cost) {
-    return fmt::format("  {:<28} {:>8.1f} {:>17} {:>13.1f} {:>7} {:>7} {:>7}\n", name, cost.cycles,
-                       fmt::format("{:.1f} to {:.1f}", cost.low, cost.high), cost.instructions, cost.state_bytes,
-                       cost.table_bytes, cost.code_bytes);
-}
-
 }  // namespace
 
 std::string cost_table(const ControllerReport& report) {
     if (!report.cost) {
         return "";
     }
-    const std::string text = fmt::format("\n  {:<28} {:>8} {:>17} {:>13} {:>7} {:>7} {:>7}\n", "", "cycles", "band",
-                                         "instructions", "state", "tables", "code");
-    return text + row(report.controller, *report.cost) +
-           (report.whole ? row("integer PID, the same gains", *report.whole) : "") +
-           fmt::format(
-               "\n  a step within its limits on the emulated Cortex-M7; cycles of the timing model for {}; bytes of an "
-               "instance,\n  of the tables and of the step's code\n",
-               report.core);
+    std::vector<std::pair<std::string, StepCost>> rows{{report.controller, *report.cost}};
+    if (report.whole) {
+        rows.emplace_back("integer PID, the same gains", *report.whole);
+    }
+    return cost_table(rows, report.core);
 }
 
 std::vector<std::string> to_lines(const LoopReport& loop, std::size_t samples) {
@@ -86,18 +72,13 @@ std::string to_json(const ControllerReport& report, const ControllerSpec& spec) 
     if (report.loop) {
         json["loop"] = to_json(*report.loop);
     }
-    for (const CheckedBits& checked : report.checked) {
-        json["checked"].push_back({{"where", checked.where},
-                                   {"steps", checked.steps},
-                                   {"first_wrong", checked.first_wrong},
-                                   {"good", checked.good()}});
-    }
+    add_checks(json, report.checked);
     if (report.cost) {
         json["core"] = report.core;
-        json["cost"] = to_json(*report.cost);
+        json["cost"] = cost_json(*report.cost);
     }
     if (report.whole) {
-        json["cost_of_integer_pid"] = to_json(*report.whole);
+        json["cost_of_integer_pid"] = cost_json(*report.whole);
     }
     return json.dump(2) + "\n";
 }

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "bench/generate/controller/loop.hpp"
-#include "bench/generate/controller/verify.hpp"
+#include "bench/generate/stepper/verify.hpp"
 #include "drive/tune/margins.hpp"
 
 namespace generate {
@@ -25,8 +25,8 @@ struct ControllerReport {
     std::optional<LoopReport> loop = {};
     std::vector<CheckedBits> checked = {};
     std::string core = {};  ///< of the timing model
-    std::optional<ControllerCost> cost = {};
-    std::optional<ControllerCost> whole = {};  ///< of the integer PID of the same gains
+    std::optional<StepCost> cost = {};
+    std::optional<StepCost> whole = {};  ///< of the integer PID of the same gains
 };
 
 /// Lines without an indentation.

@@ -1,16 +1,16 @@
-// Written controllers compiled, here and for the target, and held to the bits of the library's float stepper.
+// Written controllers and models compiled, here and for the target, and held to the bits of the library's steppers.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "bench/generate/controller/check_source.hpp"
+#include "bench/generate/stepper/check_source.hpp"
 #include "qemu/emulate/firmware.hpp"
 
 namespace generate {
 
-/// Where a controller was stepped, and what came out.
+/// Where a header was stepped, and what came out.
 struct CheckedBits {
     std::string where;  ///< "here, compiled by cc" or "on the emulated Cortex-M7"
     std::size_t steps;  ///< of the record, each of them compared
@@ -21,34 +21,35 @@ struct CheckedBits {
 
 /// With this machine's C compiler, `cc`; warnings are errors.
 /// \throws glsum::Failure (missing) without one, (check failed) when it refuses the header
-[[nodiscard]] CheckedBits check_bits_here(const WrittenController& controller);
+[[nodiscard]] CheckedBits check_bits_here(const WrittenStepper& stepper);
 
-/// What a step costs on the target. Cycles are modelled: the mean of 32 steps that meet no limit, behind as many
-/// others.
-struct ControllerCost {
+/// What a step costs on the target. Cycles are modelled: the mean of 32 steps behind as many others; of a controller
+/// they meet no limit.
+struct StepCost {
     double cycles = 0.0;
     double low = 0.0;  ///< over the core's rule sets, the nominal one included
     double high = 0.0;
     double instructions = 0.0;
-    std::size_t code_bytes = 0;   ///< of the step, both sums in it
+    std::size_t code_bytes = 0;   ///< of the step, its sums in it
     std::size_t table_bytes = 0;  ///< constant
     std::size_t state_bytes = 0;  ///< of an instance
 };
 
 struct OnTarget {
     CheckedBits bits;
-    ControllerCost cost;
+    StepCost cost;
 };
 
 /// With the target's compiler, on the emulated board. \param timing  of one core
 /// \throws glsum::Failure as `link_for_target` and `run_on_target`
-[[nodiscard]] std::vector<OnTarget> check_on_target(const std::vector<WrittenController>& controllers,
+[[nodiscard]] std::vector<OnTarget> check_on_target(const std::vector<WrittenStepper>& steppers,
                                                     const qemu::Board& board, const timing::TimingRequest& timing);
-
-/// The same gains and limits with orders (1, 1).
-[[nodiscard]] ControllerSpec whole_orders(const ControllerSpec& spec);
 
 /// On one line.
 [[nodiscard]] std::string to_text(const CheckedBits& checked);
+
+/// A line for each named cost, under a heading, and what the columns are.
+[[nodiscard]] std::string cost_table(const std::vector<std::pair<std::string, StepCost>>& rows,
+                                     const std::string& core);
 
 }  // namespace generate

@@ -1,0 +1,10 @@
+// A file that a header of a model holds, embedded by the build.
+#pragma once
+
+#include <string_view>
+
+namespace generate {
+
+extern const std::string_view model_text;  ///< model.h.in
+
+}  // namespace generate

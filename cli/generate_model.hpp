@@ -1,0 +1,25 @@
+// glsum generate --model: a plant in real time as one C99 header.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace cli {
+
+struct ModelOptions {
+    std::string model;
+    std::string json;
+    std::string out;
+    std::string prefix;
+    std::string licence;
+    std::string core;
+    bool verify;
+    double max_error;     ///< 0: 1e-3
+    double step_s;        ///< 0: the file's sample_time_s
+    std::size_t samples;  ///< 0: 60 000
+};
+
+/// \throws glsum::Failure (check failed) where no length keeps the error, or bits are not the library's
+void generate_model(const ModelOptions& options, const std::string& command);
+
+}  // namespace cli
