@@ -235,6 +235,7 @@ TEST(Score, SumsUp) {
     EXPECT_THAT(text, HasSubstr("backlash or coulomb_friction (0.50)"));
     EXPECT_THAT(text, HasSubstr("refused: x.csv: nothing there"));
     EXPECT_THAT(text, HasSubstr("1.50 points of 4"));
+    EXPECT_THAT(text, HasSubstr("Brier score 0.406 of 2"));
 }
 
 // As it is written: what a scorer refuses would lose the answers of hours.

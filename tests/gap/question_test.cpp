@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/failure.hpp"
 #include "gap/drive/start.hpp"
 
 namespace {
@@ -46,6 +47,18 @@ std::vector<std::string> names_of(const std::vector<const gap::Effect*>& list) {
         names.push_back(effect->name);
     }
     return names;
+}
+
+// A validation in other units would judge a gap of units.
+TEST(Prepared, RefusesRecordsOfOtherUnitsWhicheverTheyAre) {
+    for (const bool trained : {true, false}) {
+        gap::Question question = question_of();
+        gap::Record& record = trained ? question.train[0] : question.validate[0];
+        for (double& z : record.output) {
+            z *= 100.0;
+        }
+        EXPECT_THROW((void)gap::prepare(question), glsum::Failure) << trained;
+    }
 }
 
 TEST(Prepared, HasTheEffectsThatCanBeThere) {

@@ -176,7 +176,8 @@ TEST(Derivative, PointsCoverBothEnds) {
     EXPECT_EQ(samples_of(goal).back(), 60'000U);
     EXPECT_EQ(goal.last_of_step(), 60'000U);
     EXPECT_EQ(goal.horizon(), 60'000U);
-    EXPECT_EQ(half(0.05, 80.0, 0.0).horizon(), 20'000U);  // a period
+    EXPECT_EQ(half(0.05, 80.0, 0.0).horizon(), 20'000U);                          // a period
+    EXPECT_EQ((DerivativeGoal{0.5, 0.001, std::nullopt, 0.0001}).horizon(), 1U);  // a sample at least
     EXPECT_EQ(samples_of(half(1.0, 2.0, 0.0)).size(), 0U);
     EXPECT_EQ(frequencies_of(half(2.0, 2.0, 0.0)).size(), 1U);
 }

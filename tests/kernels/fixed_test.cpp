@@ -156,7 +156,8 @@ TYPED_TEST(FixedTest, ScaleFollowsFromTheSumOfTheWeightsNotFromTheLength) {
         EXPECT_EQ(seed.state().scale.table_exponent, 1);
         EXPECT_EQ(seed.state().scale.output_exponent, 2);
     }
-    EXPECT_EQ(test::Line<TypeParam>({-0.5, 600}).state().scale.output_exponent, 5);  // the sum is 27.7
+    EXPECT_EQ(test::Line<TypeParam>({-0.5, 600}).state().scale.output_exponent, 5);    // the sum is 27.7
+    EXPECT_EQ(test::Line<TypeParam>({1.004, 5000}).state().scale.output_exponent, 2);  // 2.008: not quite two
 }
 
 // A constant input sees the sum of the table: the naive q15 table misses it by 1e-3 (gain error at v = 0.9), shaping by
