@@ -19,6 +19,9 @@
 namespace cli {
 namespace {
 
+// Exact sums of each sample with all before it, in 50 digits: more would take minutes.
+constexpr std::size_t most_samples_of_a_sum = 8000;
+
 [[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
 
 void check_positive(const char* option, const std::optional<double>& value) {
@@ -108,7 +111,11 @@ std::shared_ptr<Budget> add_budget(Command& command, bool needs_order) {
                        "build count, at h = 1 ms");
     command.add_flag("--fresh", budget->fresh, "Measure everything, whatever the results hold");
     command.add_flag("--quick", budget->quick, "Records of 1000 samples instead of 5000, like bench --quick");
-    command.add_option("--samples", budget->samples, "Records of so many samples (2 to 8000)").between(2, 8000);
+    command
+        .add_option("--samples", budget->samples,
+                    needs_order ? "Records of so many samples"
+                                : "Records of so many samples; 8000 at most, of a controller or a model ten million")
+        .between(2, needs_order ? most_samples_of_a_sum : 10'000'000);
     command.add_option("--jobs", budget->jobs, "Threads and emulators at once").at_least(1);
     return budget;
 }
@@ -150,8 +157,9 @@ choose::Question to_question(const Budget& budget) {
     question.conditions.step_s = budget.step_s;
     question.conditions.signals = to_signals(budget);
     question.conditions.samples = samples_of(budget);
-    if (question.conditions.samples < 2 || question.conditions.samples > 8000) {
-        refuse(fmt::format("--samples: expected 2 to 8000, found {}", question.conditions.samples));
+    if (question.conditions.samples < 2 || question.conditions.samples > most_samples_of_a_sum) {
+        refuse(fmt::format("--samples: expected 2 to {} of a sum, found {}", most_samples_of_a_sum,
+                           question.conditions.samples));
     }
     question.target = budget.target == "host" ? choose::Target::host : choose::Target::m7;
     const bool counts = question.target == choose::Target::host || (budget.max_instructions && budget.core.empty());
