@@ -2,7 +2,8 @@
 # pages.pl < LIST: checks the Markdown files of LIST, as pages.sh says; paths are relative to the folder that it runs in.
 use strict;
 use warnings;
-use open qw(:std :encoding(UTF-8));
+# Debian's smallest perl has no module open.
+binmode $_, ':utf8' for *STDIN, *STDOUT, *STDERR;
 
 my %most = (words_in_sentence => 25, lines => 80, top_lines => 150, top_words => 1500);
 my $failures = 0;
@@ -53,7 +54,7 @@ my $link = qr/\]\(([^()\s]+)\)/;
 
 sub read_page {
     my ($file) = @_;
-    open my $in, '<', $file or die "pages.pl: $file: $!\n";
+    open my $in, '<:utf8', $file or die "pages.pl: $file: $!\n";
     chomp(my @lines = <$in>);
     return {lines => \@lines, blocks => blocks_of(\@lines)};
 }
