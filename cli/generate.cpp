@@ -159,7 +159,8 @@ void add_options(Command& command, const Words& words) {
                        "Its length, with --kernel: a number, or 2+7 of near taps and modes or blocks");
     command.add_option("--prefix", options->prefix,
                        "Begins every identifier of the header (default: the name of its file)");
-    command.add_option("--licence", options->licence, "The header's licence line");
+    command.add_option("--licence", options->licence,
+                       "The licence that the header's comment ends with (default: none is named)");
     command.add_option("--out", options->out, "The header");
     command.add_option("--controller", options->controller,
                        "A controller file instead of a sum: a fractional PID with limits as one header");

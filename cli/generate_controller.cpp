@@ -83,7 +83,6 @@ void generate_controller(const ControllerOptions& options, const std::string& co
     }
     spec.horizon = options.samples != 0 ? options.samples : spec.horizon;
     const std::string prefix = options.prefix.empty() ? generate::prefix_of_file(options.out) : options.prefix;
-    const std::string licence = options.licence.empty() ? generate::Spec{}.licence : options.licence;
     generate::ControllerReport report{options.controller, options.out};
     std::vector<std::string> lines = {""};
     if (!options.plant.empty()) {
@@ -95,7 +94,7 @@ void generate_controller(const ControllerOptions& options, const std::string& co
         lines.emplace_back();
     }
     lines.push_back("Command: " + command);
-    const std::string header = generate::make_controller_header(spec, prefix, licence, lines);
+    const std::string header = generate::make_controller_header(spec, prefix, options.licence, lines);
     base::write_file(options.out, header);
     const drive::Gains& gains = spec.controller.gains;
     fmt::print("{} in {}: sums of {}{} coefficients\n", options.controller, options.out,
@@ -103,7 +102,7 @@ void generate_controller(const ControllerOptions& options, const std::string& co
                gains.kd != 0.0 ? fmt::format(" and {}", generate::derivative_sum(spec).taps) : "");
     if (options.verify) {
         report.core = options.core;
-        verify(report, spec, generate::written(spec, prefix, header), licence);
+        verify(report, spec, generate::written(spec, prefix, header), options.licence);
     }
     if (!options.json.empty()) {
         base::write_file(options.json, generate::to_json(report, spec));

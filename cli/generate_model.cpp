@@ -72,7 +72,6 @@ void generate_model(const ModelOptions& options, const std::string& command) {
     const drive::Model model =
         drive::parse_model(base::read_file(options.model, drive::most_model_bytes), options.model);
     const std::string prefix = options.prefix.empty() ? generate::prefix_of_file(options.out) : options.prefix;
-    const std::string licence = options.licence.empty() ? generate::Spec{}.licence : options.licence;
     const std::size_t samples = options.samples != 0 ? options.samples : generate::ModelSpec{}.samples;
     generate::ModelReport report{options.model, options.out,
                                  generate::choose_model(model, step_of(options, model), max_error, samples), max_error};
@@ -82,7 +81,7 @@ void generate_model(const ModelOptions& options, const std::string& command) {
         lines.push_back(line);
     }
     lines.insert(lines.end(), {"", "Command: " + command});
-    const std::string header = generate::make_model_header(report.choice.spec, prefix, licence, lines);
+    const std::string header = generate::make_model_header(report.choice.spec, prefix, options.licence, lines);
     base::write_file(options.out, header);
     fmt::print("{} in {}\n", options.model, options.out);
     if (options.verify) {

@@ -66,9 +66,7 @@ generate::Spec to_spec(const HeaderOptions& options, const Budget& budget, const
                   : options.out.empty()   ? spec.prefix
                                           : generate::prefix_of_file(options.out);
     spec.horizon = samples_of(budget);
-    if (!options.licence.empty()) {
-        spec.licence = options.licence;
-    }
+    spec.licence = options.licence;
     return spec;
 }
 

@@ -439,7 +439,13 @@ std::string opening_comment(const Spec& spec, const KernelData& data, const Plac
     for (const std::string& line : spec.provenance) {
         text += line + "\n";
     }
-    return "/**\n" + comment(text + (spec.provenance.empty() ? "" : "\n") + "Licence: " + spec.licence + ".") + " */\n";
+    if (!spec.licence.empty()) {
+        text += (spec.provenance.empty() ? "" : "\n") + licence_line(spec.licence);
+    }
+    while (text.ends_with('\n')) {
+        text.pop_back();
+    }
+    return "/**\n" + comment(text) + " */\n";
 }
 
 // Samples that a kernel with blocks holds; of another, or none, 0.

@@ -19,8 +19,8 @@ struct Spec {
     std::size_t taps;              ///< L >= 1; of a kernel with modes its near taps and two for each mode
     std::optional<double> step_s;  ///< gives the factor h^-v, where it is known
     std::string prefix = "glsum";  ///< of every identifier
-    std::string licence = "the terms of glsum itself";
-    std::size_t horizon = 5000;                              ///< samples that a design with modes is for
+    std::string licence = {};      ///< what the comment ends with; nothing where it is empty
+    std::size_t horizon = 5000;    ///< samples that a design with modes is for
     std::optional<glsum::design::FittedFilter> fitted = {};  ///< in place of the order's own weights, with `step_s`
     bool past_of_model = false;                              ///< what is fitted stands for a model's past
     std::string use = {};  ///< with it, what the comment says first: where it may be used, and how near it comes

@@ -51,6 +51,8 @@ std::string replaced(std::string text, const std::string& what, const std::strin
     return text;
 }
 
+std::string licence_line(const std::string& licence) { return licence.empty() ? "" : "Licence: " + licence + ".\n"; }
+
 std::string float_literal(double value) {
     constexpr double most = std::numeric_limits<float>::max();
     std::string text = fmt::format("{}", static_cast<float>(std::clamp(value, -most, most)));

@@ -26,6 +26,9 @@ using Places = std::map<std::string, std::string, std::less<>>;
 /// `text` with every `what` replaced.
 [[nodiscard]] std::string replaced(std::string text, const std::string& what, const std::string& with);
 
+/// "Licence: MIT.", as a line of a comment; nothing for nothing.
+[[nodiscard]] std::string licence_line(const std::string& licence);
+
 /// A C literal of single precision; what is larger than all of it is its largest.
 [[nodiscard]] std::string float_literal(double value);
 

@@ -32,8 +32,6 @@
  * Errors and expected bits: GNU 12.2.0, -O3 -DNDEBUG -ffp-contract=off
  * Cost: GNU 12.2.1, -mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16 -falign-functions=8 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi -O3 -DNDEBUG -ffp-contract=off
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
- *
- * Licence: the terms of glsum itself.
  */
 #if defined(HALF_F32_H) && !defined(HALF_F32_IS_37CB5CCD9331D4D3)
 #define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"

@@ -180,10 +180,12 @@ TEST(Header, NoProvenanceEndsTheComment) {
                                                     .taps = 2,
                                                     .step_s = {},
                                                     .prefix = "my",
+                                                    .licence = "MIT",
                                                     .provenance = {"a */ b */", "**/"}});
     EXPECT_THAT(text, HasSubstr(" * a * / b * /\n * ** /\n"));
     const std::size_t end = text.find("*/");
-    EXPECT_LT(text.find("Licence:"), end);
+    EXPECT_LT(text.find("\n *\n * Licence: MIT.\n"), end);
+    EXPECT_EQ(header("shift_plain_f32", 2).find("icence"), std::string::npos);  // of nothing nothing is said
 }
 
 // A window's table of words, for starts at an even and an odd sample.

@@ -90,7 +90,7 @@ std::string make_controller_header(const ControllerSpec& spec, const std::string
     for (const std::string& line : lines) {
         text += line.empty() ? " *\n" : " * " + replaced(line, "*/", "* /") + "\n";
     }
-    text += fmt::format(" * Licence: {}.\n */\n", licence);
+    text += (licence.empty() ? "" : " * " + licence_line(licence)) + " */\n";
     std::string statements = replaced(std::string(pid_text), "glsum_pid", prefix + "_pid");
     statements = replaced(statements, "GLSUM_REAL", "float");
     statements = replaced(statements, "GLSUM_PID_KEEP", sums + "_INTEGRAL_F32_KEEP");

@@ -98,7 +98,7 @@ std::string make_model_header(const ModelSpec& spec, const std::string& prefix, 
     std::string code = has_past ? past_header(spec, numbers.tables[0], prefix + "_past", licence)
                                 : "#include <stdint.h>\n#include <string.h>\n";
     code += floating_guard(prefix + "_f32") + fill(model_text, places);
-    return text + fmt::format(" * Licence: {}.\n */\n", licence) +
+    return text + (licence.empty() ? "" : " * " + licence_line(licence)) + " */\n" +
            include_guard(prefix + "_f32", fmt::format("{}, h = {} s", drive::to_text(spec.model), spec.step_s),
                          fingerprint(code)) +
            "\n" + code;
