@@ -46,6 +46,8 @@ choose::Answer choose_one(const Budget& budget) {
 }
 
 void run(const HeaderOptions& options, Budget budget, const std::string& command) {
+    const std::string core = budget.core.empty() ? default_core : budget.core;
+    (void)timing::cores_of(bench::timing_request(cores_folder(), {core}));  // refused before anything is measured
     if (!options.controller.empty()) {
         if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
             refuse(
@@ -55,10 +57,9 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
         if (!budget.core.empty() && !options.verify) {
             refuse("--core: expected --verify beside it and --controller");
         }
-        generate_controller(
-            {options.controller, options.plant, options.json, options.out, options.prefix, options.licence,
-             budget.core.empty() ? default_core : budget.core, options.verify, budget.max_error, budget.samples},
-            command);
+        generate_controller({options.controller, options.plant, options.json, options.out, options.prefix,
+                             options.licence, core, options.verify, budget.max_error, budget.samples},
+                            command);
         return;
     }
     if (!options.model.empty()) {
@@ -71,9 +72,8 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
         if (!budget.core.empty() && !options.verify) {
             refuse("--core: expected --verify beside it and --model");
         }
-        generate_model({options.model, options.json, options.out, options.prefix, options.licence,
-                        budget.core.empty() ? default_core : budget.core, options.verify, budget.max_error,
-                        budget.step_s, budget.samples},
+        generate_model({options.model, options.json, options.out, options.prefix, options.licence, core, options.verify,
+                        budget.max_error, budget.step_s, budget.samples},
                        command);
         return;
     }
@@ -136,7 +136,6 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
         fmt::print("{} with {} taps in {}\n", spec.kernel, generate::length_of(spec).text(), options.out);
     }
     if (options.verify) {
-        const std::string core = budget.core.empty() ? default_core : budget.core;
         const auto verified =
             generate::verify_on_target(specs, built_board(), bench::timing_request(cores_folder(), {core}));
         fmt::print("{}", generate::to_table(verified, core));

@@ -68,9 +68,6 @@ void generate_controller(const ControllerOptions& options, const std::string& co
     if (!options.json.empty()) {
         base::check_writable(options.json);
     }
-    if (options.verify) {
-        (void)timing::cores_of(bench::timing_request(cores_folder(), {options.core}));  // refused before anything runs
-    }
     generate::ControllerSpec spec;
     spec.controller =
         drive::parse_fopid(base::read_file(options.controller, drive::most_model_bytes), options.controller);

@@ -62,9 +62,6 @@ void generate_model(const ModelOptions& options, const std::string& command) {
     if (!options.json.empty()) {
         base::check_writable(options.json);
     }
-    if (options.verify) {
-        (void)timing::cores_of(bench::timing_request(cores_folder(), {options.core}));  // refused before anything runs
-    }
     const double max_error = options.max_error != 0.0 ? options.max_error : 1e-3;
     if (!(max_error > 0.0 && std::isfinite(max_error))) {
         throw Failure(Exit::bad_input, fmt::format("--max-error: expected a number above 0, found {}", max_error));

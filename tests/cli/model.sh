@@ -11,6 +11,7 @@ echo '{"kind": "fotf", "denominator": [{"coefficient": 1, "order": 1}, {"coeffic
 expect 2 "--out: expected a file to write" generate --model "$plant"
 expect 2 "--model: expected --out" generate --model "$plant" --kernel ring_plain_f32 --out "$folder/no.h"
 expect 2 "--model: expected --out" generate --model "$plant" --plant "$plant" --out "$folder/no.h"
+expect 2 "nosuch: no such core" generate --order 0.5 --kernel "ring_*" --taps 20 --verify --core nosuch
 expect 2 "--core: expected --verify" generate --model "$plant" --core m7-ideal --out "$folder/no.h"
 expect 2 "nosuch: no such core" generate --model "$plant" --verify --core nosuch --out "$folder/no.h"
 expect 2 "nosuch.json: cannot read" generate --model "$folder/nosuch.json" --out "$folder/no.h"
