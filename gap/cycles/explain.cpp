@@ -18,6 +18,13 @@ namespace {
 constexpr double small_gap = 0.02;
 constexpr double large_rest = 0.03;
 
+// Whether counter and core may run at such clocks: near each other as the settings of two boards are, or at a whole
+// ratio, as a timer's prescaler makes it. Another core's rows come as another ratio.
+bool is_clock(double ratio) {
+    const double steps = std::max(ratio, 1.0 / ratio);
+    return (ratio >= 0.5 && ratio <= 1.5) || std::fabs(steps - std::round(steps)) <= 0.01 * steps;
+}
+
 // A loop of the program's that is no kernel stands for itself.
 std::string_view format_of(const std::string& name) {
     const glsum::CatalogueEntry* const kernel = glsum::find_kernel(name);
@@ -111,6 +118,12 @@ private:
         }
         if (result_.after_gap > std::max(large_rest, 4.0 * result_.floor)) {
             result_.outcome = Outcome::unknown;
+        } else if (!is_clock(found.ratio)) {
+            result_.outcome = Outcome::unknown;
+            result_.notes.push_back(fmt::format(
+                "a clock of {:.3g} times the core's would explain the rows, and no counter runs at such a ratio: "
+                "another core was measured, or another program",
+                found.ratio));
         }
     }
     [[nodiscard]] bool has_set(const std::string& core, const std::string& set) const {

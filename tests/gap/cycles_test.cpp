@@ -249,6 +249,21 @@ TEST(Cycles, AFasterClockIsNamedAndASlowerOneMayBeInterrupts) {
     EXPECT_FALSE(slower.next_experiment.empty());
 }
 
+// No counter runs at 1.875 times the core; one at twice or a third of it may.
+TEST(Cycles, AClockThatNobodySetsIsAnotherCore) {
+    const auto outcome_at = [](double ratio) {
+        return diagnose("real", {}, [ratio](const auto&, const auto& p) { return ratio * p.nominal; });
+    };
+    for (const double ratio : {1.875, 0.4}) {
+        const Explanation found = outcome_at(ratio);
+        EXPECT_EQ(found.outcome, Outcome::unknown) << ratio;
+        EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("no counter runs at such a ratio"))) << ratio;
+    }
+    for (const double ratio : {2.0, 3.0, 1.0 / 3.0}) {
+        EXPECT_EQ(outcome_at(ratio).outcome, Outcome::attributed) << ratio;
+    }
+}
+
 TEST(Cycles, WhatOnlyRowsOnTheBusLoseIsContention) {
     const Explanation found = diagnose(
         "real", {}, [](const auto& row, const auto& p) { return p.nominal * (row.data == "axi" ? 1.3 : 1.0); });
