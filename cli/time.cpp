@@ -1,7 +1,9 @@
 // glsum time: what a function of anybody's firmware takes on a modelled Cortex-M7.
 #include <fmt/format.h>
 
+#include <charconv>
 #include <memory>
+#include <optional>
 
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
@@ -21,6 +23,14 @@ using glsum::Failure;
 
 constexpr std::size_t hot_rows = 20;
 
+std::optional<std::uint32_t> to_address(const std::string& text) {
+    std::uint32_t value = 0;
+    const char* const begin = text.data() + (text.starts_with("0x") ? 2 : 0);
+    const auto [end, error] = std::from_chars(begin, text.data() + text.size(), value, 16);
+    return error == std::errc{} && end == text.data() + text.size() && end != begin ? std::optional(value)
+                                                                                    : std::nullopt;
+}
+
 struct Options {
     std::filesystem::path elf;
     std::string function;
@@ -31,11 +41,41 @@ struct Options {
     unsigned timeout = 120;
 };
 
-timing::TimingRequest to_request(const Options& options, const std::filesystem::path& cores_folder) {
+// What lies elsewhere than its neighbours: .rodata=dtcm, or 0x20001000-0x20002000=axi.
+timing::PlacedRange placed_range(const std::string& place, const qemu::Elf& elf) {
+    const auto [key, value] = split_at_equals(place);
+    timing::PlacedRange range;
+    range.place = timing::place_named(value);
+    if (key.starts_with('.')) {
+        const auto [begin, end] = elf.section(key);
+        range.begin = begin;
+        range.end = end;
+        return range;
+    }
+    const auto dash = key.find('-');
+    const auto begin = dash == std::string::npos ? std::nullopt : to_address(key.substr(0, dash));
+    const auto end = dash == std::string::npos ? std::nullopt : to_address(key.substr(dash + 1));
+    if (!begin || !end || *begin >= *end) {
+        throw Failure(Exit::bad_input,
+                      fmt::format("--place: expected code=..., data=..., a section as .rodata=... or addresses as "
+                                  "0x20001000-0x20002000=..., found {}",
+                                  place));
+    }
+    range.begin = *begin;
+    range.end = *end;
+    return range;
+}
+
+timing::TimingRequest to_request(const Options& options, const qemu::Elf& elf,
+                                 const std::filesystem::path& cores_folder) {
     timing::TimingRequest request;
     request.cores_folder = cores_folder.string();
     timing::TimingRequest::Core core{options.core, "", ""};
     core.without = options.without;
+    if (timing::names_core_file(options.core)) {
+        core.name = std::filesystem::path(options.core).stem().string();
+        core.file = std::filesystem::absolute(options.core).string();
+    }
     for (const std::string& place : options.places) {
         const auto [key, value] = split_at_equals(place);
         if (key == "code") {
@@ -43,7 +83,7 @@ timing::TimingRequest to_request(const Options& options, const std::filesystem::
         } else if (key == "data") {
             core.data = timing::name_of(timing::data_place_named(value));
         } else {
-            throw Failure(Exit::bad_input, fmt::format("--place: expected code=... or data=..., found {}", place));
+            core.ranges.push_back(placed_range(place, elf));
         }
     }
     request.cores.push_back(core);
@@ -51,9 +91,9 @@ timing::TimingRequest to_request(const Options& options, const std::filesystem::
 }
 
 void run(const Options& options) {
-    const timing::TimingRequest request = to_request(options, cores_folder());
-    const timing::CoreFile core = timing::cores_of(request).front();
     const qemu::Elf elf(options.elf);
+    const timing::TimingRequest request = to_request(options, elf, cores_folder());
+    const timing::CoreFile core = timing::cores_of(request).front();
     elf.check_runs_on_cortex_m7();
     const qemu::Function function = elf.function(options.function);
     if (!options.json.empty()) {
@@ -83,8 +123,10 @@ void add_options(Command& command, const Words&) {
         build_info::emulated_board));
     command.add_option("--elf", options->elf, "The program").required();
     command.add_option("--function", options->function, "Symbol, or C++ name with or without parameters").required();
-    command.add_option("--core", options->core, "Core file of qemu/cores").capture_default_str();
-    command.add_option("--place", options->places, "code=itcm/flash/axi or data=dtcm/axi; beats the core file");
+    command.add_option("--core", options->core, "Core file: a name of qemu/cores, or a path").capture_default_str();
+    command.add_option("--place", options->places,
+                       "code=itcm/flash/axi, data=dtcm/axi, or itcm/dtcm/flash/axi of a section (.rodata=dtcm) or of\n"
+                       "addresses (0x20001000-0x20002000=axi); beats the core file");
     command.add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
         .delimiter(',');
     command.add_option("--json", options->json, "Writes the result there");

@@ -79,6 +79,11 @@ std::string to_json(const FunctionReport& report, const std::string& elf_sha256)
     json["core"] = report.core.name;
     json["placement"] = {{"code", timing::name_of(report.core.placement.code)},
                          {"data", timing::name_of(report.core.placement.data)}};
+    for (const timing::PlacedRange& range : report.core.placement.ranges) {
+        json["placement"]["ranges"].push_back({{"begin", fmt::format("{:#010x}", range.begin)},
+                                               {"end", fmt::format("{:#010x}", range.end)},
+                                               {"place", timing::name_of(range.place)}});
+    }
     json["calls"] = time.calls;
     json["instructions"] = {
         {"min", time.instructions.min}, {"median", time.instructions.median}, {"max", time.instructions.max}};

@@ -143,6 +143,12 @@ void write_timing_request(std::ostream& out, const TimingRequest& request) {
             out << ' ' << effect;
         }
         out << '\n';
+        for (const PlacedRange& range : core.ranges) {
+            out << "place " << range.begin << ' ' << range.end << ' ' << name_of(range.place) << '\n';
+        }
+        if (!core.file.empty()) {
+            out << "file " << core.file << '\n';
+        }
     }
 }
 
@@ -168,6 +174,14 @@ TimingRequest read_timing_request(std::istream& in) {
                 core.without.push_back(effect);
             }
             request.cores.push_back(core);
+        } else if (kind == "place" && !request.cores.empty()) {
+            PlacedRange range;
+            std::string place;
+            words >> range.begin >> range.end >> place;
+            range.place = place_named(place);
+            request.cores.back().ranges.push_back(range);
+        } else if (kind == "file" && !request.cores.empty()) {
+            std::getline(words >> std::ws, request.cores.back().file);
         }
     }
     return request;
@@ -210,7 +224,8 @@ void keep_only(CoreFile& core, const std::string& set) {
 std::vector<CoreFile> cores_of(const TimingRequest& request) {
     std::vector<CoreFile> cores;
     for (const auto& wanted : request.cores) {
-        CoreFile core = read_core(request.cores_folder, wanted.name);
+        CoreFile core = wanted.file.empty() ? read_core(request.cores_folder, wanted.name)
+                                            : read_core_file(wanted.file, request.cores_folder);
         switch_off_all(core, wanted.without);
         if (!wanted.set.empty()) {
             keep_only(core, wanted.set);
@@ -221,6 +236,7 @@ std::vector<CoreFile> cores_of(const TimingRequest& request) {
         if (!wanted.data.empty()) {
             core.placement.data = data_place_named(wanted.data);
         }
+        core.placement.ranges = wanted.ranges;
         if (!wanted.instruction_cache) {
             for (RuleSet& set : core.sets) {
                 set.figures.cache_instruction_bytes = 0;

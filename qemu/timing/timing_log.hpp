@@ -52,6 +52,8 @@ struct TimingRequest {
         bool instruction_cache = true;          ///< false: off, whatever the core file says
         std::string set = {};                   ///< this rule set alone; empty: all, the nominal one first
         std::vector<std::string> without = {};  ///< effects that are switched off
+        std::vector<PlacedRange> ranges = {};   ///< placed by themselves
+        std::string file = {};                  ///< to be read in place of the folder's; empty: none
     };
     std::string cores_folder;
     std::vector<Core> cores;
