@@ -20,8 +20,8 @@ struct TimedRun {
 
 struct TimingLog {
     std::vector<TimedRun> runs;
-    std::vector<std::map<std::uint32_t, std::int64_t>> hot;  ///< by core: half cycles at each address within calls
-    std::map<std::uint32_t, std::uint64_t> unknown;          ///< executions of encodings that the decoder does not know
+    std::vector<std::map<std::uint32_t, HotSpot>> hot;  ///< by core: what each address took within calls
+    std::map<std::uint32_t, std::uint64_t> unknown;     ///< executions of encodings that the decoder does not know
     bool recursive = false;
     bool unfinished = false;  ///< the program ended within a watched call
 };

@@ -297,6 +297,22 @@ if [ -e "$firmware/targets/biquad.elf" ]; then
     expect 0 "1 calls" time --elf "$firmware/targets/biquad.elf" --function 'firmware_main()'
 fi
 
+# Several functions in one run: a list, each as if it were timed alone, though one calls the other; and a row a call.
+timed caller
+timed leaf
+expect 0 "leaf on " time --elf "$folder/own.elf" --function caller --function leaf --json "$folder/both.json" --calls "$folder/calls.csv"
+for name in caller leaf; do
+    sed '1d;$d' "$folder/$name.json" | tr -d ' \n' >"$folder/alone"
+    tr -d ' \n' <"$folder/both.json" | grep -qF -e "$(cat "$folder/alone")" || fail "$name: expected the same among others as alone"
+done
+[ "$(head -c 1 "$folder/both.json")" = "[" ] || fail "expected a list of two functions"
+[ "$(grep -c '^"caller",' "$folder/calls.csv")" = 3 ] && [ "$(grep -c '^"leaf",' "$folder/calls.csv")" = 8 ] &&
+    head -n 1 "$folder/calls.csv" | grep -q '^function,call,instructions,model_cycles,low,high,single_issue,' ||
+    fail "calls.csv: expected 3 calls of caller and 8 of leaf, found: $(cut -d , -f 1 "$folder/calls.csv" | sort | uniq -c | tr '\n' ' ')"
+expect 1 "uncalled was never called" time --elf "$folder/own.elf" --function leaf --function uncalled
+has "$folder/caller.json" '"name": "chain",'
+has "$folder/caller.json" '"reason": "'
+
 # Twice the same, to the last digit.
 timed caller
 cp "$folder/caller.json" "$folder/once.json"
