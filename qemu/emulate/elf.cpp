@@ -119,6 +119,10 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
     if (header.e_machine != EM_ARM || header.e_type != ET_EXEC || gelf_getclass(elf.get()) != ELFCLASS32) {
         throw refuse(fmt::format("an ELF of machine {} and type {}", header.e_machine, header.e_type));
     }
+    std::size_t names = 0;
+    if (elf_getshdrstrndx(elf.get(), &names) != 0) {
+        throw refuse("a damaged table of sections");
+    }
     std::size_t bytes_left = most_section_bytes;
     std::size_t symbols_left = most_symbols;
     for (Elf_Scn* section = nullptr; (section = elf_nextscn(elf.get(), section)) != nullptr;) {
@@ -126,6 +130,12 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
         Elf_Data* data = elf_getdata(section, nullptr);
         if (gelf_getshdr(section, &info) == nullptr || data == nullptr) {
             throw refuse("a damaged section");
+        }
+        const char* const called = elf_strptr(elf.get(), names, info.sh_name);
+        if ((info.sh_flags & SHF_ALLOC) != 0 && info.sh_size > 0 && called != nullptr &&
+            strnlen(called, longest_name + 1) <= longest_name) {
+            const auto begin = static_cast<std::uint32_t>(info.sh_addr);
+            extents_.emplace(called, Extent{begin, begin + static_cast<std::uint32_t>(info.sh_size)});
         }
         if ((info.sh_flags & SHF_ALLOC) != 0 && info.sh_type == SHT_PROGBITS && data->d_buf != nullptr) {
             if (data->d_size > bytes_left) {
@@ -174,6 +184,19 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
 std::optional<std::uint32_t> Elf::symbol(const std::string& name) const {
     const auto found = symbols_.find(name);
     return found == symbols_.end() ? std::nullopt : std::optional(found->second);
+}
+
+Elf::Extent Elf::section(const std::string& name) const {
+    const auto found = extents_.find(name);
+    if (found == extents_.end()) {
+        std::string known;
+        for (const auto& [one, extent] : extents_) {
+            known += ' ' + one;
+        }
+        throw Failure(Exit::bad_input,
+                      fmt::format("{}: no section {}; expected one of{}", path_.string(), name, known));
+    }
+    return found->second;
 }
 
 Function Elf::function(const std::string& name) const {

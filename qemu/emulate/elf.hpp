@@ -33,6 +33,13 @@ public:
     /// Behind the last byte of the function that begins at an address: by its symbol's size, or, where that has none,
     /// where the next function begins.
     [[nodiscard]] std::uint32_t end_of_function(std::uint32_t address) const;
+    /// Where a section lies once the program runs, its name as in `.rodata`.
+    struct Extent {
+        std::uint32_t begin;
+        std::uint32_t end;  ///< behind its last byte
+    };
+    /// \throws glsum::Failure (bad input) when there is none of that name, with those that there are
+    [[nodiscard]] Extent section(const std::string& name) const;
     /// Addresses by name; of functions without the Thumb bit.
     [[nodiscard]] const std::map<std::string, std::uint32_t>& symbols() const { return symbols_; }
     /// The word at an address of a loaded section. \throws glsum::Failure when there is none.
@@ -50,6 +57,7 @@ private:
 
     std::filesystem::path path_;
     std::vector<Section> sections_;
+    std::map<std::string, Extent> extents_;  // of what takes up memory
     std::map<std::string, std::uint32_t> symbols_;
     std::vector<unsigned char> attributes_;        // .ARM.attributes
     std::map<std::uint32_t, Function> functions_;  // by address

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <ostream>
 
 #include "qemu/emulate/disassemble.hpp"
 
@@ -16,12 +17,14 @@ double cycles(std::int64_t half) { return static_cast<double>(half) / 2.0; }
 
 std::vector<HotInstruction> hot_instructions(const FunctionTime& time, const Elf& elf, std::size_t most) {
     std::vector<HotInstruction> hot;
-    for (const auto& [address, half] : time.hot) {
+    for (const auto& [address, spot] : time.hot) {
         if (hot.size() == most) {
             break;
         }
         const Function* const holder = elf.function_at(address);
-        hot.push_back({address, holder != nullptr ? holder->name : "", disassemble(elf.path(), address), cycles(half)});
+        hot.push_back(
+            {address, holder != nullptr ? holder->name : "", disassemble(elf.path(), address), cycles(spot.half_cycles),
+             spot.lost > 0 ? std::string(timing::effect_names[timing::index(spot.reason)]) : "", cycles(spot.lost)});
     }
     return hot;
 }
@@ -53,11 +56,11 @@ std::string to_text(const FunctionReport& report) {
             text += fmt::format("{:<28} {:>12.1f}   (lies beside a call, which is what is timed here)\n", effect, 0.0);
         }
     }
-    text +=
-        fmt::format("\n{:<12} {:>12}  {:<24} {}\n", "address", "cycles", "symbol", "instruction, all calls together");
+    text += fmt::format("\n{:<12} {:>12}  {:<18} {:<24} {}\n", "address", "cycles", "most lost to", "symbol",
+                        "instruction, all calls together");
     for (const HotInstruction& hot : report.hot) {
-        text += fmt::format("{:<12} {:>12.1f}  {:<24} {}\n", fmt::format("{:#010x}", hot.address), hot.cycles,
-                            hot.symbol.substr(0, 24), hot.disassembly);
+        text += fmt::format("{:<12} {:>12.1f}  {:<18} {:<24} {}\n", fmt::format("{:#010x}", hot.address), hot.cycles,
+                            hot.reason, hot.symbol.substr(0, 24), hot.disassembly);
     }
     for (const auto& [address, times] : time.unknown) {
         text += fmt::format("unknown encoding at {:#010x}, executed {} times: modelled as one that issues alone\n",
@@ -69,8 +72,11 @@ std::string to_text(const FunctionReport& report) {
     return text;
 }
 
-std::string to_json(const FunctionReport& report, const std::string& elf_sha256) {
-    using Json = nlohmann::ordered_json;
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const FunctionReport& report, const std::string& elf_sha256) {
     const FunctionTime& time = report.time;
     Json json;
     json["schema"] = "glsum-time-1";
@@ -79,6 +85,11 @@ std::string to_json(const FunctionReport& report, const std::string& elf_sha256)
     json["core"] = report.core.name;
     json["placement"] = {{"code", timing::name_of(report.core.placement.code)},
                          {"data", timing::name_of(report.core.placement.data)}};
+    for (const timing::PlacedRange& range : report.core.placement.ranges) {
+        json["placement"]["ranges"].push_back({{"begin", fmt::format("{:#010x}", range.begin)},
+                                               {"end", fmt::format("{:#010x}", range.end)},
+                                               {"place", timing::name_of(range.place)}});
+    }
     json["calls"] = time.calls;
     json["instructions"] = {
         {"min", time.instructions.min}, {"median", time.instructions.median}, {"max", time.instructions.max}};
@@ -87,6 +98,13 @@ std::string to_json(const FunctionReport& report, const std::string& elf_sha256)
                             {"max", cycles(time.nominal.max)},
                             {"low", cycles(time.low)},
                             {"high", cycles(time.high)}};
+    for (std::size_t s = 0; s < time.sets.size(); ++s) {
+        json["rule_sets"].push_back({{"name", report.core.sets.at(s).name},
+                                     {"fits", report.core.sets[s].fits},
+                                     {"min", cycles(time.sets[s].min)},
+                                     {"median", cycles(time.sets[s].median)},
+                                     {"max", cycles(time.sets[s].max)}});
+    }
     json["stalls"] = Json::object();
     for (std::size_t e = 0; e < time.lost.size(); ++e) {
         json["stalls"][std::string(timing::effect_names[e])] = cycles(time.lost[e].median);
@@ -97,13 +115,58 @@ std::string to_json(const FunctionReport& report, const std::string& elf_sha256)
         json["hot"].push_back({{"address", fmt::format("{:#010x}", hot.address)},
                                {"symbol", hot.symbol},
                                {"disassembly", hot.disassembly},
-                               {"cycles", hot.cycles}});
+                               {"cycles", hot.cycles},
+                               {"reason", hot.reason},
+                               {"lost", hot.lost}});
     }
     json["unknown_encodings"] = Json::array();
     for (const auto& [address, times] : time.unknown) {
         json["unknown_encodings"].push_back({{"address", fmt::format("{:#010x}", address)}, {"executions", times}});
     }
-    return json.dump(1) + "\n";
+    return json;
+}
+
+}  // namespace
+
+std::string to_json(const FunctionReport& report, const std::string& elf_sha256) {
+    return json_of(report, elf_sha256).dump(1) + "\n";
+}
+
+std::string to_json(const std::vector<FunctionReport>& reports, const std::string& elf_sha256) {
+    if (reports.size() == 1) {
+        return to_json(reports.front(), elf_sha256);
+    }
+    Json list = Json::array();
+    for (const FunctionReport& report : reports) {
+        list.push_back(json_of(report, elf_sha256));
+    }
+    return list.dump(1) + "\n";
+}
+
+void write_calls_header(std::ostream& out) {
+    out << "function,call,instructions,model_cycles,low,high";
+    for (const std::string_view effect : timing::effect_names) {
+        out << ',' << effect;
+    }
+    out << ',' << timing::double_in_software << '\n';
+}
+
+void write_calls(std::ostream& out, const std::string& function, const timing::TimingLog& log, std::size_t core) {
+    std::uint64_t call = 0;
+    for (const timing::TimedRun& run : log.runs) {
+        const timing::CoreTime& time = run.call.cores.at(core);
+        std::string rest = fmt::format(",{}", run.call.instructions);
+        for (const std::int64_t half : time.half_cycles) {
+            rest += fmt::format(",{}", cycles(half));
+        }
+        for (const std::int64_t half : time.losses) {
+            rest += fmt::format(",{}", cycles(half));
+        }
+        rest += fmt::format(",{}\n", cycles(time.double_in_software));
+        for (std::uint64_t i = 0; i < run.calls; ++i) {
+            out << '"' << function << "\"," << ++call << rest;
+        }
+    }
 }
 
 }  // namespace qemu

@@ -1,6 +1,7 @@
 #include "qemu/emulate/function_time.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace qemu {
 namespace {
@@ -35,6 +36,7 @@ private:
 FunctionTime function_time(const timing::TimingLog& log, std::size_t core) {
     Distribution instructions;
     std::vector<Distribution> sets(log.runs.front().call.cores.at(core).half_cycles.size());
+    std::vector<Distribution> alone(log.runs.front().call.cores.at(core).sets.size());
     std::array<Distribution, timing::effect_count> lost;
     Distribution in_double;
     FunctionTime time;
@@ -44,6 +46,9 @@ FunctionTime function_time(const timing::TimingLog& log, std::size_t core) {
         const timing::CoreTime& taken = run.call.cores.at(core);
         for (std::size_t s = 0; s < sets.size(); ++s) {
             sets[s].add(taken.half_cycles[s], run.calls);
+        }
+        for (std::size_t s = 0; s < alone.size(); ++s) {
+            alone[s].add(taken.sets.at(s), run.calls);
         }
         for (std::size_t e = 0; e < lost.size(); ++e) {
             lost[e].add(taken.losses[e], run.calls);
@@ -57,13 +62,15 @@ FunctionTime function_time(const timing::TimingLog& log, std::size_t core) {
         time.low = std::min(time.low, set.spread().median);
         time.high = std::max(time.high, set.spread().median);
     }
+    std::transform(alone.begin(), alone.end(), std::back_inserter(time.sets),
+                   [](const Distribution& one) { return one.spread(); });
     std::transform(lost.begin(), lost.end(), time.lost.begin(), [](const Distribution& one) { return one.spread(); });
     time.in_double = in_double.spread();
     if (!log.hot.empty()) {
         time.hot.assign(log.hot.at(core).begin(), log.hot.at(core).end());
     }
     std::stable_sort(time.hot.begin(), time.hot.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
+                     [](const auto& a, const auto& b) { return a.second.half_cycles > b.second.half_cycles; });
     time.unknown = log.unknown;
     time.recursive = log.recursive;
     return time;

@@ -28,9 +28,10 @@ struct FunctionTime {
     std::int64_t low = 0;   ///< the least median of the rule sets, the nominal one included
     std::int64_t high = 0;  ///< the largest
     std::array<Spread, timing::effect_count> lost;
-    Spread in_double;  ///< within the routines of double precision in software
-    std::vector<std::pair<std::uint32_t, std::int64_t>>
-        hot;                                         ///< addresses and what all calls spent there, costliest first
+    Spread in_double;          ///< within the routines of double precision in software
+    std::vector<Spread> sets;  ///< under each rule set of the core file, in its order
+    std::vector<std::pair<std::uint32_t, timing::HotSpot>>
+        hot;                                         ///< addresses, what all calls spent there; costliest first
     std::map<std::uint32_t, std::uint64_t> unknown;  ///< executions of what the decoder does not know
     bool recursive = false;
 };

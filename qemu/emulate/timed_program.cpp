@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
+#include <set>
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
@@ -59,17 +61,29 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
         throw glsum::Failure(status == glsum::Exit::good ? glsum::Exit::check_failed : status,
                              failure.empty() ? damaged.what() : failure);
     }
-    if (logs.back().unfinished) {
+    // Which one, where each has a log of its own.
+    const std::set<std::uint32_t> sorted(entries.begin(), entries.end());
+    const auto timed = [&](const timing::TimingLog& log) {
+        if (marks || sorted.size() < 2 || logs.size() != sorted.size()) {
+            return std::string("the timed function");
+        }
+        const Elf program(elf);
+        const Function* const function = program.function_at(*std::next(sorted.begin(), &log - logs.data()));
+        return function != nullptr ? function->name : std::string("a timed function");
+    };
+    const auto unfinished = std::find_if(logs.begin(), logs.end(), [](const auto& log) { return log.unfinished; });
+    if (unfinished != logs.end() && (!marks || logs.back().unfinished)) {
         throw glsum::Failure(glsum::Exit::check_failed,
-                             fmt::format("{}: a call of the timed function did not return{}", elf.string(),
+                             fmt::format("{}: a call of {} did not return{}", elf.string(), timed(*unfinished),
                                          failure.empty() ? " before the program ended" : "; " + failure));
     }
     if (!failure.empty()) {
         throw glsum::Failure(status, failure);
     }
-    if (std::any_of(logs.begin(), logs.end(), [](const timing::TimingLog& log) { return log.runs.empty(); })) {
+    const auto uncalled = std::find_if(logs.begin(), logs.end(), [](const auto& log) { return log.runs.empty(); });
+    if (uncalled != logs.end()) {
         throw glsum::Failure(glsum::Exit::check_failed,
-                             fmt::format("{}: the timed function was never called", elf.string()));
+                             fmt::format("{}: {} was never called", elf.string(), timed(*uncalled)));
     }
     return logs;
 }

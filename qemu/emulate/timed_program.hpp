@@ -17,7 +17,8 @@ namespace qemu {
 /// \param entries  addresses of the functions to time
 /// \param marks    of a program that marks what is to be timed
 /// \param line     called for each line that the program prints; may be empty
-/// \return one log for each part that the program marks; without marks one of the whole program
+/// \return one log for each part that the program marks; without marks one for each function, in the order of their
+///         addresses
 /// \throws glsum::Failure as emulate() does; when the program ends within a watched function, and when none was called,
 /// it
 ///         says so (check failed)

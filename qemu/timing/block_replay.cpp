@@ -53,7 +53,7 @@ void BlockReplay::execute(const CodeBlock& block, const BlockEvents& met, bool c
         take(places_[place], counted);
         return;
     }
-    if (steps_.size() >= most_steps || keys_.size() + moves_.size() >= most_words) {
+    if (steps_.size() >= most_steps || keys_.size() + moves_.size() + site_losses_.size() >= most_words) {
         forget();
         execute(block, met, counted);
         return;
@@ -79,14 +79,22 @@ void BlockReplay::execute_steps(const CodeBlock& block, const BlockEvents& met, 
     step.state = replay_.state();
     step.block = &block;
     step.moves_begin = static_cast<std::uint32_t>(moves_.size());
+    step.site_losses_begin = static_cast<std::uint32_t>(site_losses_.size());
     for (std::size_t nth = 0; nth < block.lines.size(); ++nth) {
         const CodeBlock::Instruction& line = block.lines[nth];
-        const std::int64_t moved = execute(line, met.events[nth]);
+        const SiteTime moved = execute(line, met.events[nth]);
         if (counted) {
             count(line.site, moved);
         }
-        if (keep) {
-            moves_.push_back(static_cast<std::int32_t>(moved));
+        if (!keep) {
+            continue;
+        }
+        moves_.push_back(static_cast<std::int32_t>(moved.half_cycles));
+        for (std::uint32_t e = 0; e < effect_count; ++e) {
+            if (moved.lost[e] != 0) {
+                site_losses_.push_back(
+                    {static_cast<std::uint32_t>(nth), {e, static_cast<std::int32_t>(moved.lost[e])}});
+            }
         }
     }
     if (!keep) {
@@ -111,6 +119,7 @@ void BlockReplay::execute_steps(const CodeBlock& block, const BlockEvents& met, 
         }
     }
     step.losses_end = static_cast<std::uint32_t>(losses_.size());
+    step.site_losses_end = static_cast<std::uint32_t>(site_losses_.size());
     const auto number = static_cast<std::uint32_t>(steps_.size());
     steps_.push_back(step);
     places_[place] = number;
@@ -121,41 +130,63 @@ void BlockReplay::execute_steps(const CodeBlock& block, const BlockEvents& met, 
     }
 }
 
-std::int64_t BlockReplay::execute(const CodeBlock::Instruction& line, const Event& event) {
+SiteTime BlockReplay::execute(const CodeBlock::Instruction& line, const Event& event) {
     const std::int64_t before = replay_.positions()[0];
+    const Losses lost_before = replay_.losses();
     replay_.execute(line.site, *line.instruction, event);
     last_step_ = 0;
-    return replay_.positions()[0] - before;
-}
-
-void BlockReplay::add(std::vector<std::int64_t>& to, std::uint32_t site, std::int64_t half_cycles) {
-    if (site >= to.size()) {
-        to.resize(site + std::size_t{1});
+    SiteTime time{replay_.positions()[0] - before, {}};
+    for (std::size_t e = 0; e < effect_count; ++e) {
+        time.lost[e] = replay_.losses()[e] - lost_before[e];
     }
-    to[site] += half_cycles;
+    return time;
 }
 
-void BlockReplay::add_counted(std::vector<std::int64_t>& half_cycles) const {
+SiteTime& BlockReplay::at(std::vector<SiteTime>& times, std::uint32_t site) {
+    if (site >= times.size()) {
+        times.resize(site + std::size_t{1});
+    }
+    return times[site];
+}
+
+void BlockReplay::count(std::uint32_t site, const SiteTime& time) {
+    SiteTime& all = at(times_, site);
+    all.half_cycles += time.half_cycles;
+    for (std::size_t e = 0; e < effect_count; ++e) {
+        all.lost[e] += time.lost[e];
+    }
+}
+
+void BlockReplay::add_counted(std::vector<SiteTime>& times) const {
     for (const Step& step : steps_) {
-        for (std::size_t nth = 0; step.counted > 0 && nth < step.block->lines.size(); ++nth) {
-            add(half_cycles, step.block->lines[nth].site,
-                static_cast<std::int64_t>(step.counted) * moves_[step.moves_begin + nth]);
+        if (step.counted == 0) {
+            continue;
+        }
+        const auto counted = static_cast<std::int64_t>(step.counted);
+        const std::vector<CodeBlock::Instruction>& lines = step.block->lines;
+        for (std::size_t nth = 0; nth < lines.size(); ++nth) {
+            at(times, lines[nth].site).half_cycles += counted * moves_[step.moves_begin + nth];
+        }
+        for (std::uint32_t i = step.site_losses_begin; i < step.site_losses_end; ++i) {
+            const auto& [nth, loss] = site_losses_[i];
+            at(times, lines[nth].site).lost[loss.effect] += counted * loss.half_cycles;
         }
     }
 }
 
-std::vector<std::int64_t> BlockReplay::half_cycles() const {
-    std::vector<std::int64_t> all = half_cycles_;
+std::vector<SiteTime> BlockReplay::times() const {
+    std::vector<SiteTime> all = times_;
     add_counted(all);
     return all;
 }
 
 void BlockReplay::forget() {
-    add_counted(half_cycles_);
+    add_counted(times_);
     steps_.assign(1, {});
     keys_.clear();
     moves_.clear();
     losses_.clear();
+    site_losses_.clear();
     places_.assign(1024, 0);
     last_step_ = 0;
     epoch_ = replay_.epoch();

@@ -156,7 +156,7 @@ void CallTimer::time_by_steps(const Piece& piece, std::size_t done, bool ends, b
     for (std::size_t nth = 0; nth < done; ++nth) {
         const CodeBlock::Instruction& line = piece.code.lines[nth];
         for (std::size_t c = 0; c < cores_.size(); ++c) {
-            const std::int64_t moved = cores_[c]->replay.execute(line, piece.met[c].events[nth]);
+            const SiteTime moved = cores_[c]->replay.execute(line, piece.met[c].events[nth]);
             if (inside_) {
                 cores_[c]->replay.count(ends && nth == 0 ? last_site_ : line.site, moved);
             }
@@ -219,19 +219,22 @@ void CallTimer::end_call() {
         const Band band = band_of(core.file, std::span(taken).first(core.file.sets.size()),
                                   call_.cores[c].losses[index(Effect::branch_mispredict)]);
         call_.cores[c].half_cycles = {taken[0], band.low, band.high};
+        call_.cores[c].sets.assign(taken.begin(), taken.begin() + core.file.sets.size());
         call_.cores[c].double_in_software = core.file.double_in_software_off ? 0 : core.in_double[0];
     }
     inside_ = false;
     done_(call_);
 }
 
-std::vector<std::map<std::uint32_t, std::int64_t>> CallTimer::hot() const {
-    std::vector<std::map<std::uint32_t, std::int64_t>> tables(cores_.size());
+std::vector<std::map<std::uint32_t, HotSpot>> CallTimer::hot() const {
+    std::vector<std::map<std::uint32_t, HotSpot>> tables(cores_.size());
     for (std::size_t c = 0; c < cores_.size(); ++c) {
-        const std::vector<std::int64_t> half_cycles = cores_[c]->replay.half_cycles();
-        for (std::size_t site = 0; site < half_cycles.size(); ++site) {
-            if (half_cycles[site] != 0) {
-                tables[c][addresses_[site]] = half_cycles[site];
+        const std::vector<SiteTime> times = cores_[c]->replay.times();
+        for (std::size_t site = 0; site < times.size(); ++site) {
+            const auto& [half_cycles, lost] = times[site];
+            const auto most = std::max_element(lost.begin(), lost.end());
+            if (half_cycles != 0) {
+                tables[c][addresses_[site]] = {half_cycles, static_cast<Effect>(most - lost.begin()), *most};
             }
         }
     }

@@ -29,6 +29,7 @@ struct CoreTime {
     std::vector<std::int64_t> half_cycles;  ///< nominal, and the low and high edge of its band
     Losses losses{};                        ///< half cycles, of the nominal set
     std::int64_t double_in_software = 0;    ///< half cycles within the double routines, of the nominal set: no losses
+    std::vector<std::int64_t> sets = {};    ///< half cycles under each rule set, the nominal one first
     bool operator==(const CoreTime&) const = default;
 };
 
@@ -36,6 +37,14 @@ struct TimedCall {
     std::uint32_t entry = 0;
     std::uint64_t instructions = 0;
     std::vector<CoreTime> cores;  ///< as the timer was given them
+};
+
+/// What an instruction took in all calls, in half cycles, and what it lost most of that to.
+struct HotSpot {
+    std::int64_t half_cycles = 0;
+    Effect reason{};
+    std::int64_t lost = 0;  ///< to the reason; 0: nothing held it
+    bool operator==(const HotSpot&) const = default;
 };
 
 class CallTimer final : public qemu::StreamConsumer {
@@ -57,7 +66,7 @@ public:
     void finish();
 
     /// Half cycles before each instruction's issue within calls, by address: one table a core, of its nominal set.
-    [[nodiscard]] std::vector<std::map<std::uint32_t, std::int64_t>> hot() const;
+    [[nodiscard]] std::vector<std::map<std::uint32_t, HotSpot>> hot() const;
     /// Addresses of encodings that the decoder does not know, and how often each was executed.
     [[nodiscard]] const std::map<std::uint32_t, std::uint64_t>& unknown() const { return unknown_; }
     /// A watched function was entered anew before it had returned.

@@ -166,10 +166,9 @@ void read_rivals(const toml::node& node, Collected& into) {
     }
 }
 
-void collect(const std::filesystem::path& folder, const std::string& name, std::set<std::string>& seen,
-             Collected& into) {
-    const std::filesystem::path file = folder / (name + ".toml");
-    if (!seen.insert(name).second) {
+void collect(const std::filesystem::path& file, const std::filesystem::path& folder,
+             std::set<std::filesystem::path>& seen, Collected& into) {
+    if (!seen.insert(std::filesystem::weakly_canonical(file)).second) {
         throw Failure(Exit::bad_input, file.string() + ": is based on itself");
     }
     const std::string text = read_text(file);
@@ -182,11 +181,13 @@ void collect(const std::filesystem::path& folder, const std::string& name, std::
     }
     into.text += text;
     if (const toml::node* base = table.get("base")) {
-        const auto base_name = base->value<std::string>();
-        if (!base_name || !std::filesystem::exists(folder / (*base_name + ".toml"))) {
+        const std::string base_name = base->value<std::string>().value_or("") + ".toml";
+        const std::filesystem::path beside = file.parent_path() / base_name;
+        const std::filesystem::path found = std::filesystem::exists(beside) ? beside : folder / base_name;
+        if (!base->is_string() || !std::filesystem::exists(found)) {
             reject(*base, "base: no such core file in " + folder.string());
         }
-        collect(folder, *base_name, seen, into);
+        collect(found, folder, seen, into);
     }
     for (const auto& [key, node] : table) {
         const std::string word(key.str());
@@ -200,8 +201,8 @@ void collect(const std::filesystem::path& folder, const std::string& name, std::
             if (placement == nullptr) {
                 reject(node, "expected placement = { code = \"..\", data = \"..\" }");
             }
-            into.placement = {code_place_named(text_of(*placement, "code")),
-                              data_place_named(text_of(*placement, "data"))};
+            into.placement = {
+                code_place_named(text_of(*placement, "code")), data_place_named(text_of(*placement, "data")), {}};
         } else if (word == "effects_off") {
             const toml::array* names = node.as_array();
             if (names == nullptr) {
@@ -240,6 +241,17 @@ DataPlace data_place_named(const std::string& name) {
         return name == "dtcm" ? DataPlace::dtcm : DataPlace::axi;
     }
     throw Failure(Exit::bad_input, "data: expected dtcm or axi, found " + name);
+}
+Place place_named(const std::string& name) {
+    for (const Place place : {Place::itcm, Place::dtcm, Place::flash, Place::axi}) {
+        if (name_of(place) == name) {
+            return place;
+        }
+    }
+    throw Failure(Exit::bad_input, "place: expected itcm, dtcm, flash or axi, found " + name);
+}
+std::string name_of(Place place) {
+    return place == Place::itcm ? "itcm" : place == Place::dtcm ? "dtcm" : place == Place::flash ? "flash" : "axi";
 }
 std::string name_of(CodePlace place) {
     return place == CodePlace::itcm ? "itcm" : place == CodePlace::flash ? "flash" : "axi";
@@ -287,11 +299,20 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
         }
         throw Failure(Exit::bad_input, name + ": no such core in " + folder.string() + "; expected one of" + known);
     }
+    return read_core_file(file, folder);
+}
+
+bool names_core_file(const std::string& core) { return core.find('/') != std::string::npos || core.ends_with(".toml"); }
+
+CoreFile read_core_file(const std::filesystem::path& file, const std::filesystem::path& folder) {
+    if (!std::filesystem::is_regular_file(file)) {
+        throw Failure(Exit::bad_input, file.string() + ": no such core file");
+    }
     Collected collected;
-    std::set<std::string> seen;
-    collect(folder, name, seen, collected);
+    std::set<std::filesystem::path> seen;
+    collect(file, folder, seen, collected);
     CoreFile core;
-    core.name = name;
+    core.name = file.stem().string();
     core.note = collected.note;
     core.text = collected.text;
     if (!collected.placement) {

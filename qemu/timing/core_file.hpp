@@ -40,15 +40,26 @@ struct Origin {
 enum class CodePlace : std::uint8_t { itcm, flash, axi };
 enum class DataPlace : std::uint8_t { dtcm, axi };
 
+enum class Place : std::uint8_t { itcm, dtcm, flash, axi };
+/// Addresses that lie elsewhere than their neighbours, code or data.
+struct PlacedRange {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;  ///< behind its last byte
+    Place place = Place::itcm;
+};
+
 struct Placement {
     CodePlace code = CodePlace::itcm;
     DataPlace data = DataPlace::dtcm;
+    std::vector<PlacedRange> ranges = {};  ///< of two that overlap the later one holds
 };
 /// \throws glsum::Failure (bad input) for other words than the contract's
 [[nodiscard]] CodePlace code_place_named(const std::string& name);
 [[nodiscard]] DataPlace data_place_named(const std::string& name);
+[[nodiscard]] Place place_named(const std::string& name);
 [[nodiscard]] std::string name_of(CodePlace place);
 [[nodiscard]] std::string name_of(DataPlace place);
+[[nodiscard]] std::string name_of(Place place);
 
 using Effects = std::bitset<effect_count>;
 
@@ -76,6 +87,13 @@ struct CoreFile {
 /// \throws glsum::Failure: bad input, with file and line, for a damaged file, a missing or unknown key, an effect that
 ///         does not exist; missing (with the names that exist) when there is no such core
 [[nodiscard]] CoreFile read_core(const std::filesystem::path& folder, const std::string& name);
+
+/// The same of a file anywhere, named after it. What it is based on lies beside it or in `folder`.
+/// \throws glsum::Failure (bad input) likewise, and when there is no such file
+[[nodiscard]] CoreFile read_core_file(const std::filesystem::path& file, const std::filesystem::path& folder);
+
+/// Whether somebody who is asked for a core has named a file: it has a slash, or ends as core files do.
+[[nodiscard]] bool names_core_file(const std::string& core);
 
 /// Makes an effect cost nothing, one of the contract's: of the core, of double precision in software, of the
 /// measurement. \return false when there is none of that name

@@ -5,11 +5,10 @@
 
 namespace qemu {
 
-MarkedTimer::Part::Part(const MarkedTimer& whole)
-    : writer(whole.log_),
+MarkedTimer::Part::Part(const MarkedTimer& whole, const std::set<std::uint32_t>& entries)
+    : writer(log),
       timer(
-          whole.entries_, whole.cores_, [this](const timing::TimedCall& call) { writer.add(call); },
-          whole.double_routines_) {}
+          entries, whole.cores_, [this](const timing::TimedCall& call) { writer.add(call); }, whole.double_routines_) {}
 
 MarkedTimer::MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores,
                          std::optional<Marks> marks, std::ostream& log,
@@ -20,8 +19,8 @@ MarkedTimer::MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::Co
       log_(log),
       double_routines_(std::move(double_routines)),
       on_(!marks) {
-    if (on_) {
-        begin_part();
+    for (const std::uint32_t entry : marks_ ? std::set<std::uint32_t>() : entries_) {
+        begin_part({entry});
     }
 }
 
@@ -32,27 +31,48 @@ bool MarkedTimer::is_mark(std::uint32_t address) const {
 void MarkedTimer::meets_mark(std::uint32_t address) {
     if (address == marks_->row) {
         finish();
-        begin_part();
+        begin_part(entries_);
     } else if (address == marks_->on) {
-        on_ = part_ != nullptr;
+        on_ = !parts_.empty();
     } else if (on_) {
         // What has been executed is known, what comes next is not: the model shall not take a jump for a branch.
-        part_->timer.finish();
+        for (const auto& part : parts_) {
+            part->timer.finish();
+        }
         on_ = false;
     }
 }
 
-void MarkedTimer::executes(const Instruction& instruction) { part_->timer.executes(instruction); }
+void MarkedTimer::executes(const Instruction& instruction) {
+    for (const auto& part : parts_) {
+        part->timer.executes(instruction);
+    }
+}
+
+void MarkedTimer::executes_block(const TranslationBlock& block, std::size_t done) {
+    for (const auto& part : parts_) {
+        part->timer.executes_block(block, done);
+    }
+}
+
+void MarkedTimer::accesses(const Access& access) {
+    for (const auto& part : parts_) {
+        part->timer.accesses(access);
+    }
+}
 
 void MarkedTimer::finish() {
-    if (part_) {
-        part_->timer.finish();
-        part_->writer.finish(part_->timer);
-        part_.reset();
+    for (const auto& part : parts_) {
+        part->timer.finish();
+        part->writer.finish(part->timer);
+        log_ << part->log.str();
     }
+    parts_.clear();
     on_ = false;
 }
 
-void MarkedTimer::begin_part() { part_ = std::make_unique<Part>(*this); }
+void MarkedTimer::begin_part(const std::set<std::uint32_t>& entries) {
+    parts_.push_back(std::make_unique<Part>(*this, entries));
+}
 
 }  // namespace qemu

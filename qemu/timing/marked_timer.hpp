@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <vector>
 
 #include "qemu/stream/stream.hpp"
@@ -29,7 +30,9 @@ struct Marks {
 class MarkedTimer final : public StreamConsumer {
 public:
     /// \param entries  addresses of the functions to time
-    /// \param marks    without: the whole program is one part, timed from the start
+    /// \param marks    without: the whole program is timed from the start, in one part for each function in the order
+    /// of
+    ///                 their addresses, so that one that another calls has calls of its own
     /// \param double_routines  see timing::CallTimer
     /// \param log      receives one timing log a part, each with its end
     MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores, std::optional<Marks> marks,
@@ -41,26 +44,27 @@ public:
     /// Whether the model is to see what is executed.
     [[nodiscard]] bool on() const { return on_; }
     void executes(const Instruction& instruction) override;
-    void accesses(const Access& access) override { part_->timer.accesses(access); }
+    void accesses(const Access& access) override;
     /// In place of `executes`, see `timing::CallTimer`.
-    void executes_block(const TranslationBlock& block, std::size_t done) { part_->timer.executes_block(block, done); }
+    void executes_block(const TranslationBlock& block, std::size_t done);
     /// The program has ended.
     void finish();
 
 private:
     struct Part {
+        std::ostringstream log;
         timing::TimingLogWriter writer;
         timing::CallTimer timer;
-        explicit Part(const MarkedTimer& whole);
+        Part(const MarkedTimer& whole, const std::set<std::uint32_t>& entries);
     };
-    void begin_part();
+    void begin_part(const std::set<std::uint32_t>& entries);
 
     std::set<std::uint32_t> entries_;
     std::vector<timing::CoreFile> cores_;
     std::optional<Marks> marks_;
     std::ostream& log_;
     std::vector<timing::AddressRange> double_routines_;
-    std::unique_ptr<Part> part_;
+    std::vector<std::unique_ptr<Part>> parts_;  // that see the same
     bool on_;
 };
 

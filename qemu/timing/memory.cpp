@@ -12,14 +12,23 @@ Cache accelerator_of(const Figures& f) {
 
 }  // namespace
 
-Memory::Memory(const Figures& f, Placement placement)
+Memory::Memory(const Figures& f, const Placement& placement)
     : figures_(f),
-      placement_(placement),
+      code_place_(place_named(name_of(placement.code))),
+      data_place_(place_named(name_of(placement.data))),
+      ranges_(placement.ranges),
       instructions_(f.cache_instruction_bytes, f.cache_instruction_ways, f.cache_line_bytes),
       data_(f.cache_data_bytes, f.cache_data_ways, f.cache_line_bytes),
       accelerator_(accelerator_of(f)),
       wait_states_((f.memory_clock_hz / std::max<std::int64_t>(1, f.memory_bus_clocks) - 1) /
                    std::max<std::int64_t>(1, f.memory_flash_hz_per_wait_state)) {}
+
+Place Memory::place_among_ranges(std::uint32_t address) const {
+    const auto found = std::find_if(ranges_.rbegin(), ranges_.rend(), [&](const PlacedRange& range) {
+        return range.begin <= address && address < range.end;
+    });
+    return found != ranges_.rend() ? found->place : is_data(address) ? data_place_ : code_place_;
+}
 
 Delay Memory::read_flash(std::uint32_t address, bool fetch) {
     const auto line = static_cast<std::uint32_t>(address / figures_.memory_flash_line_bytes);
@@ -51,7 +60,7 @@ Delay Memory::fetch(std::uint32_t address) {
     if (in_tcm(address)) {
         return {};
     }
-    const bool flash = !is_data(address) && placement_.code == CodePlace::flash;
+    const bool flash = place_of(address) == Place::flash;
     if (instructions_.on() && !accelerator_.on()) {
         if (instructions_.touch(address, false).hit) {
             return {};
@@ -63,6 +72,11 @@ Delay Memory::fetch(std::uint32_t address) {
 }
 
 bool Memory::fetches_freely(std::uint32_t first, std::uint32_t last) const {
+    if (std::any_of(ranges_.begin(), ranges_.end(), [&](const PlacedRange& range) {
+            return (range.begin > first && range.begin <= last) || (range.end > first && range.end <= last);
+        })) {
+        return false;
+    }
     if (in_tcm(first)) {
         return in_tcm(last);
     }
@@ -70,7 +84,7 @@ bool Memory::fetches_freely(std::uint32_t first, std::uint32_t last) const {
 }
 
 Delay Memory::load_from_afar(std::uint32_t address) {
-    const bool flash = !is_data(address) && placement_.code == CodePlace::flash;
+    const bool flash = place_of(address) == Place::flash;
     if (flash && accelerator_.on()) {
         return read_flash(address, false);
     }
@@ -85,7 +99,7 @@ Delay Memory::load_from_afar(std::uint32_t address) {
 }
 
 Delay Memory::store(std::uint32_t address) {
-    if (!is_data(address) || placement_.data == DataPlace::dtcm) {
+    if (place_of(address) != Place::axi) {  // a flash is not written by stores
         return {};
     }
     if (data_.on() && data_.touch(address, true).hit) {
@@ -95,7 +109,8 @@ Delay Memory::store(std::uint32_t address) {
 }
 
 std::int64_t Memory::longest_fetch() const {
-    if (placement_.code == CodePlace::itcm && placement_.data == DataPlace::dtcm) {
+    if (code_place_ <= Place::dtcm && data_place_ <= Place::dtcm &&
+        std::all_of(ranges_.begin(), ranges_.end(), [](const PlacedRange& r) { return r.place <= Place::dtcm; })) {
         return 0;
     }
     const std::int64_t flash = (wait_states_ + 1 + figures_.memory_bus_overhead) * figures_.memory_bus_clocks;
@@ -103,11 +118,8 @@ std::int64_t Memory::longest_fetch() const {
 }
 
 bool Memory::has_banks(std::uint32_t address) const {
-    if (in_dtcm(address)) {
-        return true;
-    }
-    const bool itcm = !is_data(address) && placement_.code == CodePlace::itcm;
-    return data_.on() && !itcm && !accelerator_.on();
+    const Place place = place_of(address);
+    return place == Place::dtcm || (place != Place::itcm && data_.on() && !accelerator_.on());
 }
 
 }  // namespace timing

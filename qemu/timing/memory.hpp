@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "qemu/timing/cache.hpp"
 #include "qemu/timing/core_file.hpp"
@@ -17,7 +18,7 @@ struct Delay {
 
 class Memory {
 public:
-    Memory(const Figures& figures, Placement placement);
+    Memory(const Figures& figures, const Placement& placement);
 
     /// Extra cycles before the bytes of one fetch are there. \param address of its first byte
     Delay fetch(std::uint32_t address);
@@ -34,24 +35,26 @@ public:
 
     /// Whether loads of this address come from two banks of 32 bits: DTCM and the data cache.
     [[nodiscard]] bool has_banks(std::uint32_t address) const;
-    [[nodiscard]] bool in_dtcm(std::uint32_t address) const {
-        return is_data(address) && placement_.data == DataPlace::dtcm;
-    }
+    [[nodiscard]] bool in_dtcm(std::uint32_t address) const { return place_of(address) == Place::dtcm; }
 
     /// A read of the flash, in core cycles, the bus included. Exposed for the README's tables.
     [[nodiscard]] std::int64_t flash_wait_states() const { return wait_states_; }
 
 private:
-    [[nodiscard]] bool in_tcm(std::uint32_t address) const {
-        return is_data(address) ? placement_.data == DataPlace::dtcm : placement_.code == CodePlace::itcm;
+    [[nodiscard]] bool in_tcm(std::uint32_t address) const { return place_of(address) <= Place::dtcm; }
+    [[nodiscard]] Place place_of(std::uint32_t address) const {
+        return ranges_.empty() ? (is_data(address) ? data_place_ : code_place_) : place_among_ranges(address);
     }
+    [[nodiscard]] Place place_among_ranges(std::uint32_t address) const;
     [[nodiscard]] Delay load_from_afar(std::uint32_t address);
     static bool is_data(std::uint32_t address) { return address >= 0x20000000U; }
     [[nodiscard]] Delay read_flash(std::uint32_t address, bool fetch);
     [[nodiscard]] std::int64_t sram_line() const;
 
     const Figures& figures_;
-    Placement placement_;
+    Place code_place_;
+    Place data_place_;
+    std::vector<PlacedRange> ranges_;
     Cache instructions_;
     Cache data_;
     Cache accelerator_;

@@ -21,7 +21,7 @@ std::uint16_t narrowed(std::int64_t cycles) {
 
 }  // namespace
 
-Surroundings::Surroundings(const Figures& figures, Placement placement)
+Surroundings::Surroundings(const Figures& figures, const Placement& placement)
     : figures_(figures),
       fetch_shift_(static_cast<unsigned>(std::countr_zero(static_cast<std::uint32_t>(figures.fetch_bytes)))),
       memory_(figures_, placement),

@@ -18,7 +18,7 @@ namespace timing {
 
 class Surroundings {
 public:
-    Surroundings(const Figures& figures, Placement placement);
+    Surroundings(const Figures& figures, const Placement& placement);
     Surroundings(const Surroundings&) = delete;
     Surroundings& operator=(const Surroundings&) = delete;
     /// \param next  address of the instruction that is executed after it

@@ -46,6 +46,12 @@ void TimingLogWriter::write_run() {
             out_ << ' ' << loss;
         }
         out_ << ' ' << core.double_in_software;
+        if (!core.sets.empty()) {
+            out_ << " sets " << core.sets.size();
+            for (const std::int64_t half_cycles : core.sets) {
+                out_ << ' ' << half_cycles;
+            }
+        }
     }
     out_ << '\n';
     run_ = {};
@@ -57,8 +63,9 @@ void TimingLogWriter::finish(const CallTimer& timer) {
     }
     const auto hot = timer.hot();
     for (std::size_t c = 0; c < hot.size(); ++c) {
-        for (const auto& [address, half_cycles] : hot[c]) {
-            out_ << "hot " << c << ' ' << address << ' ' << half_cycles << '\n';
+        for (const auto& [address, spot] : hot[c]) {
+            out_ << "hot " << c << ' ' << address << ' ' << spot.half_cycles << ' ' << effect_names[index(spot.reason)]
+                 << ' ' << spot.lost << '\n';
         }
     }
     for (const auto& [address, times] : timer.unknown()) {
@@ -86,6 +93,17 @@ TimingLog read_timing_log(std::istream& in) {
             }
             std::size_t sets = 0;
             for (std::string word; words >> word >> sets;) {
+                if (word == "sets" && !run.call.cores.empty()) {
+                    std::vector<std::int64_t>& of_core = run.call.cores.back().sets;
+                    of_core.resize(std::min<std::size_t>(sets, 1000));
+                    for (std::int64_t& half_cycles : of_core) {
+                        words >> half_cycles;
+                    }
+                    if (!words) {
+                        throw std::runtime_error("timing log: damaged line: " + line);
+                    }
+                    continue;
+                }
                 CoreTime core;
                 core.half_cycles.resize(std::min<std::size_t>(sets, 1000));
                 for (std::int64_t& half_cycles : core.half_cycles) {
@@ -104,12 +122,15 @@ TimingLog read_timing_log(std::istream& in) {
         } else if (kind == "hot") {
             std::size_t core = 0;
             std::uint32_t address = 0;
-            std::int64_t half_cycles = 0;
-            if (!(words >> core >> address >> half_cycles) || core > 1000) {
+            HotSpot spot;
+            std::string reason;
+            if (!(words >> core >> address >> spot.half_cycles >> reason >> spot.lost) || core > 1000 ||
+                !effect_named(reason)) {
                 throw std::runtime_error("timing log: damaged line: " + line);
             }
+            spot.reason = *effect_named(reason);
             log.hot.resize(std::max(log.hot.size(), core + 1));
-            log.hot[core][address] = half_cycles;
+            log.hot[core][address] = spot;
         } else if (kind == "unknown") {
             std::uint32_t address = 0;
             std::uint64_t times = 0;
@@ -143,6 +164,12 @@ void write_timing_request(std::ostream& out, const TimingRequest& request) {
             out << ' ' << effect;
         }
         out << '\n';
+        for (const PlacedRange& range : core.ranges) {
+            out << "place " << range.begin << ' ' << range.end << ' ' << name_of(range.place) << '\n';
+        }
+        if (!core.file.empty()) {
+            out << "file " << core.file << '\n';
+        }
     }
 }
 
@@ -168,6 +195,14 @@ TimingRequest read_timing_request(std::istream& in) {
                 core.without.push_back(effect);
             }
             request.cores.push_back(core);
+        } else if (kind == "place" && !request.cores.empty()) {
+            PlacedRange range;
+            std::string place;
+            words >> range.begin >> range.end >> place;
+            range.place = place_named(place);
+            request.cores.back().ranges.push_back(range);
+        } else if (kind == "file" && !request.cores.empty()) {
+            std::getline(words >> std::ws, request.cores.back().file);
         }
     }
     return request;
@@ -210,7 +245,8 @@ void keep_only(CoreFile& core, const std::string& set) {
 std::vector<CoreFile> cores_of(const TimingRequest& request) {
     std::vector<CoreFile> cores;
     for (const auto& wanted : request.cores) {
-        CoreFile core = read_core(request.cores_folder, wanted.name);
+        CoreFile core = wanted.file.empty() ? read_core(request.cores_folder, wanted.name)
+                                            : read_core_file(wanted.file, request.cores_folder);
         switch_off_all(core, wanted.without);
         if (!wanted.set.empty()) {
             keep_only(core, wanted.set);
@@ -221,6 +257,7 @@ std::vector<CoreFile> cores_of(const TimingRequest& request) {
         if (!wanted.data.empty()) {
             core.placement.data = data_place_named(wanted.data);
         }
+        core.placement.ranges = wanted.ranges;
         if (!wanted.instruction_cache) {
             for (RuleSet& set : core.sets) {
                 set.figures.cache_instruction_bytes = 0;

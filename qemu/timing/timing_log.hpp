@@ -20,8 +20,8 @@ struct TimedRun {
 
 struct TimingLog {
     std::vector<TimedRun> runs;
-    std::vector<std::map<std::uint32_t, std::int64_t>> hot;  ///< by core: half cycles at each address within calls
-    std::map<std::uint32_t, std::uint64_t> unknown;          ///< executions of encodings that the decoder does not know
+    std::vector<std::map<std::uint32_t, HotSpot>> hot;  ///< by core: what each address took within calls
+    std::map<std::uint32_t, std::uint64_t> unknown;     ///< executions of encodings that the decoder does not know
     bool recursive = false;
     bool unfinished = false;  ///< the program ended within a watched call
 };
@@ -52,6 +52,8 @@ struct TimingRequest {
         bool instruction_cache = true;          ///< false: off, whatever the core file says
         std::string set = {};                   ///< this rule set alone; empty: all, the nominal one first
         std::vector<std::string> without = {};  ///< effects that are switched off
+        std::vector<PlacedRange> ranges = {};   ///< placed by themselves
+        std::string file = {};                  ///< to be read in place of the folder's; empty: none
     };
     std::string cores_folder;
     std::vector<Core> cores;

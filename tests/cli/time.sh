@@ -152,6 +152,47 @@ grep -q '^interrupt_load  .*beside a call' "$folder/said" || fail "power: expect
 rest=$(median_of "$folder/power.json")
 [ "$(share_of "$folder/power.json")" = 0.0 ] && echo "$whole $in_double $rest" | awk '{exit !($1 == $2 + $3 && $2 > $1 / 2 && $3 > 0)}' ||
     fail "power: expected the share in double precision and the rest to sum to the whole, found $in_double + $rest of $whole"
+# Placed by section and by address: as the whole placed so.
+sed 's/\*(\.text\*) \*(\.rodata\*)/*(.text*) } > CODE .rodata : { *(.rodata*)/' "$folder/map.ld" >"$folder/sections.ld"
+cat >"$folder/table.c" <<'C'
+static const int table[256] = {1, 2, 3};
+volatile int sink;
+__attribute__((noinline, noclone)) int look(const int *t) { int s = 0; for (int i = 0; i < 256; i++) s += t[i]; return s; }
+int main(void) { sink = look(table); return 0; }
+C
+arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -T "$folder/sections.ld" "$folder/start.c" "$folder/table.c" \
+    -o "$folder/table.elf" 2>"$folder/said" || cat "$folder/said"
+look() {  # TEXT OPTION...: the median into $cycles
+    text=$1
+    shift
+    expect 0 "$text" time --elf "$folder/table.elf" --function look --json "$folder/look.json" "$@"
+    cycles=$(median_of "$folder/look.json")
+}
+look "look on" --core stm32f746-flash-nocache
+whole=$cycles
+look "look on" --core stm32f746-flash-nocache --place code=itcm
+in_itcm=$cycles
+look "look on" --core stm32f746-flash-nocache --place code=itcm --place .rodata=flash
+in_flash=$cycles
+has "$folder/look.json" '"place": "flash"'
+address=$(arm-none-eabi-objdump -h "$folder/table.elf" | awk '$2 == ".rodata" { print $4 }')
+look "look on" --core stm32f746-flash-nocache --place code=itcm --place "0x$address-$(printf %x $((0x$address + 1024)))=flash"
+[ "$in_flash" = "$cycles" ] && echo "$in_flash $in_itcm" | awk '{ exit !($1 > 2 * $2) }' ||
+    fail "look: expected a table in flash to cost more than in ITCM ($in_itcm), by section ($in_flash) as by address ($cycles)"
+expect 2 "no section .nothing; expected one of" time --elf "$folder/table.elf" --function look --place .nothing=dtcm
+expect 2 "--place: expected code=" time --elf "$folder/table.elf" --function look --place 0x10=dtcm
+expect 2 "--place: expected code=" time --elf "$folder/table.elf" --function look --place 0x20-0x10=dtcm
+expect 2 "place: expected itcm" time --elf "$folder/table.elf" --function look --place .rodata=ram
+
+# A core file of one's own, which changes what its base has.
+mkdir "$folder/my cores"
+printf 'base = "stm32f746-flash-nocache"\n[rows.memory]\nclock_hz = { value = 30000000, mark = "assumed", source = "a test" }\nbus_overhead = { value = 0, mark = "assumed", source = "a test" }\n' \
+    >"$folder/my cores/slow.toml"
+look "look on slow" --core "$folder/my cores/slow.toml"
+has "$folder/look.json" '"core": "slow"'
+echo "$whole $cycles" | awk '{ exit !($1 > 1.2 * $2) }' || fail "look: expected fewer cycles than $whole at 30 MHz, found $cycles"
+expect 2 "no such core file" time --elf "$folder/table.elf" --function look --core "$folder/none.toml"
+
 expect 0 "m7-ideal" time --elf "$folder/own.elf" --function dot --core m7-ideal
 
 # Wrong use, each with one clear error.
@@ -255,6 +296,22 @@ if [ -e "$firmware/targets/biquad.elf" ]; then
     expect 0 "1 calls" time --elf "$firmware/targets/biquad.elf" --function firmware_main
     expect 0 "1 calls" time --elf "$firmware/targets/biquad.elf" --function 'firmware_main()'
 fi
+
+# Several functions in one run: a list, each as if it were timed alone, though one calls the other; and a row a call.
+timed caller
+timed leaf
+expect 0 "leaf on " time --elf "$folder/own.elf" --function caller --function leaf --json "$folder/both.json" --calls "$folder/calls.csv"
+for name in caller leaf; do
+    sed '1d;$d' "$folder/$name.json" | tr -d ' \n' >"$folder/alone"
+    tr -d ' \n' <"$folder/both.json" | grep -qF -e "$(cat "$folder/alone")" || fail "$name: expected the same among others as alone"
+done
+[ "$(head -c 1 "$folder/both.json")" = "[" ] || fail "expected a list of two functions"
+[ "$(grep -c '^"caller",' "$folder/calls.csv")" = 3 ] && [ "$(grep -c '^"leaf",' "$folder/calls.csv")" = 8 ] &&
+    head -n 1 "$folder/calls.csv" | grep -q '^function,call,instructions,model_cycles,low,high,single_issue,' ||
+    fail "calls.csv: expected 3 calls of caller and 8 of leaf, found: $(cut -d , -f 1 "$folder/calls.csv" | sort | uniq -c | tr '\n' ' ')"
+expect 1 "uncalled was never called" time --elf "$folder/own.elf" --function leaf --function uncalled
+has "$folder/caller.json" '"name": "chain",'
+has "$folder/caller.json" '"reason": "'
 
 # Twice the same, to the last digit.
 timed caller

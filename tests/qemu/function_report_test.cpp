@@ -28,7 +28,7 @@ TEST(FunctionTime, CountsEachCallOfARun) {
     timing::TimingLog log;
     log.runs = {run_of(1, 10, {30, 28, 34}, 7, 4), run_of(2, 12, {20, 18, 26}, 3, 2),
                 run_of(1, 11, {90, 80, 100}, 5, 6)};
-    log.hot = {{{0x104, 10}, {0x100, 10}, {0x108, 40}}};
+    log.hot = {{{0x104, {10, timing::Effect::load_use, 4}}, {0x100, {10}}, {0x108, {40}}}};
     log.unknown = {{0x10c, 3}};
     log.recursive = true;
     const qemu::FunctionTime time = qemu::function_time(log);
@@ -48,7 +48,8 @@ TEST(FunctionTime, CountsEachCallOfARun) {
     EXPECT_EQ(time.in_double.median, 2);
     EXPECT_EQ(time.in_double.max, 6);
     // The costliest first, of equals the one that comes first.
-    EXPECT_THAT(time.hot, ElementsAre(std::pair(0x108U, 40), std::pair(0x100U, 10), std::pair(0x104U, 10)));
+    EXPECT_THAT(time.hot, ElementsAre(std::pair(0x108U, timing::HotSpot{40}), std::pair(0x100U, timing::HotSpot{10}),
+                                      std::pair(0x104U, timing::HotSpot{10, timing::Effect::load_use, 4})));
     EXPECT_EQ(time.unknown.at(0x10c), 3U);
     EXPECT_TRUE(time.recursive);
 }
@@ -72,7 +73,7 @@ qemu::FunctionReport made_report() {
     report.core.name = "a-core";
     report.without = {"call_overhead", "load_use"};
     report.time = qemu::function_time(log);
-    report.hot = {{0x104, "a_symbol_of_more_than_24_letters", "ldr r0, [r1]", 12.5}};
+    report.hot = {{0x104, "a_symbol_of_more_than_24_letters", "ldr r0, [r1]", 12.5, "load_use", 3.5}};
     return report;
 }
 
@@ -86,7 +87,8 @@ TEST(FunctionReport, IsReadByPeople) {
     EXPECT_THAT(text, HasSubstr("double_precision_in_software          4.5   (all cycles within its routines)\n"));
     EXPECT_THAT(text, HasSubstr("call_overhead                         0.0   (lies beside a call"));
     EXPECT_THAT(text, Not(HasSubstr("store_buffer")));  // nothing was lost to it
-    EXPECT_THAT(text, HasSubstr("0x00000104           12.5  a_symbol_of_more_than_24 ldr r0, [r1]\n"));
+    EXPECT_THAT(text,
+                HasSubstr("0x00000104           12.5  load_use           a_symbol_of_more_than_24 ldr r0, [r1]\n"));
     EXPECT_THAT(text, HasSubstr("unknown encoding at 0x0000010c, executed 3 times"));
     EXPECT_THAT(text, HasSubstr("step calls itself"));
     report.time.recursive = false;
@@ -112,7 +114,49 @@ TEST(FunctionReport, AsAFileHasEveryStall) {
     EXPECT_EQ(json["stalls"]["double_precision_in_software"], 4.5);
     EXPECT_EQ(json["hot"][0]["address"], "0x00000104");
     EXPECT_EQ(json["hot"][0]["cycles"], 12.5);
+    EXPECT_EQ(json["hot"][0]["reason"], "load_use");
+    EXPECT_EQ(json["hot"][0]["lost"], 3.5);
     EXPECT_EQ(json["unknown_encodings"], nlohmann::json::parse(R"([{"address": "0x0000010c", "executions": 3}])"));
+}
+
+TEST(FunctionReport, AsAFileHasEachRuleSet) {
+    timing::TimingLog log;
+    log.runs = {run_of(2, 10, {31, 28, 34}), run_of(1, 10, {33, 28, 34})};
+    log.runs[0].call.cores[0].sets = {31, 29};
+    log.runs[1].call.cores[0].sets = {33, 41};
+    qemu::FunctionReport report{"step", {}, {}, qemu::function_time(log), {}};
+    report.core.sets = {{"nominal", "", {}, true}, {"rival", "", {}, false}};
+    const auto json = nlohmann::json::parse(qemu::to_json(report, "abc"));
+    EXPECT_EQ(json["rule_sets"], nlohmann::json::parse(R"([
+        {"name": "nominal", "fits": true, "min": 15.5, "median": 15.5, "max": 16.5},
+        {"name": "rival", "fits": false, "min": 14.5, "median": 14.5, "max": 20.5}])"));
+    // One function is an object, several are a list.
+    EXPECT_EQ(nlohmann::json::parse(qemu::to_json(std::vector{report}, "abc")), json);
+    EXPECT_EQ(nlohmann::json::parse(qemu::to_json(std::vector{report, report}, "abc")),
+              (nlohmann::json::array({json, json})));
+}
+
+TEST(FunctionReport, ACallIsARow) {
+    timing::TimingLog log;
+    log.runs = {run_of(2, 10, {31, 28, 34}, 7, 9), run_of(1, 12, {40, 38, 44})};
+    std::ostringstream text;
+    qemu::write_calls_header(text);
+    qemu::write_calls(text, "f(int, int)", log);
+    std::istringstream lines(text.str());
+    std::vector<std::string> rows;
+    for (std::string line; std::getline(lines, line);) {
+        rows.push_back(line);
+    }
+    ASSERT_EQ(rows.size(), 4U);
+    EXPECT_THAT(rows[0], testing::StartsWith("function,call,instructions,model_cycles,low,high,single_issue,"));
+    EXPECT_THAT(rows[1], testing::StartsWith("\"f(int, int)\",1,10,15.5,14,17,"));
+    EXPECT_THAT(rows[1], testing::EndsWith(",4.5"));
+    EXPECT_THAT(rows[2], testing::StartsWith("\"f(int, int)\",2,10,15.5,14,17,"));
+    EXPECT_THAT(rows[3], testing::StartsWith("\"f(int, int)\",3,12,20,19,22,"));
+    for (const std::string& row : rows) {
+        EXPECT_EQ(std::count(row.begin(), row.end(), ',') - (row[0] == '"' ? 1 : 0),
+                  static_cast<std::ptrdiff_t>(timing::effect_count) + 6);
+    }
 }
 
 TEST(FunctionReport, NamesTheFunctionThatAHotAddressIsIn) {
@@ -120,13 +164,16 @@ TEST(FunctionReport, NamesTheFunctionThatAHotAddressIsIn) {
     test::MadeElf made{{{0x100, test::bytes_of({0xbf00bf00, 0xbf00bf00})}}, {{"leaf", 0x101, 8, true}}};
     made.write(folder.file("a.elf"));
     qemu::FunctionTime time;
-    time.hot = {{0x104, 9}, {0x100, 8}, {0x200, 7}};
+    time.hot = {{0x104, {9, timing::Effect::unaligned_access, 5}}, {0x100, {8}}, {0x200, {7}}};
     const auto hot = qemu::hot_instructions(time, qemu::Elf(folder.file("a.elf")), 2);
     ASSERT_EQ(hot.size(), 2U);
     EXPECT_EQ(hot[0].address, 0x104U);
     EXPECT_EQ(hot[0].symbol, "leaf");
     EXPECT_EQ(hot[0].cycles, 4.5);
+    EXPECT_EQ(hot[0].reason, "unaligned_access");
+    EXPECT_EQ(hot[0].lost, 2.5);
     EXPECT_EQ(hot[1].cycles, 4.0);
+    EXPECT_EQ(hot[1].reason, "");
     EXPECT_EQ(qemu::hot_instructions(time, qemu::Elf(folder.file("a.elf")), 9).back().symbol, "");
 }
 

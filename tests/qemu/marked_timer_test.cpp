@@ -35,6 +35,22 @@ TEST(MarkedTimer, WithoutMarksTheWholeProgramIsOnePart) {
     EXPECT_EQ(read.runs[0].call.instructions, 3U);
 }
 
+// One that another calls has calls of its own: each function's log is as if it were timed alone.
+TEST(MarkedTimer, WithoutMarksEachFunctionHasALogOfItsOwn) {
+    const auto logs_of = [](const std::set<std::uint32_t>& entries) {
+        std::stringstream text;
+        qemu::MarkedTimer timer(entries, cores(), {}, text);
+        call(timer);
+        call(timer);
+        timer.finish();
+        return text.str();
+    };
+    const std::string outer = logs_of({0x100});
+    const std::string inner = logs_of({0x140});
+    EXPECT_EQ(logs_of({0x140, 0x100}), outer + inner);
+    EXPECT_NE(inner.find("calls"), std::string::npos);
+}
+
 TEST(MarkedTimer, EachRowStartsColdAndHasALogOfItsOwn) {
     std::stringstream log;
     qemu::MarkedTimer timer({0x100}, cores(), marks, log);

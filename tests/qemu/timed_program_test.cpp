@@ -109,8 +109,15 @@ TEST_F(TimedProgram, ACallThatDidNotReturnIsToldWithWhy) {
     EXPECT_THAT(fault(glsum::Exit::check_failed), HasSubstr("did not return; a.elf under the emulator exited with 3"));
 }
 
-TEST_F(TimedProgram, EveryPartCallsTheFunction) {
+TEST_F(TimedProgram, AFunctionThatWasNeverCalledIsNamedAmongSeveral) {
     log("calls 2 1024 50 core 1 80" + no_losses + "end\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::check_failed), EndsWith("a.elf: step_of_block was never called"));
+    log("unfinished\nend\ncalls 2 1024 50 core 1 80" + no_losses + "end\n");
+    EXPECT_THAT(fault(glsum::Exit::check_failed), HasSubstr("a.elf: a call of step_of_ring did not return"));
+}
+
+TEST_F(TimedProgram, EveryPartCallsTheFunction) {
+    log("calls 2 1024 50 core 1 80" + no_losses + "end\nend\nend\n");
     EXPECT_THAT(fault(glsum::Exit::check_failed), EndsWith("a.elf: the timed function was never called"));
 }
 

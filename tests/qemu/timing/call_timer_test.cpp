@@ -230,8 +230,18 @@ TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
     EXPECT_FALSE(hot[0].contains(0x14));
     EXPECT_TRUE(hot[0].contains(0x108));
     EXPECT_EQ(std::accumulate(hot[0].begin(), hot[0].end(), std::int64_t{0},
-                              [](std::int64_t sum, const auto& row) { return sum + row.second; }),
+                              [](std::int64_t sum, const auto& row) { return sum + row.second.half_cycles; }),
               total);
+    // Each address says what it lost most to: the first product waited for nothing, the second for it.
+    EXPECT_EQ(hot[0].at(0x102).reason, timing::Effect::mac_latency);
+    std::int64_t lost = 0;
+    for (const timing::TimedCall& call : p.calls) {
+        lost += call.cores[0].losses[timing::index(timing::Effect::mac_latency)];
+        EXPECT_EQ(call.cores[0].sets.size(), timing::read_core(TEST_CORES, "stm32f746-flash").sets.size());
+        EXPECT_EQ(call.cores[0].sets[0], call.cores[0].half_cycles[0]);
+    }
+    EXPECT_GT(hot[0].at(0x102).lost, 0);
+    EXPECT_LE(hot[0].at(0x102).lost, lost);
 }
 
 TEST(TimingLog, IsReadAsItWasWrittenAndACutIsSeen) {
@@ -257,6 +267,7 @@ TEST(TimingLog, IsReadAsItWasWrittenAndACutIsSeen) {
     EXPECT_EQ(calls, 3U);
     EXPECT_EQ(log.runs[0].call.cores[0].half_cycles, p.calls[0].cores[0].half_cycles);
     EXPECT_EQ(log.runs[0].call.cores[0].losses, p.calls[0].cores[0].losses);
+    EXPECT_EQ(log.runs[0].call.cores[0].sets, p.calls[0].cores[0].sets);
     EXPECT_EQ(log.unknown.at(0x100), 3U);
     EXPECT_EQ(log.hot, timer.hot());
     EXPECT_FALSE(log.hot.at(0).empty());

@@ -160,6 +160,63 @@ TEST(CoreFile, ACoreOrEffectThatDoesNotExistIsNamedWithThoseThatDo) {
     }
 }
 
+// What a fuzzer begins with has to be read to its end: else it never gets behind a row that went.
+TEST(CoreFile, TheFuzzersWholeFileIsOne) {
+    const timing::CoreFile core = timing::read_core_file(cores / "../../tests/fuzz/seeds/core_file/whole.toml", cores);
+    EXPECT_EQ(core.sets.size(), timing::read_core(cores, "stm32f746-itcm").sets.size());
+    EXPECT_TRUE(std::all_of(core.origins.begin(), core.origins.end(),
+                            [](const timing::Origin& row) { return row.file.ends_with("whole.toml"); }));
+}
+
+TEST(CoreFile, AFileAnywhereIsBasedOnWhatLiesBesideItOrInTheFolder) {
+    const base::Scratch scratch;
+    const auto write = [&](const char* name, const std::string& text) { std::ofstream(scratch.file(name)) << text; };
+    write("mine.toml", "base = \"own-base\"\nnote = \"mine\"\nplacement = { code = \"flash\", data = \"axi\" }\n");
+    write("own-base.toml",
+          "base = \"_stm32f746\"\n[rows.memory]\nclock_hz = { value = 200000000, mark = \"assumed\", source = \"a "
+          "test\" }\n");
+    const timing::CoreFile core = timing::read_core_file(scratch.file("mine.toml"), cores);
+    EXPECT_EQ(core.name, "mine");
+    EXPECT_EQ(core.placement.code, timing::CodePlace::flash);
+    EXPECT_EQ(core.sets[0].figures.memory_clock_hz, 200'000'000);
+    EXPECT_EQ(core.sets[0].figures.cache_data_bytes, 4096);
+    // Beside it comes first.
+    write("_stm32f746.toml", "base = \"_stm32h747\"\n");
+    EXPECT_EQ(timing::read_core_file(scratch.file("mine.toml"), cores).sets[0].figures.cache_data_bytes, 16384);
+    write("own-base.toml", "base = \"mine\"\n");
+    EXPECT_THROW((void)timing::read_core_file(scratch.file("mine.toml"), cores), glsum::Failure);
+    EXPECT_THROW((void)timing::read_core_file(scratch.file("none.toml"), cores), glsum::Failure);
+    EXPECT_THROW((void)timing::read_core_file(scratch.file(""), cores), glsum::Failure);
+    EXPECT_TRUE(timing::names_core_file("./mine"));
+    EXPECT_TRUE(timing::names_core_file("mine.toml"));
+    EXPECT_FALSE(timing::names_core_file("stm32f746-itcm"));
+}
+
+TEST(TimingRequest, PlacesRangesAndReadsACoreFileByItsPath) {
+    const base::Scratch scratch;
+    const std::string file = scratch.file("a core.toml").string();
+    std::ofstream(file) << "base = \"m7-ideal\"\nplacement = { code = \"flash\", data = \"dtcm\" }\n";
+    timing::TimingRequest request;
+    request.cores_folder = cores.string();
+    request.cores = {{"a core", "", ""}, {"m7-ideal", "", ""}};
+    request.cores[0].name = "mine";
+    request.cores[0].file = file;
+    request.cores[0].ranges = {{0x100, 0x200, timing::Place::dtcm}, {0x20000000, 0x20000010, timing::Place::axi}};
+    std::stringstream text;
+    timing::write_timing_request(text, request);
+    const auto read = timing::cores_of(timing::read_timing_request(text));
+    ASSERT_EQ(read.size(), 2U);
+    EXPECT_EQ(read[0].name, "a core");
+    EXPECT_EQ(read[0].placement.code, timing::CodePlace::flash);
+    ASSERT_EQ(read[0].placement.ranges.size(), 2U);
+    EXPECT_EQ(read[0].placement.ranges[0].begin, 0x100U);
+    EXPECT_EQ(read[0].placement.ranges[0].end, 0x200U);
+    EXPECT_EQ(read[0].placement.ranges[0].place, timing::Place::dtcm);
+    EXPECT_EQ(read[0].placement.ranges[1].place, timing::Place::axi);
+    EXPECT_TRUE(read[1].placement.ranges.empty());
+    EXPECT_EQ(read[1].name, "m7-ideal");
+}
+
 TEST(TimingRequest, IsReadAsItWasWritten) {
     timing::TimingRequest request;
     request.cores_folder = "/a folder/cores";

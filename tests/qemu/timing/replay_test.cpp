@@ -228,6 +228,7 @@ TEST(BlockReplay, EqualsTheComputationStepByStep) {
         }
         std::vector<timing::BlockEvents> met(blocks.size());
         std::vector<std::int64_t> half_cycles(sites.size());
+        std::vector<timing::Losses> lost(sites.size());
         for (int turn = 0; turn < 400; ++turn) {
             const timing::CodeBlock& block = blocks[draw(blocks.size())];
             const std::uint32_t data = 0x20000000U + 4 * draw(64) + (draw(16) == 0 ? 1 : 0);
@@ -253,12 +254,16 @@ TEST(BlockReplay, EqualsTheComputationStepByStep) {
                     const timing::CodeBlock::Instruction& line = block.lines[nth];
                     const std::uint32_t behind = nth + 1 < block.lines.size() ? block.lines[nth + 1].address : next;
                     const std::int32_t before = direct[0]->state.position;
+                    const timing::Losses lost_before = direct[0]->losses;
                     const timing::Event& event =
                         of_steps.meet(line.instruction->decoded, line.address, of_line[nth], behind);
                     for (const auto& pipeline : direct) {
                         pipeline->execute(*line.instruction, event);
                     }
                     half_cycles[line.site] += counted ? direct[0]->state.position - before : 0;
+                    for (std::size_t e = 0; counted && e < timing::effect_count; ++e) {
+                        lost[line.site][e] += direct[0]->losses[e] - lost_before[e];
+                    }
                 }
                 for (std::size_t s = 0; s < direct.size(); ++s) {
                     ASSERT_EQ(replay.core().positions()[s], direct[s]->state.position)
@@ -267,9 +272,12 @@ TEST(BlockReplay, EqualsTheComputationStepByStep) {
             }
         }
         EXPECT_EQ(replay.core().losses(), direct[0]->losses) << name;
-        std::vector<std::int64_t> counted = replay.half_cycles();
+        std::vector<timing::SiteTime> counted = replay.times();
         counted.resize(half_cycles.size());
-        EXPECT_EQ(counted, half_cycles) << name;
+        for (std::size_t site = 0; site < counted.size(); ++site) {
+            EXPECT_EQ(counted[site].half_cycles, half_cycles[site]) << name << ' ' << site;
+            EXPECT_EQ(counted[site].lost, lost[site]) << name << ' ' << site;
+        }
     }
 }
 
@@ -306,8 +314,8 @@ TEST(BlockReplay, RemembersNoMoreHoweverLongItRuns) {
     constexpr unsigned most_steps = 1U << 16;
     const std::size_t full = in_use_after(most_steps + most_steps / 4);
     EXPECT_LE(in_use_after(2 * most_steps), full + (std::size_t{1} << 18));
-    const std::vector<std::int64_t> half_cycles = replay.half_cycles();
-    EXPECT_EQ(half_cycles.at(0) + half_cycles.at(1), replay.core().positions()[0] - before);
+    const std::vector<timing::SiteTime> times = replay.times();
+    EXPECT_EQ(times.at(0).half_cycles + times.at(1).half_cycles, replay.core().positions()[0] - before);
 }
 
 timing::CoreFile core_of_sets(std::initializer_list<bool> fits) {

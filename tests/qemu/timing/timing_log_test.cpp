@@ -72,11 +72,13 @@ TEST(TimingLog, JoinsCallsThatAreAlikeInEverything) {
 
 TEST(TimingLog, HoldsWhatElseWasSeen) {
     std::istringstream in(
-        "hot 1 256 40\nhot 1 258 2\nhot 0 256 6\nunknown 512 9\nrecursive\nunfinished\nend\ncalls x\n");
+        "hot 1 256 40 load_use 3\nhot 1 258 2 single_issue 0\nhot 0 256 6 store_buffer 6\nunknown 512 "
+        "9\nrecursive\nunfinished\nend\ncalls x\n");
     const timing::TimingLog log = timing::read_timing_log(in);
     ASSERT_EQ(log.hot.size(), 2U);
-    EXPECT_EQ(log.hot[0], (std::map<std::uint32_t, std::int64_t>{{256, 6}}));
-    EXPECT_EQ(log.hot[1], (std::map<std::uint32_t, std::int64_t>{{256, 40}, {258, 2}}));
+    EXPECT_EQ(log.hot[0], (std::map<std::uint32_t, timing::HotSpot>{{256, {6, timing::Effect::store_buffer, 6}}}));
+    EXPECT_EQ(log.hot[1], (std::map<std::uint32_t, timing::HotSpot>{{256, {40, timing::Effect::load_use, 3}},
+                                                                    {258, {2, timing::Effect::single_issue, 0}}}));
     EXPECT_EQ(log.unknown, (std::map<std::uint32_t, std::uint64_t>{{512, 9}}));
     EXPECT_TRUE(log.recursive);
     EXPECT_TRUE(log.unfinished);
@@ -88,13 +90,15 @@ TEST(TimingLog, RefusesDamagedLines) {
     for (const std::string& line :
          {std::string("calls 0 256 7") + core, std::string("calls 1 256"), "calls 1 256 7" + core + " core 1",
           "calls 1 256 7 cone 1 30" + losses_from(200) + " 0", "calls 1 256 7 core 1 30" + losses_from(200),
-          std::string("hot 0 256"), std::string("hot 1001 256 1"), std::string("hot x 256 1"),
-          std::string("unknown 512"), std::string("other 1"), std::string()}) {
+          std::string("hot 0 256"), std::string("hot 1001 256 1 load_use 0"), std::string("hot x 256 1 load_use 0"),
+          std::string("hot 0 256 1 no_effect 0"), std::string("hot 0 256 1 load_use"),
+          "calls 1 256 7" + core + " sets 2 1", std::string("calls 1 256 7 sets 1 1"), std::string("unknown 512"),
+          std::string("other 1"), std::string()}) {
         std::istringstream in(line + "\nend\n");
         EXPECT_THROW((void)timing::read_timing_log(in), std::runtime_error) << line;
     }
-    for (const std::string& line :
-         {"calls 1 256 7" + core, std::string("hot 1000 256 1"), std::string("unknown 512 1")}) {
+    for (const std::string& line : {"calls 1 256 7" + core, "calls 1 256 7" + core + " sets 2 1 2" + core,
+                                    std::string("hot 1000 256 1 load_use 0"), std::string("unknown 512 1")}) {
         std::istringstream in(line + "\nend\n");
         EXPECT_NO_THROW((void)timing::read_timing_log(in)) << line;
         std::istringstream cut(line + "\n");
@@ -148,12 +152,13 @@ TEST(TimingRequest, ChangesACoreFileAsItSays) {
 }
 
 TEST(TimingLog, ACoresNumberIsAtMostAThousand) {
-    std::istringstream most("hot 1000 256 7\nend\n");
+    std::istringstream most("hot 1000 256 7 load_use 7\nend\n");
     const timing::TimingLog log = timing::read_timing_log(most);
     ASSERT_EQ(log.hot.size(), 1001U);
-    EXPECT_EQ(log.hot[1000].at(256), 7);
-    for (const char* damaged : {"hot 1001 256 7\nend\n", "hot 0 256\nend\n", "unknown 256\nend\n", "calls 0 1 1\nend\n",
-                                "calls 1 1\nend\n", "calls 1 1 1 core 1 5\nend\n", "else\nend\n"}) {
+    EXPECT_EQ(log.hot[1000].at(256).half_cycles, 7);
+    for (const char* damaged :
+         {"hot 1001 256 7 load_use 7\nend\n", "hot 0 256\nend\n", "unknown 256\nend\n", "calls 0 1 1\nend\n",
+          "calls 1 1\nend\n", "calls 1 1 1 core 1 5\nend\n", "else\nend\n"}) {
         std::istringstream in(damaged);
         EXPECT_THROW((void)timing::read_timing_log(in), std::runtime_error) << damaged;
     }
