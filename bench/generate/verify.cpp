@@ -30,7 +30,8 @@ bool Verified::good() const {
     const glsum::CatalogueEntry* const entry = glsum::find_kernel(kernel);
     const bool in_software = entry != nullptr && entry->in_double;
     const double place = in_software ? std::max(place_share * kernel_cycles, place_cycles) : 0.0;
-    const double saved = in_software ? std::max(saved_share * kernel_instructions, saved_instructions) : 0.0;
+    const double saved = in_software ? std::max(saved_share * kernel_instructions, saved_instructions)
+                                     : spare_share * kernel_instructions;
     return first_wrong == 0 && header_instructions <= kernel_instructions + saved &&
            header_cycles <= kernel_cycles + place;
 }

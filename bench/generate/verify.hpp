@@ -35,7 +35,11 @@ struct Verified {
     static constexpr double saved_share = 0.001;
     static constexpr double saved_instructions = 8.0;
 
-    /// But for that, instructions count to the last one, and cycles too.
+    /// An instruction that issues beside another costs nothing: where the cycles are no more, what another compiler
+    /// makes of the same statements may have some more of them (GCC 14, 300 taps in blocks: 6 %).
+    static constexpr double spare_share = 0.07;
+
+    /// But for that, cycles count to the last one.
     [[nodiscard]] bool good() const;
 };
 
