@@ -14,6 +14,7 @@
 #include "cli/board.hpp"
 #include "cli/command.hpp"
 #include "cli/name_value.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 #include "qemu/emulate/function_report.hpp"
 #include "qemu/emulate/timed_program.hpp"
 
@@ -97,7 +98,7 @@ void run(const Options& options) {
     const qemu::Elf elf(options.elf);
     const timing::TimingRequest request = to_request(options, elf, cores_folder());
     const timing::CoreFile core = timing::cores_of(request).front();
-    elf.check_runs_on_cortex_m7();
+    qemu::check_runs_on_board(elf);
     std::vector<qemu::Function> functions;
     std::vector<std::uint32_t> entries;
     for (const std::string& name : options.functions) {

@@ -39,5 +39,5 @@ void maintain_data_cache();
 }  // namespace port
 
 /// The program (one of firmware/), called by the start-up code with the FPU on, data copied and bss cleared. Its result
-/// is the exit status.
-int firmware_main();
+/// is the exit status. Of C linkage, so that C programs have it too.
+extern "C" int firmware_main();

@@ -206,7 +206,7 @@ Function Elf::function(const std::string& name) const {
         const std::string text = readable(function.name);
         const std::string without_parameters = text.substr(0, text.find('('));
         // "f.constprop.0" is what the compiler made of f.
-        if (function.name == name || text == name || without_parameters == name ||
+        if (function.name == name || text == name || function.name + "()" == name || without_parameters == name ||
             function.name.starts_with(name + '.')) {
             found.push_back(function);
         }
@@ -240,19 +240,42 @@ Function Elf::function(const std::string& name) const {
                   fmt::format("{}: {} is the name of {} functions:{}", path_.string(), name, found.size(), names));
 }
 
+// The core starts where the vector table says, in Thumb state; the ELF's own entry is for loaders, and often not set.
+void Elf::check_starts() const {
+    const auto first =
+        std::find_if(sections_.begin(), sections_.end(), [](const Section& section) { return section.address == 0; });
+    if (first == sections_.end() || first->bytes.size() < 8 || (word(4) & 1U) == 0) {
+        throw Failure(Exit::bad_input,
+                      fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found none whose vector table at "
+                                  "address 0 starts it in Thumb state",
+                                  path_.string()));
+    }
+}
+
+void Elf::check_lies_within(const std::vector<Extent>& memories, const std::string& whose) const {
+    for (const auto& [name, extent] : extents_) {
+        if (std::none_of(memories.begin(), memories.end(), [&, at = extent](const Extent& memory) {
+                return memory.begin <= at.begin && at.end <= memory.end;
+            })) {
+            std::string text;
+            for (const Extent& memory : memories) {
+                text += fmt::format("{}{:#010x} to {:#010x}", text.empty() ? "" : ", ", memory.begin, memory.end);
+            }
+            throw Failure(
+                Exit::bad_input,
+                fmt::format("{}: section {} lies at {:#010x} to {:#010x}; link it into the memories of {}: {}",
+                            path_.string(), name, extent.begin, extent.end, whose, text));
+        }
+    }
+}
+
 void Elf::check_runs_on_cortex_m7() const {
     const auto refuse = [&](const std::string& found) {
         throw Failure(Exit::bad_input, fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found {}",
                                                    path_.string(), found));
     };
     if (attributes_.empty()) {
-        // Written in assembly: its encodings will tell. The core starts where the vector table says, in Thumb state;
-        // the ELF's own entry is for loaders, and often not set.
-        const auto first = std::find_if(sections_.begin(), sections_.end(),
-                                        [](const Section& section) { return section.address == 0; });
-        if (first == sections_.end() || first->bytes.size() < 8 || (word(4) & 1U) == 0) {
-            refuse("none whose vector table at address 0 starts it in Thumb state");
-        }
+        check_starts();  // written in assembly: its encodings will tell
         return;
     }
     // [Arm IHI 0045, Tag_CPU_arch]

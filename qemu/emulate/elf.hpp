@@ -18,6 +18,11 @@ struct Function {
 
 class Elf {
 public:
+    /// Addresses of a section once the program runs, or of a memory.
+    struct Extent {
+        std::uint32_t begin;
+        std::uint32_t end;  ///< behind its last byte
+    };
     /// \throws glsum::Failure (bad input) when the file is missing, damaged, or not a 32-bit Arm executable.
     explicit Elf(const std::filesystem::path& path);
 
@@ -26,6 +31,10 @@ public:
     /// The one function that a name means: as in the symbol table, or as C++ has it, with or without parameters.
     /// \throws glsum::Failure (bad input) when there is none, with the closest names, or when several are called so.
     [[nodiscard]] Function function(const std::string& name) const;
+    /// \throws glsum::Failure (bad input), which names the section and its address, when one lies elsewhere
+    void check_lies_within(const std::vector<Extent>& memories, const std::string& whose) const;
+    /// \throws glsum::Failure (bad input) when the vector table at address 0 does not start it in Thumb state
+    void check_starts() const;
     /// \throws glsum::Failure (bad input) when it was built for another core than an M-profile one up to ARMv7E-M.
     void check_runs_on_cortex_m7() const;
     /// The function that holds an address.
@@ -33,12 +42,7 @@ public:
     /// Behind the last byte of the function that begins at an address: by its symbol's size, or, where that has none,
     /// where the next function begins.
     [[nodiscard]] std::uint32_t end_of_function(std::uint32_t address) const;
-    /// Where a section lies once the program runs, its name as in `.rodata`.
-    struct Extent {
-        std::uint32_t begin;
-        std::uint32_t end;  ///< behind its last byte
-    };
-    /// \throws glsum::Failure (bad input) when there is none of that name, with those that there are
+    /// Its name as in `.rodata`. \throws glsum::Failure (bad input) when there is none, with those that there are
     [[nodiscard]] Extent section(const std::string& name) const;
     /// Addresses by name; of functions without the Thumb bit.
     [[nodiscard]] const std::map<std::string, std::uint32_t>& symbols() const { return symbols_; }

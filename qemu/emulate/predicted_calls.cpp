@@ -10,6 +10,7 @@
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
 #include "qemu/emulate/elf.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 #include "qemu/emulate/function_time.hpp"
 #include "qemu/emulate/timed_program.hpp"
 
@@ -58,7 +59,7 @@ std::vector<Timed> plan_of(const CallsProgram& program, const std::vector<Measur
             std::unique_ptr<Elf>& elf = elves[row.elf];
             if (!elf) {
                 elf = std::make_unique<Elf>(row.elf);
-                elf->check_runs_on_cortex_m7();
+                check_runs_on_board(*elf);
             }
             const Function function = elf->function(row.function);
             const auto [at, is_new] = known.emplace(std::pair(row.elf, function.address), plan.size());

@@ -268,6 +268,57 @@ arm-none-eabi-gcc $core -nostdlib -T "$folder/map.ld" "$folder/hand.S" -o "$fold
 expect 0 "3 calls" time --elf "$folder/hand.elf" --function work --json "$folder/hand.json"
 has "$folder/hand.json" '"median": 42,'
 
+# Programs as people have them, on our start-up: newlib's printf and malloc in C, with objects of the soft-float interface, too;
+# exceptions, the standard library and static objects in C++.
+if [ -e "$firmware/targets/libboard.a" ]; then
+    cat >"$folder/app.c" <<'C'
+#include <stdio.h>
+#include <stdlib.h>
+__attribute__((noinline, noclone)) float filter(float x) { static float s; s += 0.125f * (x - s); return s; }
+int main(void) {
+    float *data = malloc(100 * sizeof *data), sum = 0;
+    for (int i = 0; i < 100; i++) sum += data[i] = filter((float)i);
+    printf("sum %.3f\n", sum);
+    free(data);
+    return sum > 4305.9f && sum < 4306.1f ? 0 : 1;
+}
+C
+    cat >"$folder/app.cpp" <<'C'
+#include <cstdio>
+#include <stdexcept>
+#include <vector>
+struct Numbers { std::vector<int> all{7, 8}; ~Numbers() { all.clear(); } };
+static Numbers numbers;
+__attribute__((noinline, noclone)) int checked(int i) { if (i % numbers.all[0] == 0) throw std::runtime_error("seven"); return i; }
+int main() {
+    int caught = 0;
+    for (int i = 0; i < 50; i++) { try { caught += checked(i) < 0; } catch (const std::exception&) { ++caught; } }
+    std::printf("caught %d\n", caught);
+    return caught == 8 ? 0 : 1;
+}
+C
+    link="-nostartfiles -T $source/targets/mps2-an500/memory.ld -T $source/targets/cortex-m7/sections.ld -Wl,--defsym=firmware_main=main"
+    board=$firmware/targets/libboard.a
+    linked() {  # PROGRAM COMPILER OPTION...
+        elf=$folder/$1 compiler=$2
+        shift 2
+        "$compiler" -mcpu=cortex-m7 -mthumb -mfpu=fpv5-sp-d16 -O2 "$@" $link -o "$elf" 2>"$folder/said" || { cat "$folder/said"; fail "$elf: not linked"; }
+    }
+    linked app.elf arm-none-eabi-gcc -mfloat-abi=hard "$folder/app.c" "$board" -lc "$board"
+    expect 0 "100 calls" time --elf "$folder/app.elf" --function filter
+    linked soft.elf arm-none-eabi-gcc -mfloat-abi=softfp "$folder/app.c" -Wl,--no-warn-mismatch "$board" -lc "$board"
+    expect 0 "100 calls" time --elf "$folder/soft.elf" --function filter
+    linked cpp.elf arm-none-eabi-g++ -mfloat-abi=hard "$folder/app.cpp" "$board" -lstdc++ -lc "$board"
+    expect 0 " calls" time --elf "$folder/cpp.elf" --function checked
+fi
+
+# Linked for a chip's flash: said in a sentence, not by a register dump of the emulator.
+sed 's/ORIGIN = 0,/ORIGIN = 0x08000000,/' "$folder/map.ld" >"$folder/chip.ld"
+arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/chip.ld" "$folder/start.c" "$folder/main.c" \
+    -lgcc -o "$folder/chip.elf" 2>"$folder/said" || cat "$folder/said"
+expect 2 "section .text lies at 0x08000000" time --elf "$folder/chip.elf" --function leaf
+[ "$(wc -l <"$folder/said")" = 1 ] || fail "chip.elf: expected one sentence"
+
 # A function that an interrupt calls while the main program runs.
 cat >"$folder/interrupt.c" <<'C'
 #define KEEP __attribute__((noinline, noclone))
