@@ -74,12 +74,8 @@ timing::TimingRequest to_request(const Options& options, const qemu::Elf& elf,
                                  const std::filesystem::path& cores_folder) {
     timing::TimingRequest request;
     request.cores_folder = cores_folder.string();
-    timing::TimingRequest::Core core{options.core, "", ""};
+    timing::TimingRequest::Core core = timing::core_asked_for(options.core);
     core.without = options.without;
-    if (timing::names_core_file(options.core)) {
-        core.name = std::filesystem::path(options.core).stem().string();
-        core.file = std::filesystem::absolute(options.core).string();
-    }
     for (const std::string& place : options.places) {
         const auto [key, value] = split_at_equals(place);
         if (key == "code") {

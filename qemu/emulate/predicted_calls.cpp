@@ -36,14 +36,17 @@ auto for_row(const std::string& name, const MeasuredCall& row, Work work) {
 }
 
 std::size_t core_of(timing::TimingRequest& request, const MeasuredCall& row, const std::vector<std::string>& without) {
+    timing::TimingRequest::Core asked = timing::core_asked_for(row.core);
     for (std::size_t c = 0; c < request.cores.size(); ++c) {
         const timing::TimingRequest::Core& core = request.cores[c];
-        if (core.name == row.core && core.code == row.code && core.data == row.data) {
+        if (core.name == asked.name && core.file == asked.file && core.code == row.code && core.data == row.data) {
             return c;
         }
     }
-    request.cores.push_back({row.core, row.code, row.data});
-    request.cores.back().without = without;
+    asked.code = row.code;
+    asked.data = row.data;
+    asked.without = without;
+    request.cores.push_back(asked);
     return request.cores.size() - 1;
 }
 

@@ -151,6 +151,15 @@ TimingLog read_timing_log(std::istream& in) {
     throw std::runtime_error("timing log: cut short: the emulator ended before it was written");
 }
 
+TimingRequest::Core core_asked_for(const std::string& core) {
+    TimingRequest::Core asked{core, "", ""};
+    if (names_core_file(core)) {
+        asked.name = std::filesystem::path(core).stem().string();
+        asked.file = std::filesystem::absolute(core).string();
+    }
+    return asked;
+}
+
 void write_timing_request(std::ostream& out, const TimingRequest& request) {
     const auto word = [](const std::string& text) { return text.empty() ? "-" : text; };
     out << "folder " << request.cores_folder << '\n';

@@ -59,6 +59,8 @@ struct TimingRequest {
     std::vector<Core> cores;
     std::vector<AddressRange> double_routines = {};  ///< of the program, see software_double.hpp
 };
+/// What somebody means who names a core: one of the folder's, or a file by its path (`names_core_file`).
+[[nodiscard]] TimingRequest::Core core_asked_for(const std::string& core);
 void write_timing_request(std::ostream& out, const TimingRequest& request);
 [[nodiscard]] TimingRequest read_timing_request(std::istream& in);
 

@@ -39,6 +39,11 @@ done
 # From another folder, too.
 (cd "$folder/programs" && "$program" silicon --rows ../rows.csv >"$folder/said" 2>&1) || fail "from elsewhere: $(tail -n 2 "$folder/said")"
 
+# A core file of one's own, named by its path.
+printf 'base = "stm32f746-itcm"\n' >"$folder/mine.toml"
+rows "programs/own.elf,biquad_step,$folder/mine.toml,,,$tcm,1" "programs/own.elf,biquad_step,stm32f746-flash-nocache,,,$flash,1"
+expect 0 "median error 0.00 %" silicon --rows "$folder/rows.csv"
+
 # One that is missed: by 5 % and 8 cycles of a call, not of its parts; calls of different length have a line.
 rows "programs/own.elf,biquad_step,stm32f746-itcm,itcm,dtcm,$(awk -v c="$tcm" 'BEGIN {print c / 2}'),1" \
     "programs/own.elf,firmware_main,stm32f746-itcm,itcm,dtcm,$(awk -v c="$a_step" 'BEGIN {print c * 0.5}'),1000" \

@@ -8,6 +8,7 @@
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
+#include "qemu/timing/memory.hpp"
 #include "qemu/timing/timing_log.hpp"
 
 namespace {
@@ -17,7 +18,9 @@ const std::filesystem::path cores(TEST_CORES);
 TEST(CoreFile, TheNamedCoresAreThere) {
     EXPECT_EQ(timing::core_names(cores),
               (std::vector<std::string>{"m7-ideal", "stm32f746-flash", "stm32f746-flash-art", "stm32f746-flash-nocache",
-                                        "stm32f746-itcm", "stm32h747-axi", "stm32h747-dtcm"}));
+                                        "stm32f746-itcm", "stm32f767-axi", "stm32f767-flash", "stm32f767-itcm",
+                                        "stm32h743-axi", "stm32h743-dtcm", "stm32h743-itcm", "stm32h747-axi",
+                                        "stm32h747-dtcm"}));
     for (const std::string& name : timing::core_names(cores)) {
         const timing::CoreFile core = timing::read_core(cores, name);
         EXPECT_GE(core.sets.size(), 2U) << name;
@@ -33,6 +36,20 @@ TEST(CoreFile, TheNamedCoresAreThere) {
             }
         }
     }
+}
+
+// Larger caches and other clocks are the only news of a chip whose core is the same.
+TEST(CoreFile, ChipsDifferInCachesAndMemories) {
+    const auto figures = [](const char* name) { return timing::read_core(cores, name).sets[0].figures; };
+    EXPECT_EQ(figures("stm32f746-flash").cache_data_bytes, 4096);
+    EXPECT_EQ(figures("stm32f767-flash").cache_data_bytes, 16384);
+    EXPECT_EQ(figures("stm32f767-flash").cache_instruction_bytes, 16384);
+    const std::pair<const char*, std::int64_t> wait_states[] = {
+        {"stm32f746-flash", 7}, {"stm32f767-flash", 7}, {"stm32h747-dtcm", 2}, {"stm32h743-dtcm", 4}};
+    for (const auto& [name, states] : wait_states) {
+        EXPECT_EQ(timing::Memory(figures(name), {}).flash_wait_states(), states) << name;
+    }
+    EXPECT_EQ(figures("stm32f767-itcm").result_load_word, figures("stm32h743-itcm").result_load_word);
 }
 
 TEST(CoreFile, OnlyTheIdealCoreHasEverythingOff) {
