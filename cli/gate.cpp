@@ -11,10 +11,15 @@
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "base/scratch.hpp"
+#include "base/sha256.hpp"
 #include "bench/gate/baseline.hpp"
 #include "bench/gate/gate.hpp"
 #include "bench/gate/outputs.hpp"
 #include "cli/command.hpp"
+#include "cli/timed_elf.hpp"
+#include "qemu/emulate/foreign_program.hpp"
+#include "qemu/emulate/function_gate.hpp"
 
 namespace cli {
 namespace {
@@ -33,6 +38,8 @@ struct Options {
     bool update = false;
     std::string reason;
     std::vector<std::string> rows;
+    TimedElf timed;  // of functions in place of rows
+    std::vector<std::string> functions;
 };
 
 // An output that goes to a file where one is named and to standard output where none is.
@@ -107,7 +114,71 @@ void update_baseline(const Options& options) {
     fmt::print("\n{}: {} rows recorded; changed: {}\n", options.baseline.string(), baseline.rows.size(), changed);
 }
 
+qemu::GatedProgram gated_program(const Options& options) {
+    const qemu::Elf elf(options.timed.elf);
+    const timing::TimingRequest request = to_request(options.timed, elf);
+    const timing::CoreFile core = timing::cores_of(request).front();
+    qemu::check_runs_on_board(elf);
+    const std::vector<qemu::Function> functions = elf.functions_like(options.functions);
+    const std::vector<timing::TimingLog> logs = time_functions(options.timed, functions, request, true);
+    std::string placed = core.text + timing::name_of(core.placement.code) + timing::name_of(core.placement.data);
+    for (const timing::PlacedRange& range : core.placement.ranges) {
+        placed += timing::name_of(range.place);  // addresses move with the program
+    }
+    const base::Scratch scratch;
+    base::write_file(scratch.file("core"), placed);
+    qemu::GatedProgram program{
+        base::sha256_of(options.timed.elf), core.name, base::sha256_of(scratch.file("core")), {}};
+    for (std::size_t f = 0; f < functions.size(); ++f) {
+        program.functions.push_back(qemu::gated_function(
+            functions[f], elf, logs[f].runs.empty() ? std::nullopt : std::optional(qemu::function_time(logs[f]))));
+    }
+    std::sort(program.functions.begin(), program.functions.end(),
+              [](const auto& a, const auto& b) { return a.name < b.name; });
+    return program;
+}
+
+// Functions of anybody's program in place of the rows of a run.
+void run_functions(const Options& options) {
+    constexpr std::size_t most_bytes = 64U << 20;
+    if (options.update && options.reason.find_first_not_of(" \t\n") == std::string::npos) {
+        throw Failure(Exit::bad_input, "--update-baseline: expected --reason TEXT, which the baseline keeps");
+    }
+    if (!options.update && !std::filesystem::exists(options.baseline)) {
+        throw Failure(Exit::bad_input, fmt::format("{}: no such baseline; --update-baseline --reason TEXT records one",
+                                                   options.baseline.string()));
+    }
+    const qemu::GatedProgram now = gated_program(options);
+    if (options.update) {
+        base::write_file(options.baseline, qemu::to_json(now, options.reason));
+        fmt::print("{}: {} functions recorded\n", options.baseline.string(), now.functions.size());
+        return;
+    }
+    const qemu::GatedProgram before =
+        qemu::parse_gated_program(base::read_file(options.baseline, most_bytes), options.baseline.string());
+    std::string worse;
+    const std::vector<qemu::FunctionChange> changes = qemu::changes(before, now);
+    for (const qemu::FunctionChange& change : changes) {
+        fmt::print("{:<6} {}: {}\n", change.worse ? "worse" : "passes", change.name, change.text);
+        worse += change.worse ? (worse.empty() ? "" : ", ") + change.name : "";
+    }
+    fmt::print("{} functions on {}, {} changed\n", now.functions.size(), now.core, changes.size());
+    if (!worse.empty()) {
+        throw Failure(Exit::check_failed, "gate: worse: " + worse);
+    }
+}
+
 void run(const Options& options, const std::vector<Output>& outputs) {
+    if (!options.timed.elf.empty()) {
+        for (const Output& output : outputs) {
+            if (output.option->given() || options.annotations) {
+                throw Failure(Exit::bad_input,
+                              "--elf: expected no --json, --junit, --markdown or --annotations beside it");
+            }
+        }
+        run_functions(options);
+        return;
+    }
     if (options.update) {
         update_baseline(options);
         return;
@@ -159,7 +230,10 @@ void add_options(Command& command, const Words&) {
     command.footer(
         "Layers: rows, right answer, accuracy, instructions and bytes, modelled cycles, host time.\n"
         "Exit status: 0 pass, 1 worse, 2 a file is broken, 4 the two runs cannot be compared.\n"
-        "Example: glsum gate --baseline results/baselines/m7.json --current my.json --junit gate.xml");
+        "With --elf the cycles, instructions, code and stack of a program's functions are held to a baseline that\n"
+        "--update-baseline recorded of an earlier build: any growth is worse.\n"
+        "Example: glsum gate --baseline results/baselines/m7.json --current my.json --junit gate.xml\n"
+        "Example: glsum gate --elf app.elf --functions 'ctrl_*' --baseline app.json");
     command.add_option("--baseline", options->baseline, "What to hold the run against").required();
     command.add_option("--current", options->current, "The run's result file").default_str("results/latest.json");
     command.add_option("--thresholds", options->thresholds, "Rules: what may change by how much, and why")
@@ -181,6 +255,11 @@ void add_options(Command& command, const Words&) {
         .add_option("--rows", options->rows, "Globs of the rows that a new baseline keeps (default: as before, or all)")
         .delimiter(',')
         .needs(update);
+    Option elf = command.add_option("--elf", options->timed.elf, "Holds functions of this program to the baseline");
+    Option functions = command.add_option("--functions", options->functions, "Globs of their names");
+    functions.delimiter(',').needs(elf);
+    elf.needs(functions);
+    add_timing_options(command, options->timed);
     command.callback([options, outputs] { run(*options, *outputs); });
 }
 

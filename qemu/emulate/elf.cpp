@@ -3,6 +3,7 @@
 #include <cxxabi.h>
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fnmatch.h>
 #include <gelf.h>
 #include <libelf.h>
 #include <sys/stat.h>
@@ -238,6 +239,29 @@ Function Elf::function(const std::string& name) const {
     }
     throw Failure(Exit::bad_input,
                   fmt::format("{}: {} is the name of {} functions:{}", path_.string(), name, found.size(), names));
+}
+
+std::vector<Function> Elf::functions_like(const std::vector<std::string>& globs) const {
+    std::map<std::uint32_t, Function> found;
+    for (const std::string& glob : globs) {
+        bool any = false;
+        for (const auto& [address, function] : functions_) {
+            const std::string text = readable(function.name);
+            if (fnmatch(glob.c_str(), function.name.c_str(), 0) == 0 ||
+                fnmatch(glob.c_str(), text.substr(0, text.find('(')).c_str(), 0) == 0) {
+                found.emplace(address, function);
+                any = true;
+            }
+        }
+        if (!any) {
+            throw Failure(Exit::bad_input, fmt::format("{}: no function's name matches {}", path_.string(), glob));
+        }
+    }
+    std::vector<Function> functions;
+    for (const auto& [address, function] : found) {
+        functions.push_back(function);
+    }
+    return functions;
 }
 
 // The core starts where the vector table says, in Thumb state; the ELF's own entry is for loaders, and often not set.

@@ -31,6 +31,9 @@ public:
     /// The one function that a name means: as in the symbol table, or as C++ has it, with or without parameters.
     /// \throws glsum::Failure (bad input) when there is none, with the closest names, or when several are called so.
     [[nodiscard]] Function function(const std::string& name) const;
+    /// The functions whose names, as in the symbol table or as C++ has them without parameters, match one of the globs;
+    /// by address. \throws glsum::Failure (bad input) when a glob matches none
+    [[nodiscard]] std::vector<Function> functions_like(const std::vector<std::string>& globs) const;
     /// \throws glsum::Failure (bad input), which names the section and its address, when one lies elsewhere
     void check_lies_within(const std::vector<Extent>& memories, const std::string& whose) const;
     /// \throws glsum::Failure (bad input) when the vector table at address 0 does not start it in Thumb state

@@ -9,12 +9,6 @@
 #include "qemu/emulate/disassemble.hpp"
 
 namespace qemu {
-namespace {
-
-double cycles(std::int64_t half) { return static_cast<double>(half) / 2.0; }
-
-}  // namespace
-
 std::vector<HotInstruction> hot_instructions(const FunctionTime& time, const Elf& elf, std::size_t most) {
     std::vector<HotInstruction> hot;
     for (const auto& [address, spot] : time.hot) {
@@ -22,9 +16,10 @@ std::vector<HotInstruction> hot_instructions(const FunctionTime& time, const Elf
             break;
         }
         const Function* const holder = elf.function_at(address);
-        hot.push_back(
-            {address, holder != nullptr ? holder->name : "", disassemble(elf.path(), address), cycles(spot.half_cycles),
-             spot.lost > 0 ? std::string(timing::effect_names[timing::index(spot.reason)]) : "", cycles(spot.lost)});
+        hot.push_back({address, holder != nullptr ? holder->name : "", disassemble(elf.path(), address),
+                       in_cycles(spot.half_cycles),
+                       spot.lost > 0 ? std::string(timing::effect_names[timing::index(spot.reason)]) : "",
+                       in_cycles(spot.lost)});
     }
     return hot;
 }
@@ -37,18 +32,19 @@ std::string to_text(const FunctionReport& report) {
     text += fmt::format("{:<16} {:>12} {:>12} {:>12}\n", "", "min", "median", "max");
     text += fmt::format("{:<16} {:>12} {:>12} {:>12}\n", "instructions", time.instructions.min,
                         time.instructions.median, time.instructions.max);
-    text += fmt::format("{:<16} {:>12.1f} {:>12.1f} {:>12.1f}   band {:.1f} to {:.1f}\n\n", "model cycles",
-                        cycles(time.nominal.min), cycles(time.nominal.median), cycles(time.nominal.max),
-                        cycles(time.low), cycles(time.high));
+    text += fmt::format("{:<16} {:>12.1f} {:>12.1f} {:>12.1f}   band {:.1f} to {:.1f}\n", "model cycles",
+                        in_cycles(time.nominal.min), in_cycles(time.nominal.median), in_cycles(time.nominal.max),
+                        in_cycles(time.low), in_cycles(time.high));
+    text += fmt::format("{:<16} {:>12}\n\n", "stack bytes", time.stack_bytes);
     text += fmt::format("{:<28} {:>12}   (median of the calls)\n", "lost to", "cycles");
     for (std::size_t e = 0; e < time.lost.size(); ++e) {
         if (time.lost[e].max > 0) {
-            text += fmt::format("{:<28} {:>12.1f}\n", timing::effect_names[e], cycles(time.lost[e].median));
+            text += fmt::format("{:<28} {:>12.1f}\n", timing::effect_names[e], in_cycles(time.lost[e].median));
         }
     }
     if (time.in_double.max > 0) {
         text += fmt::format("{:<28} {:>12.1f}   (all cycles within its routines)\n", timing::double_in_software,
-                            cycles(time.in_double.median));
+                            in_cycles(time.in_double.median));
     }
     for (const std::string& effect : report.without) {
         if (std::find(timing::effects_beside_a_call.begin(), timing::effects_beside_a_call.end(), effect) !=
@@ -93,23 +89,24 @@ Json json_of(const FunctionReport& report, const std::string& elf_sha256) {
     json["calls"] = time.calls;
     json["instructions"] = {
         {"min", time.instructions.min}, {"median", time.instructions.median}, {"max", time.instructions.max}};
-    json["model_cycles"] = {{"min", cycles(time.nominal.min)},
-                            {"median", cycles(time.nominal.median)},
-                            {"max", cycles(time.nominal.max)},
-                            {"low", cycles(time.low)},
-                            {"high", cycles(time.high)}};
+    json["model_cycles"] = {{"min", in_cycles(time.nominal.min)},
+                            {"median", in_cycles(time.nominal.median)},
+                            {"max", in_cycles(time.nominal.max)},
+                            {"low", in_cycles(time.low)},
+                            {"high", in_cycles(time.high)}};
     for (std::size_t s = 0; s < time.sets.size(); ++s) {
         json["rule_sets"].push_back({{"name", report.core.sets.at(s).name},
                                      {"fits", report.core.sets[s].fits},
-                                     {"min", cycles(time.sets[s].min)},
-                                     {"median", cycles(time.sets[s].median)},
-                                     {"max", cycles(time.sets[s].max)}});
+                                     {"min", in_cycles(time.sets[s].min)},
+                                     {"median", in_cycles(time.sets[s].median)},
+                                     {"max", in_cycles(time.sets[s].max)}});
     }
+    json["stack_bytes"] = time.stack_bytes;
     json["stalls"] = Json::object();
     for (std::size_t e = 0; e < time.lost.size(); ++e) {
-        json["stalls"][std::string(timing::effect_names[e])] = cycles(time.lost[e].median);
+        json["stalls"][std::string(timing::effect_names[e])] = in_cycles(time.lost[e].median);
     }
-    json["stalls"][std::string(timing::double_in_software)] = cycles(time.in_double.median);
+    json["stalls"][std::string(timing::double_in_software)] = in_cycles(time.in_double.median);
     json["hot"] = Json::array();
     for (const HotInstruction& hot : report.hot) {
         json["hot"].push_back({{"address", fmt::format("{:#010x}", hot.address)},
@@ -157,12 +154,12 @@ void write_calls(std::ostream& out, const std::string& function, const timing::T
         const timing::CoreTime& time = run.call.cores.at(core);
         std::string rest = fmt::format(",{}", run.call.instructions);
         for (const std::int64_t half : time.half_cycles) {
-            rest += fmt::format(",{}", cycles(half));
+            rest += fmt::format(",{}", in_cycles(half));
         }
         for (const std::int64_t half : time.losses) {
-            rest += fmt::format(",{}", cycles(half));
+            rest += fmt::format(",{}", in_cycles(half));
         }
-        rest += fmt::format(",{}\n", cycles(time.double_in_software));
+        rest += fmt::format(",{}\n", in_cycles(time.double_in_software));
         for (std::uint64_t i = 0; i < run.calls; ++i) {
             out << '"' << function << "\"," << ++call << rest;
         }

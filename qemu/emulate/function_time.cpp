@@ -42,6 +42,7 @@ FunctionTime function_time(const timing::TimingLog& log, std::size_t core) {
     FunctionTime time;
     for (const timing::TimedRun& run : log.runs) {
         time.calls += run.calls;
+        time.stack_bytes = std::max(time.stack_bytes, run.call.stack_bytes);
         instructions.add(static_cast<std::int64_t>(run.call.instructions), run.calls);
         const timing::CoreTime& taken = run.call.cores.at(core);
         for (std::size_t s = 0; s < sets.size(); ++s) {

@@ -16,18 +16,17 @@ namespace qemu {
 
 /// \param entries  addresses of the functions to time
 /// \param marks    of a program that marks what is to be timed
+/// \param uncalled whether a log may be one of no call
 /// \param line     called for each line that the program prints; may be empty
 /// \return one log for each part that the program marks; without marks one for each function, in the order of their
 ///         addresses
 /// \throws glsum::Failure as emulate() does; when the program ends within a watched function, and when none was called,
 /// it
 ///         says so (check failed)
-[[nodiscard]] std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std::filesystem::path& plugin,
-                                                          const std::filesystem::path& elf,
-                                                          const std::vector<std::string>& arguments,
-                                                          const std::vector<std::uint32_t>& entries,
-                                                          const timing::TimingRequest& request,
-                                                          const std::optional<Marks>& marks,
-                                                          const std::function<void(const std::string&)>& line);
+[[nodiscard]] std::vector<timing::TimingLog> time_program(
+    const Emulator& emulator, const std::filesystem::path& plugin, const std::filesystem::path& elf,
+    const std::vector<std::string>& arguments, const std::vector<std::uint32_t>& entries,
+    const timing::TimingRequest& request, const std::optional<Marks>& marks,
+    const std::function<void(const std::string&)>& line, bool uncalled = false);
 
 }  // namespace qemu

@@ -60,6 +60,9 @@ CallTimer::Piece& CallTimer::piece_of(std::vector<std::unique_ptr<Piece>>& piece
     for (const qemu::Instruction& instruction : instructions) {
         const Prepared* one = prepared(instruction);
         piece->code.lines.push_back({one, instruction.index, instruction.address});
+        if (const auto move = stack_move(instruction.encoding, instruction.bytes)) {
+            piece->stack_moves.emplace_back(static_cast<std::uint16_t>(piece->code.lines.size() - 1), *move);
+        }
         if (one->decoded.kind == Kind::unknown) {
             piece->unknown.push_back(instruction.address);
         }
@@ -138,6 +141,7 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
             cores_[c]->replay.execute(piece.code, piece.met[c], inside_);
         }
         call_.instructions += inside_ ? done : 0;
+        follow_stack(piece, 0, done);
     }
     if (piece.in_double_routine && inside_) {
         leave_double_routine();
@@ -168,6 +172,19 @@ void CallTimer::time_by_steps(const Piece& piece, std::size_t done, bool ends, b
             begin_call(line.address);
         }
         call_.instructions += inside_ ? 1 : 0;
+        follow_stack(piece, nth, nth + 1);
+    }
+}
+
+void CallTimer::follow_stack(const Piece& piece, std::size_t from, std::size_t done) {
+    for (const auto& [nth, move] : piece.stack_moves) {
+        if (from <= nth && nth < done) {
+            const auto by = [nth = nth](const qemu::Access& access) { return access.by >= nth; };
+            const auto first = std::find_if(accesses_.begin(), accesses_.end(), by);
+            const auto last = std::find_if(first, accesses_.end(),
+                                           [nth = nth](const qemu::Access& access) { return access.by != nth; });
+            stack_.follow(move, std::span(first, last));
+        }
     }
 }
 
@@ -195,6 +212,7 @@ void CallTimer::begin_call(std::uint32_t entry) {
     depth_ = returns_.size();
     call_.entry = entry;
     call_.instructions = 0;
+    stack_.begin();
     for (std::size_t c = 0; c < cores_.size(); ++c) {
         Core& core = *cores_[c];
         core.begun = core.before = core.replay.core().positions();
@@ -222,6 +240,7 @@ void CallTimer::end_call() {
         call_.cores[c].sets.assign(taken.begin(), taken.begin() + core.file.sets.size());
         call_.cores[c].double_in_software = core.file.double_in_software_off ? 0 : core.in_double[0];
     }
+    call_.stack_bytes = stack_.deepest();
     inside_ = false;
     done_(call_);
 }

@@ -10,11 +10,13 @@
 #include <memory>
 #include <set>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "qemu/stream/stream.hpp"
 #include "qemu/timing/block_replay.hpp"
 #include "qemu/timing/decode.hpp"
+#include "qemu/timing/stack_depth.hpp"
 #include "qemu/timing/surroundings.hpp"
 
 namespace timing {
@@ -36,7 +38,8 @@ struct CoreTime {
 struct TimedCall {
     std::uint32_t entry = 0;
     std::uint64_t instructions = 0;
-    std::vector<CoreTime> cores;  ///< as the timer was given them
+    std::vector<CoreTime> cores;    ///< as the timer was given them
+    std::uint32_t stack_bytes = 0;  ///< below its caller's frame
 };
 
 /// What an instruction took in all calls, in half cycles, and what it lost most of that to.
@@ -81,8 +84,9 @@ private:
         bool entry = false;
         bool in_double_routine = false;
         ItBlock it_block_behind;
-        std::vector<std::uint32_t> unknown;  // addresses
-        std::vector<BlockEvents> met;        // by core
+        std::vector<std::uint32_t> unknown;                            // addresses
+        std::vector<std::pair<std::uint16_t, StackMove>> stack_moves;  // by number of the instruction
+        std::vector<BlockEvents> met;                                  // by core
     };
     struct Core {
         CoreFile file;
@@ -103,6 +107,7 @@ private:
     void flush(std::size_t done, std::uint32_t next);
     void follow_calls(std::uint32_t address);
     void time_by_steps(const Piece& piece, std::size_t done, bool ends, bool begins);
+    void follow_stack(const Piece& piece, std::size_t from, std::size_t done);
     void enter_double_routine();
     void leave_double_routine();
     void end_call();
@@ -126,6 +131,8 @@ private:
     std::uint32_t sequential_ = 0;  // behind the last instruction
     bool last_called_ = false;
     std::uint32_t last_site_ = 0;
+
+    StackDepth stack_;
 
     bool inside_ = false;
     std::size_t depth_ = 0;  // of returns_ at the entry

@@ -12,7 +12,8 @@ namespace timing {
 namespace {
 
 bool same(const TimedCall& a, const TimedCall& b) {
-    if (a.entry != b.entry || a.instructions != b.instructions || a.cores.size() != b.cores.size()) {
+    if (a.entry != b.entry || a.instructions != b.instructions || a.stack_bytes != b.stack_bytes ||
+        a.cores.size() != b.cores.size()) {
         return false;
     }
     for (std::size_t c = 0; c < a.cores.size(); ++c) {
@@ -52,6 +53,9 @@ void TimingLogWriter::write_run() {
                 out_ << ' ' << half_cycles;
             }
         }
+    }
+    if (run_.call.stack_bytes > 0) {
+        out_ << " stack " << run_.call.stack_bytes;
     }
     out_ << '\n';
     run_ = {};
@@ -93,6 +97,10 @@ TimingLog read_timing_log(std::istream& in) {
             }
             std::size_t sets = 0;
             for (std::string word; words >> word >> sets;) {
+                if (word == "stack") {
+                    run.call.stack_bytes = static_cast<std::uint32_t>(sets);
+                    continue;
+                }
                 if (word == "sets" && !run.call.cores.empty()) {
                     std::vector<std::int64_t>& of_core = run.call.cores.back().sets;
                     of_core.resize(std::min<std::size_t>(sets, 1000));

@@ -181,4 +181,33 @@ TEST(Memory, PlacesDecideWhatAnAccessCosts) {
     EXPECT_EQ(art.fetch(0x100).cycles, 0);
 }
 
+// A real program mixes memories: of two ranges that overlap the later one holds, and neither reaches behind its end.
+TEST(Memory, RangesLieElsewhereThanTheirNeighbours) {
+    const timing::Figures figures = timing::read_core(TEST_CORES, "stm32f746-flash-nocache").sets[0].figures;
+    const timing::Placement placement{timing::CodePlace::flash,
+                                      timing::DataPlace::dtcm,
+                                      {{0x100, 0x200, timing::Place::dtcm},
+                                       {0x180, 0x190, timing::Place::axi},
+                                       {0x20000100, 0x20000200, timing::Place::axi}}};
+    timing::Memory memory(figures, placement);
+    for (const std::uint32_t near : {0x100U, 0x17CU, 0x190U, 0x1FCU, 0x200000FCU, 0x20000200U}) {
+        EXPECT_EQ(memory.load(near).cycles, 0) << near;
+        EXPECT_TRUE(memory.in_dtcm(near)) << near;
+        EXPECT_TRUE(memory.fetches_freely(near, near + 3)) << near;
+        EXPECT_EQ(memory.store(near).cycles, 0) << near;
+    }
+    for (const std::uint32_t far : {0xFCU, 0x180U, 0x18CU, 0x200U, 0x20000100U, 0x200001FCU}) {
+        EXPECT_GT(memory.load(far).cycles, 0) << far;
+        EXPECT_FALSE(memory.in_dtcm(far)) << far;
+        EXPECT_FALSE(memory.fetches_freely(far, far + 3)) << far;
+    }
+    EXPECT_GT(memory.store(0x20000100).cycles, 0);
+    EXPECT_EQ(memory.store(0x200).cycles, 0);  // a flash
+    // A block with a range's edge in it is looked at word by word.
+    EXPECT_FALSE(memory.fetches_freely(0x170, 0x197));
+    EXPECT_EQ(memory.longest_fetch(), timing::Memory(figures, {timing::CodePlace::flash}).longest_fetch());
+    EXPECT_GT(timing::Memory(figures, {{}, {}, {{0, 4, timing::Place::axi}}}).longest_fetch(), 0);
+    EXPECT_EQ(timing::Memory(figures, {{}, {}, {{0, 4, timing::Place::dtcm}}}).longest_fetch(), 0);
+}
+
 }  // namespace

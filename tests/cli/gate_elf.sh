@@ -1,0 +1,152 @@
+#!/bin/sh
+# gate --elf: functions of a program that knows nothing of us, held to a baseline; an instruction planted in one of three is found
+# and named, with what its cycles were lost to, and runs of the same program differ in nothing.
+# Argument: the glsum program.
+set -u
+program=$1
+. "$(dirname "$0")/expect.sh"
+need() {
+    command -v "$1" >/dev/null 2>&1 && return
+    echo "no $1"
+    [ -n "${GLSUM_REQUIRE_FIRMWARE:-}" ] && exit 1
+    exit 77
+}
+need arm-none-eabi-gcc
+need qemu-system-arm
+fail() { echo "$*"; failures=$((failures + 1)); }
+
+cat >"$folder/map.ld" <<'LD'
+MEMORY { CODE (rx) : ORIGIN = 0, LENGTH = 4M  DATA (rwx) : ORIGIN = 0x20000000, LENGTH = 4M }
+SECTIONS {
+    .text : { KEEP(*(.vectors)) *(.text*) *(.rodata*) } > CODE
+    .data : { *(.data*) } > DATA
+    .bss (NOLOAD) : { *(.bss*) *(COMMON) } > DATA
+}
+LD
+# Three functions that call no other, with a place for a load and its use in each; one that none calls.
+cat >"$folder/app.S" <<'S'
+    .syntax unified
+    .cpu cortex-m7
+    .thumb
+    .section .vectors, "a"
+    .word 0x20010000, start + 1, 0, 0
+    .text
+    .macro function name
+    .balign 16
+    .thumb_func
+    .global \name
+    .type \name, %function
+\name:
+    .endm
+    .macro ends name
+    bx lr
+    .size \name, . - \name
+    .balign 64
+    .endm
+    function start
+    ldr r4, =0x20000100
+    movs r5, #50
+1:  bl ctrl_current
+    bl ctrl_speed
+    bl ctrl_position
+    subs r5, r5, #1
+    bne 1b
+    movs r0, #0x20
+    ldr r1, =leave
+    bkpt 0xab
+    .balign 4
+leave: .word 0x20026, 0
+    .ltorg
+    .size start, . - start
+    function ctrl_current
+    push {r4-r7}
+    ldr r0, [r4]
+    ldr r1, [r4, #8]
+    adds r2, r0, r1
+#ifdef CURRENT
+    CURRENT
+#endif
+    pop {r4-r7}
+    ends ctrl_current
+    function ctrl_speed
+    ldr r0, [r4]
+    movs r1, #1
+    adds r2, r0, r1
+#ifdef SPEED
+    SPEED
+#endif
+    str r2, [r4, #4]
+    ends ctrl_speed
+    function ctrl_position
+    movs r1, #10
+2:  subs r1, r1, #1
+    bne 2b
+    ends ctrl_position
+    function ctrl_unused
+    nop
+    ends ctrl_unused
+S
+build() {  # OUT OPTION...
+    out=$1
+    shift
+    arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -nostdlib "$@" -T "$folder/map.ld" "$folder/app.S" -o "$folder/$out" 2>"$folder/said" ||
+        { cat "$folder/said"; exit 1; }
+}
+build app.elf
+held() {  # STATUS TEXT ELF OPTION...
+    status=$1 text=$2 elf=$3
+    shift 3
+    expect "$status" "$text" gate --elf "$folder/$elf" --functions 'ctrl_*' --baseline "$folder/app.json" "$@"
+}
+told() { grep -qE -e "$1" "$folder/said" || fail "expected '$1', found: $(cat "$folder/said")"; }
+
+held 2 "no such baseline" app.elf
+held 2 "--reason" app.elf --update-baseline
+held 0 "4 functions recorded" app.elf --update-baseline --reason "first"
+grep -q '"reason": "first"' "$folder/app.json" || fail "expected the reason in the baseline"
+grep -A 1 '"function": "ctrl_unused"' "$folder/app.json" | grep -q '"calls": 0' || fail "expected no call of ctrl_unused"
+cp "$folder/app.json" "$folder/first.json"
+# The same program, again and again.
+for run in 1 2 3; do
+    held 0 "4 functions on stm32f746-itcm, 0 changed" app.elf
+done
+held 0 "recorded" app.elf --update-baseline --reason "first"
+cmp -s "$folder/app.json" "$folder/first.json" || fail "expected the same baseline of the same program"
+# Its figures are those of time, and the stack is what is pushed: four words.
+"$program" time --elf "$folder/app.elf" --function ctrl_current --json "$folder/time.json" >/dev/null 2>&1
+median=$(tr -d ' \n' <"$folder/time.json" | sed 's/.*"model_cycles":{"min":[0-9.]*,"median":\([0-9.]*\).*/\1/')
+tr -d ' \n' <"$folder/app.json" | grep -qF "\"function\":\"ctrl_current\",\"calls\":50,\"code_bytes\":12,\"instructions\":{\"median\":6,\"max\":6},\"model_cycles\":{\"median\":$median," ||
+    fail "expected ctrl_current's figures as time has them ($median): $(tr -d ' \n' <"$folder/app.json" | cut -c 1-500)"
+tr -d ' \n' <"$folder/app.json" | grep -qF '"stack_bytes":16' || fail "expected a stack of 16 bytes"
+
+# An instruction planted in one of three: that one is named, with what it cost.
+build more.elf -DSPEED='udiv r2, r2, r1'
+held 1 "gate: worse: ctrl_speed" more.elf
+told '^worse  ctrl_speed: cycles .*instructions 5 -> 6 \(\+1\).*code bytes 10 -> 14 \(\+4\); lost to: result_latency \+'
+! grep -qE 'ctrl_(current|position)' "$folder/said" || fail "expected no other function to be named: $(cat "$folder/said")"
+build loads.elf -DCURRENT='ldr r3, [r4, #16]; ldr r3, [r3]'
+held 1 "gate: worse: ctrl_current" loads.elf
+told 'lost to: load_use \+'
+# Less passes, and is told.
+held 0 "recorded" more.elf --update-baseline --reason "a division"
+held 0 "1 changed" app.elf
+told '^passes ctrl_speed: cycles .*instructions 6 -> 5 \(-1\)'
+# Gone, or no longer called.
+held 0 "recorded" app.elf --update-baseline --reason "first"
+sed 's/ctrl_position/ctrl_place/' "$folder/app.S" >"$folder/renamed.S"
+arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -nostdlib -T "$folder/map.ld" "$folder/renamed.S" -o "$folder/renamed.elf"
+held 1 "gate: worse: ctrl_position" renamed.elf
+told '^passes ctrl_place: new'
+sed 's/bl ctrl_speed/nop.w/' "$folder/app.S" >"$folder/app2.S" && mv "$folder/app2.S" "$folder/uncalled.S"
+arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -nostdlib -T "$folder/map.ld" -x assembler-with-cpp "$folder/uncalled.S" -o "$folder/uncalled.elf"
+held 1 "no longer called" uncalled.elf
+# What cannot be compared, and what is broken.
+held 4 "cannot be compared" app.elf --core m7-ideal
+held 4 "cannot be compared" app.elf --place data=axi
+expect 2 "no function's name matches nothing_*" gate --elf "$folder/app.elf" --functions 'nothing_*' --baseline "$folder/app.json"
+held 2 "expected no --json" app.elf --json
+echo '{"schema": "glsum-functions-1"}' >"$folder/app.json"
+held 2 "app.json: no baseline of functions" app.elf
+echo '[' >"$folder/app.json"
+held 2 "app.json: no baseline of functions" app.elf
+[ "$failures" -eq 0 ]
