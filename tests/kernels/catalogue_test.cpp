@@ -65,6 +65,7 @@ TEST(Catalogue, SaysWhatIsKeptAndWhatIsForgotten) {
     EXPECT_EQ(histories_of_family("window"),
               (Words{"shift", "ring", "mirror", "mirrordelta", "mirrorhold", "mirrorlinear"}));
     EXPECT_EQ(histories_of_family("lookahead"), Words{"block"});
+    EXPECT_EQ(histories_of_family("transposed"), Words{"transposed"});
     EXPECT_EQ(histories_of_family("exponentials"), (Words{"modes", "modessum", "modesdelta"}));
     EXPECT_EQ(histories_of_family("logmemory"), Words{"nested"});
     EXPECT_EQ(histories_of(Forgotten::increments), (Words{"mirrordelta", "modesdelta"}));
