@@ -14,25 +14,9 @@
 namespace cli {
 namespace {
 
-const char* kept_by(glsum::Family family) {
-    switch (family) {
-        case glsum::Family::nothing:
-            return "nothing: the time of a call";
-        case glsum::Family::window:
-            return "a window of the newest samples";
-        case glsum::Family::lookahead:
-            return "a window, summed for several coming outputs at once";
-        case glsum::Family::exponentials:
-            return "full memory: a few samples, and decaying averages of all older ones";
-        case glsum::Family::logmemory:
-            return "logarithmic memory: a few samples, and sums over blocks that grow with their age";
-    }
-    return "";
-}
-
 void list_kernels() {
     for (const glsum::CatalogueEntry& kernel : glsum::catalogue) {
-        fmt::print("{:<27} {}{}{}{}\n", kernel.name, kept_by(kernel.family),
+        fmt::print("{:<27} {}{}{}{}\n", kernel.name, kernel.family.keeps,
                    kernel.forgotten == glsum::Forgotten::increments ? ", of increments"
                    : kernel.forgotten == glsum::Forgotten::held     ? ", and the oldest one for what it dropped"
                    : kernel.forgotten == glsum::Forgotten::line ? ", and a line to the first one for what it dropped"

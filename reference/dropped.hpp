@@ -6,9 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "glsum/catalogue.hpp"
-#include "glsum/wrap/delta.hpp"
-#include "glsum/wrap/tail.hpp"
+#include "glsum/family.hpp"
 #include "reference/modes.hpp"
 
 namespace reference {
@@ -16,17 +14,6 @@ namespace reference {
 /// What a history takes for the samples behind its window. A design's modes or blocks stand for zero's, those of order
 /// v - 1 for the increments'.
 using Dropped = glsum::Forgotten;
-
-template <class History>
-[[nodiscard]] constexpr Dropped dropped_by() {
-    if constexpr (glsum::keeps_increments<History>) {
-        return Dropped::increments;
-    } else if constexpr (glsum::guesses_tail<History>) {
-        return History::to_first ? Dropped::line : Dropped::held;
-    } else {
-        return Dropped::zero;
-    }
-}
 
 /// The weights of x_k, x_(k-1), ... x_0 in S_k; as many as samples, k + 1.
 [[nodiscard]] std::vector<Real> weights_of(Dropped dropped, const glsum::Design& design, std::size_t samples);

@@ -18,7 +18,7 @@ DerivativeErrors::DerivativeErrors(const design::DerivativeGoal& goal) : goal_(g
 
 std::string DerivativeErrors::why_not(const std::string& kernel) {
     const glsum::CatalogueEntry& facts = bench::facts_of(kernel);
-    return facts.family == glsum::Family::logmemory ? "its blocks' weights change from sample to sample"
+    return facts.blocks ? "its blocks' weights change from sample to sample"
            : facts.forgotten != glsum::Forgotten::zero && facts.forgotten != glsum::Forgotten::increments
                ? "the weights of its guessed tail change with the record"
                : "";

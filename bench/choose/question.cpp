@@ -125,8 +125,7 @@ std::vector<std::string> kernels_of(Target target, double order) {
     for (const glsum::CatalogueEntry& kernel : glsum::catalogue) {
         const std::string name(kernel.name);
         const bool of_another_order = kernel.integrator && !bench::serves(name, order);
-        if (kernel.family != glsum::Family::nothing && (target == Target::host || !kernel.host_only) &&
-            !of_another_order) {
+        if (!kernel.history.empty() && (target == Target::host || !kernel.host_only) && !of_another_order) {
             kernels.push_back(name);
         }
     }

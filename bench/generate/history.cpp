@@ -51,6 +51,13 @@ HistoryText history_text(glsum::Mirror) {
             .push = shared("mirror push", in_push("@NAME@_PAST")) + "    S->head = head;\n"};
 }
 
+HistoryText stated_history_text(std::string_view summary, std::string_view fields) {
+    const bool has_head = fields.find(" head;") != std::string_view::npos;
+    return {.summary = std::string(summary),
+            .fields = std::string(fields),
+            .reset = std::string(has_head ? "    S->head = 0U;\n" : "") + clear};
+}
+
 HistoryText history_text(glsum::Modes) {
     return {.summary = "the newest samples as they are, all older ones as decaying averages",
             .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ...; then of each mode its state */\n",

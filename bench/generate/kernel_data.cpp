@@ -37,16 +37,25 @@ constexpr bool is_worded = requires {
     Technique::summary;
 };
 
+// Whether a history states its sum itself, under its word, and what an instance of it holds.
+template <class History>
+constexpr bool states_its_sum = requires {
+    History::summary;
+    History::fields;
+};
+
 template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integrator, glsum::Nested, glsum::Block,
-           glsum::MirrorDelta, glsum::ModesDelta, glsum::MirrorHold, glsum::MirrorLinear> &&
-    (is_worded<T> || is_paired<T> ||
-     one_of<T, glsum::Multi, glsum::MultiFma, glsum::Horner, glsum::HornerFma, glsum::HornerSplit,
-            glsum::HornerSplitFma, glsum::Fir, glsum::FirFma,
-            glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31, glsum::Q15, glsum::Q15C31>;
+    (states_its_sum<H> ||
+     one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integrator, glsum::Nested, glsum::Block,
+            glsum::MirrorDelta, glsum::ModesDelta, glsum::MirrorHold,
+            glsum::MirrorLinear>)&&(is_worded<T> || is_paired<T> ||
+                                    one_of<T, glsum::Multi, glsum::MultiFma, glsum::Horner, glsum::HornerFma,
+                                           glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir, glsum::FirFma,
+                                           glsum::Scaled>)&&one_of<F, glsum::F64, glsum::F32, glsum::F32A64, glsum::Q31,
+                                                                   glsum::Q15, glsum::Q15C31>;
 
 template <class Technique, class Format>
 TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
@@ -77,7 +86,11 @@ TechniqueText text_of(const HistoryText& history, std::size_t past, const std::v
 
 template <class History>
 HistoryText text_of_history(History history, std::size_t, bool) {
-    return history_text(history);
+    if constexpr (states_its_sum<History>) {
+        return stated_history_text(History::summary, History::fields);
+    } else {
+        return history_text(history);
+    }
 }
 HistoryText text_of_history(glsum::Integrator, std::size_t, bool) { return history_text(glsum::Modes{}); }
 template <class Kept>
@@ -204,6 +217,9 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
         data.technique_text =
             nested_text(data.past, data.blocks, Format::fixed_point, std::is_same_v<Format, glsum::F64>);
         data.design_error = glsum::design::design_blocks({order, horizon}, taps).error;
+    } else if constexpr (states_its_sum<typename K::HistoryPart>) {
+        data.technique_text =
+            stated_sum_text(K::HistoryPart::word, Technique::summary, Technique::word.ends_with("fma"));
     } else {
         data.technique_text = text_of<Technique, Format>(data.history_text, past, shifts);
     }

@@ -91,6 +91,11 @@ struct FormatText {
 /// \param table  as `prepare` filled it: `past` coefficients, then the octaves' shifts
 [[nodiscard]] TechniqueText scaled_text(std::size_t past, const std::vector<int>& shifts);
 
+/// Of a history that states its sum itself: `fields` of the instance are its own.
+[[nodiscard]] HistoryText stated_history_text(std::string_view summary, std::string_view fields);
+/// The statements that bear such a history's word: WORD up to the sum, then "WORD settle", which keeps the past.
+[[nodiscard]] TechniqueText stated_sum_text(std::string_view word, std::string_view summary, bool fused);
+
 /// Near taps and modes, which keep the past themselves.
 /// \param near_samples  K - 1; without modes at least 1
 [[nodiscard]] TechniqueText modes_text(std::size_t near_samples, std::size_t modes, bool compensated, bool fixed,

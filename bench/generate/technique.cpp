@@ -63,6 +63,21 @@ TechniqueText worded_text(std::string_view word, std::string_view summary, const
             .fused = fused};
 }
 
+TechniqueText stated_sum_text(std::string_view word, std::string_view summary, bool fused) {
+    Words words = of(fused);
+    words.insert({{", state.scale)", ")"},
+                  {"state.past", "S->past"},
+                  {"state.table", "@name@_table"},
+                  {"state.", "S->"},
+                  {"past", "@NAME@_PAST"}});
+    const std::string name(word);
+    return {.summary = std::string(summary) + rounded_once(fused),
+            .sum = shared(name, words),
+            .closing = shared(name + " settle", words),
+            .pushes = true,
+            .fused = fused};
+}
+
 TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fused, bool in_software,
                          const std::string& m7) {
     const Words words = of(fused);

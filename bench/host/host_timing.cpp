@@ -20,6 +20,7 @@
 #include "bench/host/timed_rows.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/exact_weights.hpp"
+#include "glsum/catalogue.hpp"
 #include "reference/dropped.hpp"
 #include "reference/sums.hpp"
 

@@ -37,7 +37,7 @@ std::string spread(const std::vector<Gain>& gains, double limit, const Cost& cos
 
 bool is_classic(const CurvePoint& point) {
     const glsum::CatalogueEntry* const kernel = glsum::find_kernel(point.entry->kernel);
-    return is_window(point.group->taps) && kernel != nullptr && kernel->family == glsum::Family::window &&
+    return is_window(point.group->taps) && kernel != nullptr && kernel->family == glsum::window_family &&
            kernel->forgotten == glsum::Forgotten::zero;
 }
 

@@ -130,7 +130,7 @@ std::vector<Kernel> kernels() {
     std::vector<Kernel> all;
     glsum::Registry::for_each([&]<class K>() {
         if constexpr (!std::is_same_v<K, glsum::Null>) {
-            all.push_back({std::string(K::name()), reference::dropped_by<typename K::HistoryPart>(), run<K>});
+            all.push_back({std::string(K::name()), glsum::forgotten_by<typename K::HistoryPart>(), run<K>});
         }
     });
     return all;

@@ -85,14 +85,14 @@ const glsum::CatalogueEntry& facts_of(const std::string& kernel) {
     return *entry;
 }
 
-bool has_modes(const std::string& kernel) { return facts_of(kernel).family == glsum::Family::exponentials; }
+bool has_modes(const std::string& kernel) { return facts_of(kernel).modes; }
 
 bool has_integrator(const std::string& kernel) {
     const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
     return entry != nullptr && entry->integrator;
 }
 
-bool has_blocks(const std::string& kernel) { return facts_of(kernel).family == glsum::Family::logmemory; }
+bool has_blocks(const std::string& kernel) { return facts_of(kernel).blocks; }
 
 double order_of_weights(const std::string& kernel, double order) {
     const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
@@ -129,7 +129,7 @@ Length length_of(const std::string& kernel, double order, std::size_t taps, std:
 
 Length as_counted(const std::string& kernel, const Length& read) {
     const glsum::CatalogueEntry* entry = glsum::find_kernel(kernel);
-    const bool blocks = entry != nullptr && entry->family == glsum::Family::logmemory;
+    const bool blocks = entry != nullptr && entry->blocks;
     return blocks && read.modes ? Length{read.taps - *read.modes, false, {}, glsum::Blocks{*read.modes, 1}} : read;
 }
 

@@ -2,9 +2,7 @@
 #pragma once
 
 #include "glsum/error_bound.hpp"
-#include "glsum/exponentials/integrator_bound.hpp"
-#include "glsum/exponentials/modes_bound.hpp"
-#include "glsum/logmemory/nested_bound.hpp"
-#include "glsum/window/window_bound.hpp"
-#include "glsum/wrap/delta_bound.hpp"
-#include "glsum/wrap/tail_bound.hpp"
+
+#define GLSUM_FAMILIES_BOUNDS
+#include "glsum/families.def"
+#undef GLSUM_FAMILIES_BOUNDS

@@ -5,37 +5,22 @@
 #include <array>
 #include <cstddef>
 #include <string_view>
-#include <type_traits>
 
 #include "glsum/computes_in_double.hpp"
+#include "glsum/family.hpp"
 #include "glsum/registry.hpp"
 
 namespace glsum {
-
-/// What a kernel keeps of the past.
-enum class Family {
-    nothing,       ///< `null`
-    window,        ///< the newest samples
-    lookahead,     ///< the newest samples, summed for several coming outputs at once
-    exponentials,  ///< a few samples, and decaying averages of all that lie behind them
-    logmemory,     ///< a few samples, and sums over blocks that grow with their age
-};
-
-/// What a kernel takes for the samples that it keeps neither as such nor in its averages or blocks.
-enum class Forgotten {
-    zero,        ///< 0
-    increments,  ///< 0 for their increments: as if they had been constant
-    held,        ///< the oldest sample kept
-    line,        ///< the line from that to the record's first
-};
 
 struct CatalogueEntry {
     std::string_view name;
     std::string_view history;  ///< the name's words; empty for `null`, which has none
     std::string_view technique;
     std::string_view format;
-    Family family = Family::nothing;
+    Family family = {"", "nothing: the time of a call"};
     Forgotten forgotten = Forgotten::zero;
+    bool modes = false;       ///< a design has modes for it
+    bool blocks = false;      ///< a design has blocks for it
     bool integrator = false;  ///< of exponentials: the slowest does not decay, for integrals alone
     bool in_halves = false;   ///< it answers before it settles (InHalves)
     bool host_only = false;   ///< it needs the host's vector unit
@@ -62,15 +47,10 @@ template <Kernel K>
         entry.exact_sums = K::FormatPart::fixed_point;
         entry.takes_order = K::order_in_range;
         entry.integrator = has_integrator<History>;
-        entry.family = keeps_modes<History> || has_integrator<History>                        ? Family::exponentials
-                       : keeps_blocks<History>                                                ? Family::logmemory
-                       : std::is_same_v<History, Block> || std::is_same_v<History, HostBlock> ? Family::lookahead
-                                                                                              : Family::window;
-        if constexpr (keeps_increments<History>) {
-            entry.forgotten = Forgotten::increments;
-        } else if constexpr (guesses_tail<History>) {
-            entry.forgotten = History::to_first ? Forgotten::line : Forgotten::held;
-        }
+        entry.modes = keeps_modes<History>;
+        entry.blocks = keeps_blocks<History>;
+        entry.family = History::family;
+        entry.forgotten = forgotten_by<History>();
     } else {
         entry.takes_order = glsum::order_in_range;
     }

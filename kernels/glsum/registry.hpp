@@ -1,14 +1,13 @@
 // The registry as types. See registry.def for the list itself.
 #pragma once
 
-#include "glsum/exponentials/integrator_sum.hpp"
-#include "glsum/exponentials/modes_sum.hpp"
+#define GLSUM_FAMILIES_SUMS
+#include "glsum/families.def"
+#undef GLSUM_FAMILIES_SUMS
+
 #include "glsum/format/fixed.hpp"
 #include "glsum/format/floating.hpp"
 #include "glsum/kernel.hpp"
-#include "glsum/logmemory/nested_sum.hpp"
-#include "glsum/lookahead/block_sum.hpp"
-#include "glsum/lookahead/simd_block_sum.hpp"
 #include "glsum/null.hpp"
 #include "glsum/window/compensated.hpp"
 #include "glsum/window/fir.hpp"
@@ -24,9 +23,6 @@
 #include "glsum/window/scaled.hpp"
 #include "glsum/window/shift.hpp"
 #include "glsum/window/simd.hpp"
-#include "glsum/window/window_sum.hpp"
-#include "glsum/wrap/delta_sum.hpp"
-#include "glsum/wrap/tail_sum.hpp"
 
 namespace glsum {
 

@@ -3,16 +3,9 @@
 #include "glsum/registry.hpp"
 
 // Behind the types of the registry: what compilers make of the bodies depends on it.
-#include "glsum/exponentials/integrator_body.hpp"
-#include "glsum/exponentials/modes_body.hpp"
-#include "glsum/logmemory/nested_body.hpp"
-#include "glsum/lookahead/block_body.hpp"
-#include "glsum/window/window_body.hpp"
-#include "glsum/wrap/delta_body.hpp"
-#include "glsum/wrap/tail_body.hpp"
-#if defined(GLSUM_SIMD)
-#include "glsum/lookahead/simd_block_body.hpp"
-#endif
+#define GLSUM_FAMILIES_BODIES
+#include "glsum/families.def"
+#undef GLSUM_FAMILIES_BODIES
 
 namespace glsum {
 

@@ -38,8 +38,7 @@ int firmware_main() {
             for (const double order : {1.0, 2.0}) {
                 for (const std::size_t taps : {1U, 2U, 3U, 4U, 5U, 50U}) {
                     // Fewer than three do not hold a second difference: what is made of the rest is the history's.
-                    const bool ends = !glsum::keeps_increments<typename K::HistoryPart> &&
-                                      !glsum::guesses_tail<typename K::HistoryPart>;
+                    const bool ends = glsum::forgotten_by<typename K::HistoryPart>() == glsum::Forgotten::zero;
                     if ((ends || taps >= 3) && !differences_are_exact<K>(order, taps)) {
                         firmware::Answer("failed: ").add(K::name()).number(taps).write();
                         status = 1;

@@ -103,6 +103,7 @@ TEST(Shared, CallsAreTheHeaders) {
     EXPECT_THAT(step("mirror_pairwise_f32"), HasSubstr("const float p7 = my_f32_multiply(a[7], x[7]);"));
     EXPECT_THAT(step("nested_plain_f32"), HasSubstr("const float block = my_f32_together(younger, past[at]);"));
     EXPECT_THAT(step("block_plain_q31"), HasSubstr("my_q31_add_share(S->coming + q, first + q, samples, count);"));
+    EXPECT_THAT(step("transposed_oldest_f32"), HasSubstr("*to = my_f32_multiply_add(*to, *a++, newest);"));
     EXPECT_THAT(step("mirrordelta_plain_q31"), HasSubstr("my_q31_saturate((int64_t)(newest) - S->before);"));
     EXPECT_THAT(step("mirrorlinear_plain_f32"),
                 HasSubstr("my_f32_carry(S->mean, from_mean / (float)(k - MY_F32_PAST));"));

@@ -77,8 +77,8 @@ AnyKernel describe() {
     using Format = typename K::FormatPart;
     return {.name = K::name(),
             .technique = K::TechniquePart::word,
-            .dropped = reference::dropped_by<typename K::HistoryPart>(),
-            .of_window = glsum::catalogue_entry<K>().family == glsum::Family::window,
+            .dropped = glsum::forgotten_by<typename K::HistoryPart>(),
+            .of_window = glsum::catalogue_entry<K>().family == glsum::window_family,
             .fixed_point = Format::fixed_point,
             .smallest_sample = Format::fixed_point
                                    ? 0x1p-31

@@ -247,7 +247,7 @@ TEST(Halves, AreTheWholeStep) {
             expect_halves_are_the_step<K>();
         }
     });
-    EXPECT_EQ(kernels, 2);
+    EXPECT_EQ(kernels, 3);
 }
 
 TEST_P(KernelTest, PrepareServesAnyLengthAndOrderWithinTheCapacity) {

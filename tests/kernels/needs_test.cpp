@@ -40,6 +40,7 @@ TEST(Needs, OfWindowsAreTheirTaps) {
         expect_needs<Sum<Ring, Oldest, F64>>({0.5, taps}, {n, n, n});
         expect_needs<Sum<Mirror, Multi, F32>>({0.5, taps}, {n, 2 * n, n});
         expect_needs<Sum<Mirror, Pairwise, F32>>({0.5, taps}, {n, 2 * n, n});
+        expect_needs<Sum<Transposed, Oldest, F32>>({0.5, taps}, {n, n, n});
         expect_needs<Sum<Shift, Fir, Q15>>({0.5, taps}, {n, n, n});
         expect_needs<Sum<Ring, Compensated, F32>>({0.5, taps}, {n, n, n});
         expect_needs<Sum<Ring, Horner, F32>>({0.5, taps}, {n + 1, n, n});             // c_1 ... c_L

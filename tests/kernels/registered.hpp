@@ -1,4 +1,5 @@
-// The registry as GoogleTest's type list, for tests that look into a kernel's own types; for all others see any_kernel.hpp.
+// The registry as GoogleTest's type list, for tests that look into a kernel's own types; for all others see
+// any_kernel.hpp.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +35,7 @@ struct Filter<Wanted, testing::Types<K, Rest...>, Kept...>
 
 /// Whether a kernel takes what leaves its window as 0; the others' order is stated in dropped_kernel_test.cpp.
 template <class K>
-inline constexpr bool takes_zero = reference::dropped_by<typename K::HistoryPart>() == reference::Dropped::zero;
+inline constexpr bool takes_zero = glsum::forgotten_by<typename K::HistoryPart>() == reference::Dropped::zero;
 
 template <class K>
 using IsFixed = std::bool_constant<K::FormatPart::fixed_point && takes_zero<K>>;

@@ -25,6 +25,7 @@ namespace glsum {
 
 struct Integrator {
     static constexpr std::string_view word = "modessum";
+    static constexpr Family family = exponentials_family;
     static constexpr bool contiguous = true;
 };
 

@@ -26,13 +26,19 @@
 #include <cmath>
 #include <string_view>
 
+#include "glsum/family.hpp"
+
 namespace glsum {
+
+inline constexpr Family exponentials_family{"exponentials",
+                                            "full memory: a few samples, and decaying averages of all older ones"};
 
 /// What an average forgets with each sample, 1 - |1 - d|: an error made at each step adds up to one over this at most.
 [[nodiscard]] inline double forgets(double decay) { return 1.0 - std::fabs(1.0 - decay); }
 
 struct Modes {
     static constexpr std::string_view word = "modes";
+    static constexpr Family family = exponentials_family;
     static constexpr bool contiguous = true;
 };
 

@@ -38,12 +38,17 @@
 #include <string_view>
 #include <type_traits>
 
+#include "glsum/family.hpp"
 #include "glsum/kernel.hpp"
 
 namespace glsum {
 
+inline constexpr Family logmemory_family{
+    "logmemory", "logarithmic memory: a few samples, and sums over blocks that grow with their age"};
+
 struct Nested {
     static constexpr std::string_view word = "nested";
+    static constexpr Family family = logmemory_family;
     static constexpr bool contiguous = false;
 };
 

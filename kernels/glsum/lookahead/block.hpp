@@ -25,10 +25,15 @@
 #include <cstddef>
 #include <string_view>
 
+#include "glsum/family.hpp"
+
 namespace glsum {
+
+inline constexpr Family lookahead_family{"lookahead", "a window, summed for several coming outputs at once"};
 
 struct Block {
     static constexpr std::string_view word = "block";
+    static constexpr Family family = lookahead_family;
     static constexpr bool contiguous = false;
     static constexpr std::size_t phases = 4;  ///< P: how many calls it takes until their costs come again
 
@@ -39,6 +44,7 @@ struct Block {
 /// The same idea on the host's vector unit, eight outputs at a time: lookahead/simd_block.hpp.
 struct HostBlock {
     static constexpr std::string_view word = "block";
+    static constexpr Family family = lookahead_family;
     static constexpr bool contiguous = true;
 };
 

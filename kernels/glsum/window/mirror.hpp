@@ -12,6 +12,7 @@ namespace glsum {
 
 struct Mirror {
     static constexpr std::string_view word = "mirror";
+    static constexpr Family family = window_family;
     static constexpr bool contiguous = true;
 
     static constexpr std::size_t past_count(std::size_t past) { return 2 * past; }

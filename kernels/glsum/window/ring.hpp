@@ -12,6 +12,7 @@ namespace glsum {
 
 struct Ring {
     static constexpr std::string_view word = "ring";
+    static constexpr Family family = window_family;
     static constexpr bool contiguous = false;
 
     static constexpr std::size_t past_count(std::size_t past) { return past; }

@@ -12,6 +12,7 @@ namespace glsum {
 
 struct Shift {
     static constexpr std::string_view word = "shift";
+    static constexpr Family family = window_family;
     static constexpr bool contiguous = true;
 
     static constexpr std::size_t past_count(std::size_t past) { return past; }

@@ -6,8 +6,11 @@
 #include <cstdint>
 
 #include "glsum/c99.hpp"
+#include "glsum/family.hpp"
 
 namespace glsum {
+
+inline constexpr Family window_family{"window", "a window of the newest samples"};
 
 template <class T>
 struct Window {

@@ -38,6 +38,8 @@ template <bool to_first_>
 struct Guess {
     static constexpr bool to_first = to_first_;
     static constexpr std::string_view word = to_first ? "mirrorlinear" : "mirrorhold";
+    static constexpr Family family = Mirror::family;
+    static constexpr Forgotten forgotten = to_first ? Forgotten::line : Forgotten::held;
     static constexpr bool contiguous = true;
 };
 using MirrorHold = Guess<false>;
