@@ -350,6 +350,12 @@ const unsigned char* Elf::at(std::uint32_t address, std::size_t length) const {
     throw Failure(Exit::bad_input, fmt::format("{}: no section holds address {:#x}", path_.string(), address));
 }
 
+bool Elf::has_word(std::uint32_t address) const {
+    return std::any_of(sections_.begin(), sections_.end(), [&](const Section& section) {
+        return address >= section.address && address - section.address + 4 <= section.bytes.size();
+    });
+}
+
 std::uint32_t Elf::word(std::uint32_t address) const {
     std::uint32_t value;
     std::memcpy(&value, at(address, sizeof value), sizeof value);

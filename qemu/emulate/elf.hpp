@@ -49,6 +49,7 @@ public:
     [[nodiscard]] Extent section(const std::string& name) const;
     /// Addresses by name; of functions without the Thumb bit.
     [[nodiscard]] const std::map<std::string, std::uint32_t>& symbols() const { return symbols_; }
+    [[nodiscard]] bool has_word(std::uint32_t address) const;
     /// The word at an address of a loaded section. \throws glsum::Failure when there is none.
     [[nodiscard]] std::uint32_t word(std::uint32_t address) const;
     [[nodiscard]] std::string text(std::uint32_t address, std::size_t length) const;

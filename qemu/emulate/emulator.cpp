@@ -129,7 +129,8 @@ void emulate(const Emulator& emulator, const std::filesystem::path& elf, const s
     words.insert(words.end(), arguments.begin(), arguments.end());
     Child child(emulator.command, words, plugin, emulator.grace);
     std::string text;
-    std::string tail;  // the last lines, for the message when it fails
+    std::string fatal;  // what the emulator died of, before its dump of all registers
+    std::string tail;   // the last lines, for the message when it fails
     for (bool more = true; more;) {
         more = child.read_some(text, emulator.silence_limit);
         if (text.size() > longest_line && text.find('\n') == std::string::npos) {
@@ -138,6 +139,11 @@ void emulate(const Emulator& emulator, const std::filesystem::path& elf, const s
         }
         for (std::size_t end; (end = text.find('\n')) != std::string::npos; text.erase(0, end + 1)) {
             const std::string one = text.substr(0, end);
+            if (one.starts_with("qemu: fatal: ")) {
+                fatal = one.substr(sizeof "qemu: fatal: " - 1);
+            } else if (!fatal.empty() && one.find("R15=") != std::string::npos) {
+                fatal += ", " + one.substr(one.find("R15="));
+            }
             tail = (tail + "\n  " + one).substr(tail.size() > 1000 ? tail.find('\n', 1) : 0);
             line(one);
         }
@@ -149,6 +155,10 @@ void emulate(const Emulator& emulator, const std::filesystem::path& elf, const s
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     const std::string how = WIFSIGNALED(status) ? fmt::format("was ended by signal {}", WTERMSIG(status))
                                                 : fmt::format("exited with {}", code);
+    if (!fatal.empty()) {
+        throw Failure(Exit::check_failed,
+                      fmt::format("{} under the emulator {}: {}", elf.filename().string(), how, fatal));
+    }
     throw Failure(code == 3 ? Exit::missing : Exit::check_failed,
                   fmt::format("{} under the emulator {}; it said:{}{}", elf.filename().string(), how, tail,
                               text.empty() ? "" : "\n  " + text));

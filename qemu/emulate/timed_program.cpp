@@ -12,12 +12,44 @@
 #include "qemu/emulate/software_double.hpp"
 
 namespace qemu {
+namespace {
+
+// What the vector table says of HardFault, MemManage, BusFault and UsageFault. [ARMv7-M B1.5.2]
+std::set<std::uint32_t> fault_handlers(const Elf& program) {
+    std::set<std::uint32_t> handlers;
+    for (const std::uint32_t vector : {0x0CU, 0x10U, 0x14U, 0x18U}) {
+        if (program.has_word(vector) && (program.word(vector) & 1U) != 0) {
+            handlers.insert(program.word(vector) & ~1U);
+        }
+    }
+    return handlers;
+}
+
+std::string place_of(std::uint32_t address, const Elf& program) {
+    const Function* const function = program.function_at(address);
+    return fmt::format("{:#010x}{}", address, function != nullptr ? " in " + function->name : "");
+}
+
+// For the message of a program that failed.
+std::string where_it_ended(const timing::TimingLog& log, const Elf& program) {
+    std::string text;
+    if (log.fault) {
+        text += "; it faulted at " + place_of(*log.fault, program);
+    }
+    if (log.last_address) {
+        text += "; the last instruction that it executed was at " + place_of(*log.last_address, program);
+    }
+    return text;
+}
+
+}  // namespace
 
 std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std::filesystem::path& plugin,
                                             const std::filesystem::path& elf, const std::vector<std::string>& arguments,
                                             const std::vector<std::uint32_t>& entries,
                                             const timing::TimingRequest& request, const std::optional<Marks>& marks,
                                             const std::function<void(const std::string&)>& line, bool uncalled) {
+    const Elf program(elf);
     const base::Scratch scratch;
     {
         std::ofstream watch(scratch.file("watch"));
@@ -25,7 +57,9 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
             watch << entry << '\n';
         }
         std::ofstream out(scratch.file("request"));
-        timing::write_timing_request(out, for_program(request, Elf(elf)));
+        timing::TimingRequest own = for_program(request, program);
+        own.fault_handlers = fault_handlers(program);
+        timing::write_timing_request(out, own);
         std::ofstream of_marks(scratch.file("marks"));
         if (marks) {
             of_marks << marks->row << ' ' << marks->on << ' ' << marks->off << '\n';
@@ -61,13 +95,15 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
         throw glsum::Failure(status == glsum::Exit::good ? glsum::Exit::check_failed : status,
                              failure.empty() ? damaged.what() : failure);
     }
+    if (!failure.empty()) {
+        failure += where_it_ended(logs.back(), program);
+    }
     // Which one, where each has a log of its own.
     const std::set<std::uint32_t> sorted(entries.begin(), entries.end());
     const auto timed = [&](const timing::TimingLog& log) {
         if (marks || sorted.size() < 2 || logs.size() != sorted.size()) {
             return std::string("the timed function");
         }
-        const Elf program(elf);
         const Function* const function = program.function_at(*std::next(sorted.begin(), &log - logs.data()));
         return function != nullptr ? function->name : std::string("a timed function");
     };

@@ -40,7 +40,8 @@ struct Timing {
     std::uint64_t before = 0;  // the present block
     Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
-        : log(path), timer(entries, timing::cores_of(request), marks, log, request.double_routines) {}
+        : log(path),
+          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.fault_handlers) {}
 };
 
 struct Options {

@@ -149,6 +149,10 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
     const CodeBlock::Instruction& last = lines[done - 1];
     const Decoded& d = last.instruction->decoded;
     last_site_ = last.site;
+    last_address_ = last.address;
+    if (!fault_ && fault_handlers_.contains(next)) {
+        fault_ = last.address;
+    }
     sequential_ = last.address + d.bytes;
     last_called_ = (d.branch == Branch::call ||
                     (d.branch == Branch::indirect && d.write_count > 0 && d.writes[0].reg == registers::lr)) &&

@@ -8,6 +8,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <utility>
@@ -58,6 +59,9 @@ public:
     CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
               std::function<void(const TimedCall&)> done, std::vector<AddressRange> double_routines = {});
 
+    /// \param handlers  entry addresses of the program's fault handlers
+    void watch_faults(std::set<std::uint32_t> handlers) { fault_handlers_ = std::move(handlers); }
+
     void executes(const qemu::Instruction& instruction) override;
     void accesses(const qemu::Access& access) override { accesses_.push_back(access); }
     /// In place of `executes` and `accesses`, several times as fast: called before a block, and after that for each of
@@ -74,6 +78,10 @@ public:
     [[nodiscard]] const std::map<std::uint32_t, std::uint64_t>& unknown() const { return unknown_; }
     /// A watched function was entered anew before it had returned.
     [[nodiscard]] bool recursive() const { return recursive_; }
+    /// Address of the last instruction that was executed.
+    [[nodiscard]] std::optional<std::uint32_t> last_address() const { return last_address_; }
+    /// Address of the instruction that first led to a fault handler.
+    [[nodiscard]] std::optional<std::uint32_t> fault() const { return fault_; }
     /// A watched call has not returned.
     [[nodiscard]] bool inside() const { return inside_; }
 
@@ -133,6 +141,10 @@ private:
     std::uint32_t last_site_ = 0;
 
     StackDepth stack_;
+
+    std::set<std::uint32_t> fault_handlers_;
+    std::optional<std::uint32_t> last_address_;
+    std::optional<std::uint32_t> fault_;
 
     bool inside_ = false;
     std::size_t depth_ = 0;  // of returns_ at the entry

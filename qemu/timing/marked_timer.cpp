@@ -8,16 +8,19 @@ namespace qemu {
 MarkedTimer::Part::Part(const MarkedTimer& whole, const std::set<std::uint32_t>& entries)
     : writer(log),
       timer(
-          entries, whole.cores_, [this](const timing::TimedCall& call) { writer.add(call); }, whole.double_routines_) {}
+          entries, whole.cores_, [this](const timing::TimedCall& call) { writer.add(call); }, whole.double_routines_) {
+    timer.watch_faults(whole.fault_handlers_);
+}
 
 MarkedTimer::MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores,
                          std::optional<Marks> marks, std::ostream& log,
-                         std::vector<timing::AddressRange> double_routines)
+                         std::vector<timing::AddressRange> double_routines, std::set<std::uint32_t> fault_handlers)
     : entries_(std::move(entries)),
       cores_(std::move(cores)),
       marks_(marks),
       log_(log),
       double_routines_(std::move(double_routines)),
+      fault_handlers_(std::move(fault_handlers)),
       on_(!marks) {
     for (const std::uint32_t entry : marks_ ? std::set<std::uint32_t>() : entries_) {
         begin_part({entry});

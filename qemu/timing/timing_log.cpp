@@ -75,6 +75,12 @@ void TimingLogWriter::finish(const CallTimer& timer) {
     for (const auto& [address, times] : timer.unknown()) {
         out_ << "unknown " << address << ' ' << times << '\n';
     }
+    if (timer.last_address()) {
+        out_ << "at " << *timer.last_address() << '\n';
+    }
+    if (timer.fault()) {
+        out_ << "fault " << *timer.fault() << '\n';
+    }
     if (timer.recursive()) {
         out_ << "recursive\n";
     }
@@ -146,6 +152,12 @@ TimingLog read_timing_log(std::istream& in) {
                 throw std::runtime_error("timing log: damaged line: " + line);
             }
             log.unknown[address] = times;
+        } else if (kind == "at" || kind == "fault") {
+            std::uint32_t address = 0;
+            if (!(words >> address)) {
+                throw std::runtime_error("timing log: damaged line: " + line);
+            }
+            (kind == "at" ? log.last_address : log.fault) = address;
         } else if (kind == "recursive") {
             log.recursive = true;
         } else if (kind == "unfinished") {
@@ -173,6 +185,9 @@ void write_timing_request(std::ostream& out, const TimingRequest& request) {
     out << "folder " << request.cores_folder << '\n';
     for (const AddressRange& range : request.double_routines) {
         out << "double " << range.begin << ' ' << range.end << '\n';
+    }
+    for (const std::uint32_t handler : request.fault_handlers) {
+        out << "faults " << handler << '\n';
     }
     for (const auto& core : request.cores) {
         out << "core " << core.name << ' ' << word(core.code) << ' ' << word(core.data) << ' ' << core.instruction_cache
@@ -202,6 +217,10 @@ TimingRequest read_timing_request(std::istream& in) {
             AddressRange range;
             words >> range.begin >> range.end;
             request.double_routines.push_back(range);
+        } else if (kind == "faults") {
+            std::uint32_t handler = 0;
+            words >> handler;
+            request.fault_handlers.insert(handler);
         } else if (kind == "core") {
             TimingRequest::Core core;
             words >> core.name >> core.code >> core.data >> core.instruction_cache >> core.set;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <iosfwd>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ struct TimingLog {
     std::vector<TimedRun> runs;
     std::vector<std::map<std::uint32_t, HotSpot>> hot;  ///< by core: what each address took within calls
     std::map<std::uint32_t, std::uint64_t> unknown;     ///< executions of encodings that the decoder does not know
+    std::optional<std::uint32_t> last_address;          ///< that was executed
+    std::optional<std::uint32_t> fault;                 ///< where the program first faulted
     bool recursive = false;
     bool unfinished = false;  ///< the program ended within a watched call
 };
@@ -58,6 +61,7 @@ struct TimingRequest {
     std::string cores_folder;
     std::vector<Core> cores;
     std::vector<AddressRange> double_routines = {};  ///< of the program, see software_double.hpp
+    std::set<std::uint32_t> fault_handlers = {};     ///< their entry addresses
 };
 /// What somebody means who names a core: one of the folder's, or a file by its path (`names_core_file`).
 [[nodiscard]] TimingRequest::Core core_asked_for(const std::string& core);

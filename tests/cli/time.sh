@@ -213,6 +213,32 @@ expect 1 "5" time --elf "$folder/status.elf" --function dot
 build hang.elf -DHANG "$folder/main.c"
 expect 1 "did not return" time --elf "$folder/hang.elf" --function never --timeout 2
 
+# A program that faults says where, with the function's name: in a load, at an instruction that is none, behind a jump to nowhere.
+cat >"$folder/bad.c" <<'C'
+#define KEEP __attribute__((noinline, noclone))
+volatile int sink;
+KEEP int leaf(int x) { __asm__ volatile("" : "+r"(x)); return x + 1; }
+KEEP void poke(volatile int *p) { sink = 1; sink = *p; sink = 2; }
+KEEP void strange(void) { __asm__ volatile("udf #0"); }
+KEEP void jump(void (*to)(void)) { sink = 1; to(); sink = 2; }
+KEEP void spin(void) { for (;;) sink++; }
+int main(void) { sink = leaf(1); BAD; return 0; }
+C
+for bad in 'poke((int *)0xF0000000)' 'strange()' 'jump((void (*)(void))0x30000001)'; do
+    build bad.elf -DBAD="$bad" "$folder/bad.c"
+    at=$(arm-none-eabi-objdump -d "$folder/bad.elf" | sed -n "/<${bad%%(*}>:/,/^\$/p" | grep -E 'ldr.*\[r0|udf|blx' | head -n 1 | sed 's/^ *\([0-9a-f]*\):.*/\1/')
+    expect 1 "it faulted at 0x$(printf %08x "0x$at") in ${bad%%(*}" time --elf "$folder/bad.elf" --function leaf
+done
+build bad.elf -DBAD="spin()" "$folder/bad.c"
+expect 1 "was silent for 2 s and was ended; the last instruction that it executed was at 0x" time --elf "$folder/bad.elf" --function leaf --timeout 2
+grep -q ' in spin$' "$folder/said" || fail "bad.elf: expected to be told that it was in spin: $(cat "$folder/said")"
+# Without a handler the core locks up, and the emulator dies of it: a sentence, no dump of registers.
+sed 's/(void \*)fault/0/g; s/, (void \*)tick//' "$folder/start.c" >"$folder/bare.c"
+arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -DBAD='poke((int *)0xF0000000)' -T "$folder/map.ld" "$folder/bare.c" "$folder/bad.c" \
+    -o "$folder/bare.elf" 2>"$folder/said" || cat "$folder/said"
+expect 1 "Lockup: " time --elf "$folder/bare.elf" --function leaf
+[ "$(wc -l <"$folder/said")" = 1 ] || fail "bare.elf: expected one sentence"
+
 # Programs for other cores. The M0's code runs on an M7.
 other() {  # STATUS TEXT FLAG...
     status=$1 text=$2

@@ -116,6 +116,18 @@ TEST_F(TimedProgram, AFunctionThatWasNeverCalledIsNamedAmongSeveral) {
     EXPECT_THAT(fault(glsum::Exit::check_failed), HasSubstr("a.elf: a call of step_of_ring did not return"));
 }
 
+TEST_F(TimedProgram, AFailureSaysWhereTheProgramWas) {
+    ends_with(7);
+    log("calls 2 1024 50 core 1 80" + no_losses + "at 1090\nfault 1030\nend\n");
+    EXPECT_THAT(
+        fault(glsum::Exit::check_failed),
+        EndsWith("; it faulted at 0x00000406 in step_of_ring; the last instruction that it executed was at 0x00000442 "
+                 "in step_of_block"));
+    log("at 16\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::check_failed),
+                EndsWith("two; the last instruction that it executed was at 0x00000010"));
+}
+
 TEST_F(TimedProgram, EveryPartCallsTheFunction) {
     log("calls 2 1024 50 core 1 80" + no_losses + "end\nend\nend\n");
     EXPECT_THAT(fault(glsum::Exit::check_failed), EndsWith("a.elf: the timed function was never called"));

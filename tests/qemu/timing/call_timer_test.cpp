@@ -29,6 +29,7 @@ public:
     void add(std::uint32_t address) { run(address, 0x3001, 2); }
     void jump(std::uint32_t address) { run(address, 0xE07E, 2); }
     void give_back(std::uint32_t address) { run(address, 0x4770, 2); }
+    timing::CallTimer& timer() { return timer_; }
     timing::CallTimer& finish() {
         timer_.finish();
         return timer_;
@@ -242,6 +243,20 @@ TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
     }
     EXPECT_GT(hot[0].at(0x102).lost, 0);
     EXPECT_LE(hot[0].at(0x102).lost, lost);
+}
+
+TEST(CallTimer, KnowsWhereTheProgramFirstFaulted) {
+    Program p;
+    p.timer().watch_faults({0x80, 0x90});
+    p.add(0x10);
+    p.add(0x12);
+    p.add(0x80);
+    EXPECT_EQ(p.timer().fault(), 0x12U);
+    p.add(0x82);
+    p.add(0x90);
+    p.add(0x92);
+    EXPECT_EQ(p.finish().fault(), 0x12U);
+    EXPECT_EQ(p.finish().last_address(), 0x92U);
 }
 
 TEST(TimingLog, IsReadAsItWasWrittenAndACutIsSeen) {

@@ -72,7 +72,8 @@ TEST(TimingLog, JoinsCallsThatAreAlikeInEverything) {
 
 TEST(TimingLog, HoldsWhatElseWasSeen) {
     std::istringstream in(
-        "hot 1 256 40 load_use 3\nhot 1 258 2 single_issue 0\nhot 0 256 6 store_buffer 6\nunknown 512 "
+        "at 770\nfault 768\nhot 1 256 40 load_use 3\nhot 1 258 2 single_issue 0\nhot 0 256 6 store_buffer 6\nunknown "
+        "512 "
         "9\nrecursive\nunfinished\nend\ncalls x\n");
     const timing::TimingLog log = timing::read_timing_log(in);
     ASSERT_EQ(log.hot.size(), 2U);
@@ -80,6 +81,8 @@ TEST(TimingLog, HoldsWhatElseWasSeen) {
     EXPECT_EQ(log.hot[1], (std::map<std::uint32_t, timing::HotSpot>{{256, {40, timing::Effect::load_use, 3}},
                                                                     {258, {2, timing::Effect::single_issue, 0}}}));
     EXPECT_EQ(log.unknown, (std::map<std::uint32_t, std::uint64_t>{{512, 9}}));
+    EXPECT_EQ(log.last_address, 770U);
+    EXPECT_EQ(log.fault, 768U);
     EXPECT_TRUE(log.recursive);
     EXPECT_TRUE(log.unfinished);
     EXPECT_TRUE(log.runs.empty());
@@ -93,7 +96,7 @@ TEST(TimingLog, RefusesDamagedLines) {
           std::string("hot 0 256"), std::string("hot 1001 256 1 load_use 0"), std::string("hot x 256 1 load_use 0"),
           std::string("hot 0 256 1 no_effect 0"), std::string("hot 0 256 1 load_use"),
           "calls 1 256 7" + core + " sets 2 1", std::string("calls 1 256 7 sets 1 1"), std::string("unknown 512"),
-          std::string("other 1"), std::string()}) {
+          std::string("at"), std::string("fault x"), std::string("other 1"), std::string()}) {
         std::istringstream in(line + "\nend\n");
         EXPECT_THROW((void)timing::read_timing_log(in), std::runtime_error) << line;
     }
