@@ -20,42 +20,23 @@ const Words in_integrator = {{"state.total", "S->total[0]"},
                              {"state.weight", "@NAME@_INTEGRATOR_WEIGHT"},
                              {"leaving", "added"}};
 
+bool has_head(std::string_view fields) { return fields.find(" head;") != std::string_view::npos; }
+
 }  // namespace
 
-HistoryText history_text(glsum::Shift) {
-    return {.summary = "every sample moves one place on at each step",
-            .fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ... */\n",
-            .reset = clear,
-            .window = shared("shift window", in_window),
-            .push = shared("shift push", in_push("@NAME@_PAST"))};
-}
-
-HistoryText history_text(glsum::Ring) {
-    return {.summary = "samples stay in place, the head moves down and wraps",
-            .fields =
-                "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
-                "    @sample@ past[@NAME@_SAMPLES];\n",
-            .reset = std::string("    S->head = 0U;\n") + clear,
-            .window = shared("ring window", in_window),
-            .two_pieces = true,
-            .push = shared("ring push", in_push("@NAME@_PAST")) + "    S->head = head;\n"};
-}
-
-HistoryText history_text(glsum::Mirror) {
-    return {.summary = "a ring kept twice, so that the past is one piece",
-            .fields =
-                "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
-                "    @sample@ past[@NAME@_SAMPLES]; /* twice the same */\n",
-            .reset = std::string("    S->head = 0U;\n") + clear,
-            .window = shared("mirror window", in_window),
-            .push = shared("mirror push", in_push("@NAME@_PAST")) + "    S->head = head;\n"};
-}
-
 HistoryText stated_history_text(std::string_view summary, std::string_view fields) {
-    const bool has_head = fields.find(" head;") != std::string_view::npos;
     return {.summary = std::string(summary),
             .fields = std::string(fields),
-            .reset = std::string(has_head ? "    S->head = 0U;\n" : "") + clear};
+            .reset = std::string(has_head(fields) ? "    S->head = 0U;\n" : "") + clear};
+}
+
+HistoryText window_text(std::string_view word, std::string_view summary, std::string_view fields, bool contiguous) {
+    HistoryText text = stated_history_text(summary, fields);
+    const std::string name(word);
+    text.window = shared(name + " window", in_window);
+    text.two_pieces = !contiguous;
+    text.push = shared(name + " push", in_push("@NAME@_PAST")) + (has_head(fields) ? "    S->head = head;\n" : "");
+    return text;
 }
 
 HistoryText history_text(glsum::Modes) {

@@ -37,20 +37,24 @@ constexpr bool is_worded = requires {
     Technique::summary;
 };
 
-// Whether a history states its sum itself, under its word, and what an instance of it holds.
+// Whether a history says what an instance of it holds; then it gives a window, or states its sum itself under its word.
 template <class History>
-constexpr bool states_its_sum = requires {
+constexpr bool says_its_fields = requires {
     History::summary;
     History::fields;
+};
+template <class History>
+constexpr bool states_its_sum = says_its_fields<History> && !requires {
+    &History::template window<float>;
 };
 
 template <class K>
 constexpr bool can_generate = false;
 template <class H, class T, class F>
 constexpr bool can_generate<glsum::Sum<H, T, F>> =
-    (states_its_sum<H> ||
-     one_of<H, glsum::Shift, glsum::Ring, glsum::Mirror, glsum::Modes, glsum::Integrator, glsum::Nested, glsum::Block,
-            glsum::MirrorDelta, glsum::ModesDelta, glsum::MirrorHold,
+    (says_its_fields<H> ||
+     one_of<H, glsum::Modes, glsum::Integrator, glsum::Nested, glsum::Block, glsum::MirrorDelta, glsum::ModesDelta,
+            glsum::MirrorHold,
             glsum::MirrorLinear>)&&(is_worded<T> || is_paired<T> ||
                                     one_of<T, glsum::Multi, glsum::MultiFma, glsum::Horner, glsum::HornerFma,
                                            glsum::HornerSplit, glsum::HornerSplitFma, glsum::Fir, glsum::FirFma,
@@ -88,6 +92,8 @@ template <class History>
 HistoryText text_of_history(History history, std::size_t, bool) {
     if constexpr (states_its_sum<History>) {
         return stated_history_text(History::summary, History::fields);
+    } else if constexpr (says_its_fields<History>) {
+        return window_text(History::word, History::summary, History::fields, History::contiguous);
     } else {
         return history_text(history);
     }
@@ -95,11 +101,11 @@ HistoryText text_of_history(History history, std::size_t, bool) {
 HistoryText text_of_history(glsum::Integrator, std::size_t, bool) { return history_text(glsum::Modes{}); }
 template <class Kept>
 HistoryText text_of_history(glsum::Delta<Kept>, std::size_t, bool fixed) {
-    return increments_text(history_text(Kept{}), fixed);
+    return increments_text(text_of_history(Kept{}, 0, fixed), fixed);
 }
 template <bool to_first>
 HistoryText text_of_history(glsum::Guess<to_first>, std::size_t past, bool) {
-    return guess_text(history_text(glsum::Mirror{}), past, to_first);
+    return guess_text(text_of_history(glsum::Mirror{}, past, false), past, to_first);
 }
 
 template <class T>

@@ -12,9 +12,6 @@
 #include "glsum/exponentials/modes.hpp"
 #include "glsum/logmemory/nested.hpp"
 #include "glsum/lookahead/block.hpp"
-#include "glsum/window/mirror.hpp"
-#include "glsum/window/ring.hpp"
-#include "glsum/window/shift.hpp"
 
 namespace generate {
 
@@ -62,9 +59,6 @@ struct FormatText {
     std::string scaling;  ///< the comment's paragraph on scaling and overflow
 };
 
-[[nodiscard]] HistoryText history_text(glsum::Shift);
-[[nodiscard]] HistoryText history_text(glsum::Ring);
-[[nodiscard]] HistoryText history_text(glsum::Mirror);
 [[nodiscard]] HistoryText history_text(glsum::Modes);
 [[nodiscard]] HistoryText history_text(glsum::Block);
 [[nodiscard]] HistoryText history_text(glsum::Nested);
@@ -93,6 +87,9 @@ struct FormatText {
 
 /// Of a history that states its sum itself: `fields` of the instance are its own.
 [[nodiscard]] HistoryText stated_history_text(std::string_view summary, std::string_view fields);
+/// Of one that gives a window: the texts "WORD window" and "WORD push" are its own, too.
+[[nodiscard]] HistoryText window_text(std::string_view word, std::string_view summary, std::string_view fields,
+                                      bool contiguous);
 /// The statements that bear such a history's word: WORD up to the sum, then "WORD settle", which keeps the past.
 [[nodiscard]] TechniqueText stated_sum_text(std::string_view word, std::string_view summary, bool fused);
 

@@ -13,6 +13,10 @@ namespace glsum {
 struct Mirror {
     static constexpr std::string_view word = "mirror";
     static constexpr Family family = window_family;
+    static constexpr std::string_view summary = "a ring kept twice, so that the past is one piece";
+    static constexpr std::string_view fields =
+        "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
+        "    @sample@ past[@NAME@_SAMPLES]; /* twice the same */\n";
     static constexpr bool contiguous = true;
 
     static constexpr std::size_t past_count(std::size_t past) { return 2 * past; }

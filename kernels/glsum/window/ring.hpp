@@ -13,6 +13,10 @@ namespace glsum {
 struct Ring {
     static constexpr std::string_view word = "ring";
     static constexpr Family family = window_family;
+    static constexpr std::string_view summary = "samples stay in place, the head moves down and wraps";
+    static constexpr std::string_view fields =
+        "    uint32_t head; /* where x_(k-1) lies; x_(k-2) behind it */\n"
+        "    @sample@ past[@NAME@_SAMPLES];\n";
     static constexpr bool contiguous = false;
 
     static constexpr std::size_t past_count(std::size_t past) { return past; }

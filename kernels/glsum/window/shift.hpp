@@ -13,6 +13,8 @@ namespace glsum {
 struct Shift {
     static constexpr std::string_view word = "shift";
     static constexpr Family family = window_family;
+    static constexpr std::string_view summary = "every sample moves one place on at each step";
+    static constexpr std::string_view fields = "    @sample@ past[@NAME@_SAMPLES]; /* x_(k-1), x_(k-2), ... */\n";
     static constexpr bool contiguous = true;
 
     static constexpr std::size_t past_count(std::size_t past) { return past; }
