@@ -11,15 +11,11 @@
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
 #include "base/files.hpp"
-#include "base/scratch.hpp"
-#include "base/sha256.hpp"
 #include "bench/gate/baseline.hpp"
 #include "bench/gate/gate.hpp"
 #include "bench/gate/outputs.hpp"
 #include "cli/command.hpp"
-#include "cli/timed_elf.hpp"
-#include "qemu/emulate/foreign_program.hpp"
-#include "qemu/emulate/function_gate.hpp"
+#include "cli/gate_functions.hpp"
 
 namespace cli {
 namespace {
@@ -80,16 +76,6 @@ std::string comparable_neighbour(Options options) {
     return "";
 }
 
-// Where two core files model other cycles of the same instructions, what is left to do; else empty.
-std::string way_on(const Verdict& verdict) {
-    const bool other_core = std::any_of(verdict.differences.begin(), verdict.differences.end(),
-                                        [](const auto& one) { return one.field.starts_with("core_file"); });
-    return !other_core
-               ? ""
-               : "; to go on: model the baseline's commit with this core file, and hold this run against that; or "
-                 "record this run by --update-baseline --reason TEXT";
-}
-
 void update_baseline(const Options& options) {
     if (options.reason.find_first_not_of(" \t\n") == std::string::npos) {
         throw Failure(Exit::bad_input, "--update-baseline: expected --reason TEXT, which the baseline's history keeps");
@@ -114,60 +100,6 @@ void update_baseline(const Options& options) {
     fmt::print("\n{}: {} rows recorded; changed: {}\n", options.baseline.string(), baseline.rows.size(), changed);
 }
 
-qemu::GatedProgram gated_program(const Options& options) {
-    const qemu::Elf elf(options.timed.elf);
-    const timing::TimingRequest request = to_request(options.timed, elf);
-    const timing::CoreFile core = timing::cores_of(request).front();
-    qemu::check_runs_on_board(elf);
-    const std::vector<qemu::Function> functions = elf.functions_like(options.functions);
-    const std::vector<timing::TimingLog> logs = time_functions(options.timed, functions, request, true);
-    std::string placed = core.text + timing::name_of(core.placement.code) + timing::name_of(core.placement.data);
-    for (const timing::PlacedRange& range : core.placement.ranges) {
-        placed += timing::name_of(range.place);  // addresses move with the program
-    }
-    const base::Scratch scratch;
-    base::write_file(scratch.file("core"), placed);
-    qemu::GatedProgram program{
-        base::sha256_of(options.timed.elf), core.name, base::sha256_of(scratch.file("core")), {}};
-    for (std::size_t f = 0; f < functions.size(); ++f) {
-        program.functions.push_back(qemu::gated_function(
-            functions[f], elf, logs[f].runs.empty() ? std::nullopt : std::optional(qemu::function_time(logs[f]))));
-    }
-    std::sort(program.functions.begin(), program.functions.end(),
-              [](const auto& a, const auto& b) { return a.name < b.name; });
-    return program;
-}
-
-// Functions of anybody's program in place of the rows of a run.
-void run_functions(const Options& options) {
-    constexpr std::size_t most_bytes = 64U << 20;
-    if (options.update && options.reason.find_first_not_of(" \t\n") == std::string::npos) {
-        throw Failure(Exit::bad_input, "--update-baseline: expected --reason TEXT, which the baseline keeps");
-    }
-    if (!options.update && !std::filesystem::exists(options.baseline)) {
-        throw Failure(Exit::bad_input, fmt::format("{}: no such baseline; --update-baseline --reason TEXT records one",
-                                                   options.baseline.string()));
-    }
-    const qemu::GatedProgram now = gated_program(options);
-    if (options.update) {
-        base::write_file(options.baseline, qemu::to_json(now, options.reason));
-        fmt::print("{}: {} functions recorded\n", options.baseline.string(), now.functions.size());
-        return;
-    }
-    const qemu::GatedProgram before =
-        qemu::parse_gated_program(base::read_file(options.baseline, most_bytes), options.baseline.string());
-    std::string worse;
-    const std::vector<qemu::FunctionChange> changes = qemu::changes(before, now);
-    for (const qemu::FunctionChange& change : changes) {
-        fmt::print("{:<6} {}: {}\n", change.worse ? "worse" : "passes", change.name, change.text);
-        worse += change.worse ? (worse.empty() ? "" : ", ") + change.name : "";
-    }
-    fmt::print("{} functions on {}, {} changed\n", now.functions.size(), now.core, changes.size());
-    if (!worse.empty()) {
-        throw Failure(Exit::check_failed, "gate: worse: " + worse);
-    }
-}
-
 void run(const Options& options, const std::vector<Output>& outputs) {
     if (!options.timed.elf.empty()) {
         for (const Output& output : outputs) {
@@ -176,7 +108,7 @@ void run(const Options& options, const std::vector<Output>& outputs) {
                               "--elf: expected no --json, --junit, --markdown or --annotations beside it");
             }
         }
-        run_functions(options);
+        gate_functions({options.timed, options.functions, options.baseline, options.update, options.reason});
         return;
     }
     if (options.update) {
@@ -216,9 +148,9 @@ void run(const Options& options, const std::vector<Output>& outputs) {
         const std::string word = verdict.refusal.empty() ? "gate: " + verdict.word() + ": " : "";
         const std::string neighbour =
             verdict.status == Exit::not_comparable && verdict.refusal.empty() ? comparable_neighbour(options) : "";
-        throw Failure(
-            verdict.status,
-            word + verdict.headline() + (neighbour.empty() ? way_on(verdict) : "; " + neighbour + " can be compared"));
+        throw Failure(verdict.status,
+                      word + verdict.headline() +
+                          (neighbour.empty() ? bench::gate::way_on(verdict) : "; " + neighbour + " can be compared"));
     }
 }
 

@@ -61,4 +61,13 @@ std::string Verdict::headline() const {
                        not_judged.empty() ? "" : "; not judged: " + not_judged);
 }
 
+std::string way_on(const Verdict& verdict) {
+    const bool other_core = std::any_of(verdict.differences.begin(), verdict.differences.end(),
+                                        [](const auto& one) { return one.field.starts_with("core_file"); });
+    return !other_core
+               ? ""
+               : "; to go on: model the baseline's commit with this core file, and hold this run against that; or "
+                 "record this run by --update-baseline --reason TEXT";
+}
+
 }  // namespace bench::gate

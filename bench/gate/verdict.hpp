@@ -60,4 +60,7 @@ struct Verdict {
     [[nodiscard]] std::string headline() const;
 };
 
+/// Where two core files model other cycles of the same instructions, what is left to do, behind "; "; else empty.
+[[nodiscard]] std::string way_on(const Verdict& verdict);
+
 }  // namespace bench::gate
