@@ -15,6 +15,9 @@ extern std::uint32_t link_stack_top[];
 
 // Destructors of static objects never run: a firmware has no end.
 void* __dso_handle = nullptr;
+// What newlib 4.5 calls around constructors and destructors, where the compiler's own start-up files are left out.
+void _init() {}
+void _fini() {}
 
 void* _sbrk(std::ptrdiff_t bytes) {
     constexpr std::uintptr_t kept_for_stack = 0x4000;
