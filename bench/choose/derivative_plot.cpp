@@ -8,17 +8,11 @@
 #include <vector>
 
 #include "base/gnuplot.hpp"
-#include "glsum/weights.hpp"
 
 namespace choose {
 namespace {
 
 namespace design = glsum::design;
-
-// ((1 - e^(-jwh)) / h)^v: the sum of all weights.
-std::complex<double> full_memory(const design::DerivativeGoal& goal, double angle) {
-    return std::pow((1.0 - std::polar(1.0, -angle)) / goal.step_s, goal.order);
-}
 
 // Frequency, then gain error in % and phase error in degrees, of the filter and of full memory.
 std::string responses(const design::Filter& filter, const design::DerivativeGoal& goal) {
@@ -31,7 +25,7 @@ std::string responses(const design::Filter& filter, const design::DerivativeGoal
         const double angle = std::min(2.0 * std::numbers::pi * hz * goal.step_s, std::numbers::pi);
         const std::complex<double> exact = design::exact_response(goal.order, hz);
         const std::complex<double> ours = design::frequency_response(filter, angle) / exact;
-        const std::complex<double> sum = full_memory(goal, angle) / exact;
+        const std::complex<double> sum = design::full_memory_response(goal.order, goal.step_s, angle) / exact;
         constexpr double degrees = 180.0 / std::numbers::pi;
         data += fmt::format("{:.6e} {:.6e} {:.6e} {:.6e} {:.6e}\n", hz, 100.0 * (std::abs(ours) - 1.0),
                             degrees * std::arg(ours), 100.0 * (std::abs(sum) - 1.0), degrees * std::arg(sum));
@@ -45,10 +39,7 @@ std::string steps(const design::Filter& filter, const design::DerivativeGoal& go
     for (const std::size_t k : design::samples_of(goal)) {
         const double time_s = static_cast<double>(k) * goal.step_s;
         const double exact = design::exact_step(goal.order, time_s);
-        // sum_{j<=k} a_j = Gamma(k + 1 - v) / (Gamma(1 - v) Gamma(k + 1)).
-        const auto at = static_cast<double>(k);
-        const double sum =
-            std::pow(at, goal.order) * std::exp(std::lgamma(at + 1.0 - goal.order) - std::lgamma(at + 1.0));
+        const double sum = design::full_memory_step(goal.order, goal.step_s, k) / exact;
         data += fmt::format("{:.6e} {:.6e} {:.6e}\n", time_s, 100.0 * (design::step_response(filter, k) / exact - 1.0),
                             100.0 * (sum - 1.0));
     }

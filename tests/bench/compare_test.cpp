@@ -103,6 +103,32 @@ TEST(CompareJson, HoldsEveryPairWithItsRatioAndWhichWayIsBetter) {
     EXPECT_EQ(time.at("change"), "better");
 }
 
+// What has to stay the same is worse whichever way it goes.
+TEST(CompareJson, WhatShallBeEqualIsWorseBothWays) {
+    const std::string rules =
+        std::string(rules_text) +
+        "[[rule]]\nlayer = \"accuracy\"\nrows = \"gl/*/accuracy/*\"\ncounters = "
+        "\"saturations\"\nbetter = \"equal\"\nabsolute = 0\nlevel = \"fail\"\nreason = \"because\"\n";
+    const auto change_of = [&](double before, double after) {
+        const auto with = [](double saturations) {
+            Results made = run(1e-3, 50.0, 100.0, "GNU 12.2.0", "own");
+            made.rows.front()["saturations"] = saturations;
+            return made;
+        };
+        const Json json =
+            Json::parse(to_json(compare(with(before), with(after), parse_rules(rules, "rules"), {"*"}, {"*"})));
+        for (const Json& pair : json.at("pairs")) {
+            if (pair.at("counter") == "saturations") {
+                return pair.value("change", "none");
+            }
+        }
+        return std::string("not compared");
+    };
+    EXPECT_EQ(change_of(2.0, 3.0), "worse");
+    EXPECT_EQ(change_of(3.0, 2.0), "worse");
+    EXPECT_EQ(change_of(3.0, 3.0), "none");
+}
+
 // Of single times nobody judges; what counts instructions does, though it be called the same.
 TEST(CompareJson, OfTimesOnlyThoseOfTheProcessorArePaired) {
     const auto with = [](double value) {

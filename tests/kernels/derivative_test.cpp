@@ -71,6 +71,31 @@ TEST(Derivative, ExactValuesAreThoseOfTheTables) {
     EXPECT_TRUE(has_step(0.0));
 }
 
+// The weights one by one, and the answer to a wave by running them.
+TEST(Derivative, FullMemoryAnswersAsItsWeightsDo) {
+    for (const double order : {0.2, 0.5, 1.5, -0.5}) {
+        constexpr double step_s = 0.01;
+        const double scale = std::pow(step_s, -order);
+        double weight = 1.0;
+        double sum = 1.0;
+        std::complex<double> response = 1.0;
+        constexpr double angle = 0.7;
+        constexpr int n = 200'000;
+        for (int j = 1; j <= n; ++j) {
+            weight *= 1.0 - (order + 1.0) / j;
+            sum += weight;
+            response += weight * std::polar(1.0, -angle * j);
+            if (j == 10 || j == 999) {
+                EXPECT_NEAR(full_memory_step(order, step_s, j) / (scale * sum), 1.0, 1e-11) << order << " " << j;
+            }
+        }
+        // The tail is nearly geometric: a_n e^(-jan) q / (1 - q) with q = e^(-ja).
+        const std::complex<double> q = std::polar(1.0, -angle);
+        response += weight * std::polar(1.0, -angle * n) * q / (1.0 - q);
+        EXPECT_LT(std::abs(full_memory_response(order, step_s, angle) / (scale * response) - 1.0), 1e-7) << order;
+    }
+}
+
 TEST(Derivative, NoPointExceedsTheCertificate) {
     std::mt19937 random(5);
     for (const double order : {0.2, 0.5, 0.9, -0.5, 1.5}) {

@@ -147,6 +147,16 @@ std::complex<double> exact_response(double order, double hz) {
 
 double exact_step(double order, double time_s) { return std::pow(time_s, -order) / std::tgamma(1.0 - order); }
 
+std::complex<double> full_memory_response(double order, double step_s, double angle) {
+    return std::pow((1.0 - std::polar(1.0, -angle)) / step_s, order);
+}
+
+double full_memory_step(double order, double step_s, std::size_t k) {
+    const auto at = static_cast<double>(k);
+    const double sum = std::exp(std::lgamma(at + 1.0 - order) - std::lgamma(at + 1.0)) / std::tgamma(1.0 - order);
+    return sum * std::pow(step_s, -order);
+}
+
 std::vector<double> frequencies_of(const DerivativeGoal& goal) {
     std::vector<double> frequencies;
     if (goal.band) {

@@ -2,6 +2,7 @@
 // frequencies, and to t^-v / Gamma(1 - v) behind a step, for as long as it runs.
 #pragma once
 
+#include <complex>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -39,6 +40,12 @@ inline constexpr std::size_t first_of_step = 10;
 [[nodiscard]] std::complex<double> exact_response(double order, double hz);
 /// t^-v / Gamma(1 - v). \pre has_step(order) \param time_s  above 0
 [[nodiscard]] double exact_step(double order, double time_s);
+
+/// What the sum with all its weights answers: ((1 - e^(-ja)) / h)^v at the angle a a sample, and behind a unit step
+/// h^-v sum_{j<=k} a_j = h^-v Gamma(k + 1 - v) / (Gamma(1 - v) Gamma(k + 1)) at sample k.
+[[nodiscard]] std::complex<double> full_memory_response(double order, double step_s, double angle);
+/// \pre has_step(order)
+[[nodiscard]] double full_memory_step(double order, double step_s, std::size_t k);
 
 /// Relative errors, and where they are: 0 of what the goal does not ask for.
 struct DerivativeError {
