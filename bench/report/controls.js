@@ -1,5 +1,6 @@
 // The page's controls: what they show is the state's, and what a reader does with them changes it.
 
+import {costsOf, limits, limitText} from "./answer.js";
 import {listOf} from "./state.js";
 
 const plain = values => values.map(value => ({id: value, text: value}));
@@ -18,6 +19,13 @@ function options(state, id, name, values) {
   select.selectAll("option").data(values, value => value.id).enter().append("option")
     .attr("value", value => value.id).text(value => value.text);
   select.property("value", state.now[name]).on("change", function() { state.change({[name]: this.value}); });
+}
+
+/// The question on top.
+export function drawQuestion(all, state) {
+  options(state, "ask-order", "ask-order", plain(all.orders));
+  options(state, "ask-error", "ask-error", limits.map(id => ({id, text: limitText(id)})));
+  options(state, "ask-target", "ask-target", costsOf(all).map(axis => ({id: axis.id, text: axis.title})));
 }
 
 export function drawControls(all, state) {

@@ -20,6 +20,9 @@ function decodeFloats24(text) {
   return Array.from(new Float32Array(whole.buffer), value => Number(value.toPrecision(5)));
 }
 
+// What a column's encoding leaves open of a number, relative to it: three bytes of a float, all of it, or nothing.
+const resolutionOf = column => column.float24 ? 2 ** -15 : column.float32 ? 2 ** -23 : 0;
+
 // A column as a function of the row, decoded when it is first asked: a text, a number or NaN.
 function decodeColumn(column) {
   const values = (column.values || []).map(value => value === null ? NaN : value);
@@ -38,12 +41,13 @@ function decodeColumn(column) {
 }
 
 function decodeTable(table) {
-  const decoded = {aspect: table.aspect, rows: table.rows, text: {}, number: {}};
+  const decoded = {aspect: table.aspect, rows: table.rows, text: {}, number: {}, resolution: {}};
   for (const name in table.texts) {
     decoded.text[name] = decodeColumn(table.texts[name]);
   }
   for (const name in table.numbers) {
     decoded.number[name] = decodeColumn(table.numbers[name]);
+    decoded.resolution[name] = resolutionOf(table.numbers[name]);
   }
   return decoded;
 }

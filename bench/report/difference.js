@@ -11,7 +11,7 @@ function rowsByKey(file, counters) {
       const parts = {aspect: table.aspect, kernel: textOf(table, "kernel", row) || textOf(table, "name", row),
                      order: textOf(table, "order", row), taps: textOf(table, "taps", row), signal: textOf(table, "signal", row)};
       const key = Object.values(parts).join("\n");
-      if (!byKey.has(key)) byKey.set(key, {...parts, counters: {}, fault: ""});
+      if (!byKey.has(key)) byKey.set(key, {...parts, counters: {}, resolution: table.resolution, fault: ""});
       const found = byKey.get(key);
       found.fault = found.fault || textOf(table, "fault", row);
       for (const name of names) {
@@ -41,7 +41,8 @@ export function differences(a, b, counters) {
     for (const counter in one.counters) {
       if (!other.counters[counter]) continue;
       const [p, q] = [d3.median(one.counters[counter]), d3.median(other.counters[counter])];
-      if (p === q) continue;
+      // Two files need not have their numbers to the same digits: what the coarser one cannot tell is no difference.
+      if (Math.abs(p - q) <= Math.max(one.resolution[counter], other.resolution[counter]) * Math.max(Math.abs(p), Math.abs(q))) continue;
       same = false;
       const ratio = q / p;
       found.rows.push({...one, counter, a: p, b: q, ratio, size: ratio > 0 && Number.isFinite(ratio) ? Math.abs(Math.log(ratio)) : 1e6, note: ""});

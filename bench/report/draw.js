@@ -82,6 +82,14 @@ export function light(kernel, before) {
   byId("layout").classList.toggle("has-lit", kernel !== "");
 }
 
+/// The answer to the question on top, but for its table.
+export function drawAnswer(answer, acts) {
+  byId("answer").hidden = answer === null;
+  if (answer === null) return;
+  byId("answer-text").textContent = answer.text;
+  drawPanel(drawFigure(cleared("answer-panel"), answer.panel), answer.panel, acts);
+}
+
 export function drawEffective(panels, acts) {
   const root = cleared("effective-panels");
   byId("effective").hidden = panels.length === 0;

@@ -33,6 +33,7 @@ Json shown_counters() {
         counter["family"] = facts.is_family;
         counter["is_time"] = facts.role == Role::time;
         counter["unit"] = facts.unit;
+        counter["better"] = name_of(facts.better);
         counter["layer"] = name_of(facts.layer);
         counter["compared"] = facts.shown >= Shown::compared;
         counter["drawn"] = facts.shown >= Shown::drawn;

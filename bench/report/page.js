@@ -1,9 +1,11 @@
 // All together: the data, the state of its choices, and what is drawn anew when that changes.
 
+import {answerOf} from "./answer.js";
 import {catalogueOf} from "./catalogue.js";
+import {changesOf} from "./changes.js";
 import {choicesOf} from "./choices.js";
-import {drawControls, drawCounter, drawStallCase, drawTabs, drawTheme} from "./controls.js";
-import {drawCurves, drawEffective, drawStalls, light} from "./draw.js";
+import {drawControls, drawCounter, drawQuestion, drawStallCase, drawTabs, drawTheme} from "./controls.js";
+import {drawAnswer, drawCurves, drawEffective, drawStalls, light} from "./draw.js";
 import {comparisonOf, conditionsOf, differenceShown, faultsOf, rowsShown} from "./rows.js";
 import {curvesOf, effectiveOf, stallsShown} from "./select.js";
 import {makeState} from "./state.js";
@@ -39,6 +41,13 @@ function drawFaults() {
   drawTable(byId("fault-table"), "Wrong or impossible rows", columns, rows);
 }
 
+function drawFirst() {
+  const answer = answerOf(all, state.now);
+  drawQuestion(all, state);
+  drawAnswer(answer, acts);
+  if (answer) drawTable(byId("answer-table"), "The front", answer.columns, answer.rows);
+}
+
 const drawOfWidth = () => {
   drawEffective(effectiveOf(all, state.now), acts);
   const stalls = stallsShown(all, state.now);
@@ -61,6 +70,12 @@ function drawDifference() {
   if (all.files.length < 2) return;
   const shown = differenceShown(all, state.now, comparison());
   byId("difference").hidden = false;
+  if (!root.dataset.compared) {
+    const changes = changesOf(all, comparison());
+    byId("changes-text").textContent = changes.text;
+    drawTable(byId("changes-table"), "What is better and worse in B", changes.columns, changes.rows);
+    root.dataset.compared = "yes";
+  }
   drawCounter(state, shown.counters);
   byId("difference-text").textContent = shown.text;
   drawTable(byId("difference-table"), "Differences", shown.columns, shown.rows);
@@ -78,6 +93,7 @@ function drawAll() {
   hideTip();
   const focused = document.activeElement && document.activeElement.matches("svg.panel")
     ? `svg.panel[data-axis="${CSS.escape(document.activeElement.dataset.axis)}"][data-order="${CSS.escape(document.activeElement.dataset.order)}"]` : null;
+  drawFirst();
   drawCurves(curvesOf(all, state.now), acts);
   // What the first screen cannot show waits until that is painted: a quarter of the time of a large file.
   if (root.dataset.drawn) drawBelow();
@@ -86,12 +102,15 @@ function drawAll() {
 }
 
 // What a choice changes alone; whatever else changes all.
-const drawnAlone = {under: () => {}, theme: () => drawTheme(state), rows: drawRows};
+const drawnAlone = {
+  under: () => {}, theme: () => drawTheme(state), rows: drawRows, "ask-order": drawFirst, "ask-error": drawFirst, "ask-target": drawFirst
+};
 
 for (const id of ["panel-controls", "panel-kernels"]) {
   byId(id).open = matchMedia("(min-width: 900px)").matches;
 }
-d3.select("#controls").on("submit", () => d3.event.preventDefault());
+byId("changes").hidden = all.files.length < 2;
+d3.selectAll("form").on("submit", () => d3.event.preventDefault());
 drawConditions();
 drawFaults();
 state.read(location.hash.slice(1));
@@ -110,6 +129,6 @@ addEventListener("resize", () => {
   if (root.clientWidth === drawnWidth) return;
   drawnWidth = root.clientWidth;
   clearTimeout(waiting);
-  waiting = setTimeout(() => { drawCurves(curvesOf(all, state.now), acts); drawOfWidth(); }, 150);
+  waiting = setTimeout(() => { drawFirst(); drawCurves(curvesOf(all, state.now), acts); drawOfWidth(); }, 150);
 });
 addEventListener("hashchange", () => { state.read(location.hash.slice(1)); writeAddress(); });

@@ -14,6 +14,7 @@
 #include <thread>
 
 #include "base/files.hpp"
+#include "bench/report/best.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/page.hpp"
 #include "bench/rows/key.hpp"
@@ -172,16 +173,16 @@ TEST_F(Page, HoverFollowsTheKindOfErrorAndTheSignal) {
 
 TEST_F(Page, FiltersByClickAndKeepsThemInTheAddress) {
     open(input);
-    EXPECT_GT(count("svg.panel g[data-kernel$=_f32]"), 0);
+    EXPECT_GT(count("#panels g[data-kernel$=_f32]"), 0);
     browser->click("#words-format input[value=f32]");
     browser->click("#words-history input[value=ring]");
     browser->click("#taps input[value='50']");
     browser->click("#orders input[value='0.2']");
     browser->click("#axes input[value=bytes]");
     const auto check = [&] {
-        EXPECT_EQ(count("svg.panel g[data-kernel$=_f32], #kernels button[data-kernel$=_f32]"), 0);
-        EXPECT_EQ(count("svg.panel g[data-kernel^=ring_]"), 0);
-        EXPECT_GT(count("svg.panel g[data-kernel=shift_plain_q15]"), 0);
+        EXPECT_EQ(count("#panels g[data-kernel$=_f32], #kernels button[data-kernel$=_f32]"), 0);
+        EXPECT_EQ(count("#panels g[data-kernel^=ring_]"), 0);
+        EXPECT_GT(count("#panels g[data-kernel=shift_plain_q15]"), 0);
         EXPECT_EQ(count("svg.panel[data-order='0.2']"), 0);
         EXPECT_EQ(count("svg.panel[data-axis=bytes]"), 0);
         EXPECT_EQ(run("return [...document.querySelectorAll('#row-table tbody tr')].some(row => "
@@ -195,7 +196,7 @@ TEST_F(Page, FiltersByClickAndKeepsThemInTheAddress) {
     open(input, nullptr, hash);
     check();
     browser->click("#reset");
-    EXPECT_GT(count("svg.panel g[data-kernel$=_f32]"), 0);
+    EXPECT_GT(count("#panels g[data-kernel$=_f32]"), 0);
     EXPECT_EQ(run("return location.hash"), "");
 }
 
@@ -203,20 +204,22 @@ TEST_F(Page, EverythingIsReachedByKeys) {
     open(input, nullptr, "#find=ring_plain");
     std::set<std::string> reached;
     bool visible = true;
-    for (int stop = 0; stop < 140 && !reached.contains("svg"); ++stop) {
+    for (int stop = 0; stop < 140 && !reached.contains("panel taps"); ++stop) {
         browser->press(key::tab);
         const Json focus =
             run("const node = document.activeElement; const style = getComputedStyle(node.matches('.chip input') ? "
                 "node.nextSibling : node);"
-                "return [node.id || node.value || node.dataset.kernel || node.className.baseVal || '', "
+                "return [node.id || node.value || node.dataset.kernel || (node.dataset.axis ? 'panel ' + "
+                "node.dataset.axis : ''), "
                 "node.tagName.toLowerCase(), style.outlineStyle]");
         reached.insert(focus[0].get<std::string>());
         reached.insert(focus[1].get<std::string>());
         visible = visible && focus[2] != "none";
     }
     EXPECT_TRUE(visible) << "an element has the focus and does not show it";
-    for (const char* name : {"theme", "error", "signal", "0.5", "host", "linear", "fronts", "reset", "colour", "q31",
-                             "find", "ring_plain_f64", "svg"}) {
+    for (const char* name :
+         {"theme", "ask-order", "ask-error", "ask-target", "panel answer", "error", "signal", "0.5", "host", "linear",
+          "fronts", "reset", "colour", "q31", "find", "ring_plain_f64", "panel taps"}) {
         EXPECT_TRUE(reached.contains(name)) << name;
     }
     // In the first panel, over the memory length: along a kernel and across.
@@ -260,13 +263,13 @@ TEST_F(Page, TheFrontIsThatOfTheTables) {
                 expected.insert(point.entry->kernel + " " + point.group->taps);
             }
         }
-        const std::set<std::string> found =
-            run("const {placed, pointsOf} = modules['select.js'];"
-                "const all = modules['catalogue.js'].catalogueOf(JSON.parse(document.getElementById('data').textContent));"
-                "const {now} = modules['state.js'].makeState(modules['choices.js'].choicesOf(all));"
-                "return placed(pointsOf(all, now, all.files[0], '0.5'), all.axes.find(axis => axis.id === arguments[0]))"
-                ".filter(point => point.front).map(point => point.kernel + ' ' + point.taps)",
-                Json::array({axis}));
+        const std::set<std::string> found = run(
+            "const {placed, pointsOf} = modules['select.js'];"
+            "const all = modules['catalogue.js'].catalogueOf(JSON.parse(document.getElementById('data').textContent));"
+            "const {now} = modules['state.js'].makeState(modules['choices.js'].choicesOf(all));"
+            "return placed(pointsOf(all, now, all.files[0], '0.5'), all.axes.find(axis => axis.id === arguments[0]))"
+            ".filter(point => point.front).map(point => point.kernel + ' ' + point.taps)",
+            Json::array({axis}));
         EXPECT_EQ(found, expected) << axis;
         EXPECT_FALSE(expected.empty()) << axis;
     }
@@ -332,6 +335,65 @@ TEST_F(Page, TwoFilesAreOverlaidAndTheLargestChangeComesFirst) {
     EXPECT_EQ(count("#difference-table tbody tr"), 1);
     EXPECT_EQ(text("#difference-table tbody tr td:nth-child(7)"), "0.5000");
     EXPECT_EQ(count("#context-table tr.differs"), 1);
+}
+
+// Question, answer, chart and table stand on the first screen, and with two files what is better and worse.
+TEST_F(Page, TheFirstScreenAnswers) {
+    Json laptop;
+    laptop["width"] = 1280;
+    laptop["height"] = 720;
+    laptop["deviceScaleFactor"] = 1;
+    laptop["mobile"] = false;
+    browser->devtools("Emulation.setDeviceMetricsOverride", laptop);
+    const auto bottom = [](const char* selector) {
+        return run("return document.querySelector(arguments[0]).getBoundingClientRect().bottom",
+                   Json::array({selector}))
+            .get<double>();
+    };
+    const auto choose = [](const char* id, const char* value) {
+        run("const select = document.getElementById(arguments[0]); select.value = arguments[1]; "
+            "select.dispatchEvent(new Event('change'))",
+            Json::array({id, value}));
+    };
+    open(input);
+    EXPECT_EQ(count("#question select"), 3);
+    EXPECT_LE(bottom("#answer-panel svg"), 720.0);
+    EXPECT_LE(bottom("#answer-table"), 720.0);
+    EXPECT_TRUE(run("return document.getElementById('changes').hidden").get<bool>());
+
+    choose("ask-error", "1e-3");
+    choose("ask-order", "0.9");
+    // The cheapest of the file, found here by going over its rows.
+    const auto groups = bench::group(input.results.rows);
+    const auto costs = bench::report::costs_of(groups);
+    const auto points = bench::report::curve_points(groups, costs);
+    const auto cost = bench::report::deciding_cost(costs);
+    const auto* best = bench::report::cheapest(points, costs[*cost], "0.9", 1e-3, bench::report::Memory::any);
+    ASSERT_NE(best, nullptr);
+    const std::string expected = "Within 1e-3 (0.1 %) at order 0.9 the cheapest is " + best->entry->kernel + " of " +
+                                 best->group->taps + " taps: ";
+    EXPECT_TRUE(text("#answer-text").starts_with(expected)) << text("#answer-text");
+    EXPECT_EQ(text("#answer-table tr.chosen td"), best->entry->kernel);
+    const std::string hash = run("return location.hash");
+    EXPECT_EQ(hash, "#ask-order=0.9&ask-error=1e-3");
+    open(input, nullptr, hash);
+    EXPECT_TRUE(text("#answer-text").starts_with(expected)) << text("#answer-text");
+    choose("ask-error", "1e-6");
+    EXPECT_EQ(text("#answer-text"), "No kernel of this file errs 1e-6 (0.0001 %) or less at order 0.9.");
+
+    bench::Results other = input.results;
+    for (bench::Json& row : other.rows) {
+        if (const std::string name = row["name"];
+            name.starts_with("gl/ring_plain_q31/order:0.5/") && name.ends_with("m7:pretend")) {
+            row["code_bytes"] = 240;
+        }
+    }
+    const auto b = to_input("second.json", other);
+    open(input, &b);
+    EXPECT_LE(bottom("#changes-table"), 720.0);
+    EXPECT_EQ(count("#changes-table tbody tr"), 1) << "a line for all lengths of a kernel";
+    EXPECT_EQ(text("#changes-table tbody tr td:nth-child(3)"), "worse");
+    EXPECT_EQ(text("#changes-table tbody tr td:nth-child(4)"), "+100 %");
 }
 
 TEST_F(Page, StallsAreStackedToTheModelledCycles) {

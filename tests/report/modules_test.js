@@ -3,7 +3,9 @@ import assert from "node:assert/strict";
 import {createRequire} from "node:module";
 
 globalThis.d3 = createRequire(import.meta.url)("/usr/share/nodejs/d3/dist/d3.min.js");
+const {answerOf, decidingCost, limits} = await import("./answer.js");
 const {catalogueOf} = await import("./catalogue.js");
+const {changesOf} = await import("./changes.js");
 const {choicesOf, tablesOf} = await import("./choices.js");
 const {comparisonOf, conditionsOf, differenceShown, faultsOf, rowsShown} = await import("./rows.js");
 const {curvesOf, effectiveOf, passes, placed, pointsOf, stallsShown} = await import("./select.js");
@@ -33,11 +35,11 @@ const a = file("a.json", [
 ]);
 const b = file("b.json", [["ring_plain_f32", "0.5", "600", "step", "", 0.02, 1e-6, 0.01, 600, 40, 10]],
   [["ring_plain_f32", "0.5", "600", "", 1000, 100, 300]], {n_samples: 2000});
-const counter = (name, more) => ({name, family: false, is_time: false, unit: "", layer: "accuracy", compared: true, drawn: false, title: "", meaning: "", ...more});
+const counter = (name, more) => ({name, family: false, is_time: false, unit: "", better: "lower", layer: "accuracy", compared: true, drawn: false, title: "", meaning: "", ...more});
 const drawn = (name, title) => counter(name, {drawn: true, title, meaning: title + " means"});
 const counters = [
   drawn("error_max", "total error"), drawn("rounding_error_max", "rounding error"), drawn("truncation_error_max", "truncation error"),
-  counter("effective_taps"), counter("state_bytes"), counter("coefficient_bytes"), counter("model_cycles_per_sample"),
+  counter("effective_taps", {better: "higher"}), counter("state_bytes"), counter("coefficient_bytes"), counter("model_cycles_per_sample"),
   counter("real_time", {is_time: true, unit: "ns", layer: "host_time"}), counter("stall_", {family: true, compared: false})
 ];
 const page = data => { const all = catalogueOf({version: "1", d3: "5", counters, ...data}); return {all, state: makeState(choicesOf(all))}; };
@@ -174,6 +176,63 @@ const tests = {
     assert.equal(shown.columns.find(one => one.title === "error_max").text(shown.rows[0]), "0.03");
     const {rows} = faultsOf(all);
     assert.deepEqual(rows.map(row => [row.kernel, row.order, row.fault]), [["ring_plain_q15", "0.7", "overflows"], ["ring_plain_f32", "0.7", "hangs"]]);
+  },
+  theAnswerIsTheCheapestWithinTheLimit() {
+    const modes = [["modes_plain_f32", "0.5", "2+7", "step", "", 0.004, 1e-6, 0.004, 9, 50, 10], ["modes_plain_f32", "0.5", "1+9", "step", "", 0.004, 1e-6, 0.004, 9, 50, 10]];
+    const cost = [["modes_plain_f32", "0.5", "2+7", "", 100, 0, 0], ["modes_plain_f32", "0.5", "1+9", "", 120, 0, 0]];
+    const withModes = {name: "c.json", context: a.context, bounds: a.bounds, tables: [
+      table("accuracy", keys, ["error_max", "rounding_error_max", "truncation_error_max", "effective_taps", "state_bytes", "coefficient_bytes"],
+            [["ring_plain_f32", "0.5", "600", "step", "", 0.01, 1e-6, 0.01, 600, 40, 10], ["ring_plain_f32", "0.5", "20", "step", "", 0.1, 1e-6, 0.1, 20, 20, 10],
+             ["ring_plain_q15", "0.5", "600", "step", "overflows", 0.001, 1e-3, 0.01, 90, 30, 10], ...modes]),
+      table("m7:pretend", ["kernel", "order", "taps", "fault"], ["model_cycles_per_sample", "stall_load_use", "stall_fpu_latency"],
+            [["ring_plain_f32", "0.5", "600", "", 1000, 100, 300], ["ring_plain_f32", "0.5", "20", "", 50, 5, 0], ["ring_plain_q15", "0.5", "600", "", 2, 0, 0], ...cost])
+    ]};
+    const {all, state} = page({files: [withModes]});
+    assert.equal(state.now["ask-target"], "cycles-m7:pretend");
+    assert.equal(decidingCost({axes: [{id: "taps"}, {id: "bytes"}, {id: "host"}]}).id, "host");
+    const answer = answerOf(all, state.now);
+    assert.equal(answer.text, "Within 1e-2 (1 %) at order 0.5 the cheapest is modes_plain_f32 of 2+7 taps: 100 model cycles per sample, error 0.004. " +
+      "The cheapest window, ring_plain_f32 of 600 taps, takes 10 times as much.");
+    assert.deepEqual(answer.rows.map(row => [row.kernel, row.taps, row.mark]), [["ring_plain_f32", "20", ""], ["modes_plain_f32", "2+7", "chosen"]]);
+    assert.deepEqual(answer.columns.map(one => one.text(answer.rows[1])), ["modes_plain_f32", "2+7", "0.004", "100", "60"]);
+    assert.deepEqual(answer.panel.series.map(one => [one.kernel, one.dim]), [["ring_plain_f32", false], ["modes_plain_f32", false]]);
+    assert.deepEqual(answer.panel.lines[0].points.map(point => point.y), [0.01, 0.01]);
+    assert.deepEqual([...answer.panel.pinned], ["modes_plain_f32"]);
+    const asked = choice => answerOf(all, {...state.now, ...choice}).text;
+    assert.match(asked({"ask-error": "1e-1"}), /ring_plain_f32 of 20 taps: 50 .* It is a window\.$/);
+    assert.match(asked({"ask-error": "1e-6"}), /^No kernel of this file errs 1e-6 \(0\.0001 %\) or less at order 0\.5\.$/);
+    assert.match(asked({find: "ring", "no-format": "f32", "no-taps": "2+7", error: "rounding_error_max"}), /modes_plain_f32 of 2\+7/, "no filter changes what is cheapest");
+    assert.match(asked({"ask-target": "bytes"}), /ring_plain_f32 of 600 taps: 50 bytes/);
+    state.change({"ask-error": "2", "ask-order": "9", "ask-target": "taps"});
+    assert.deepEqual([state.now["ask-error"], state.now["ask-order"], state.now["ask-target"]], ["1e-2", "0.5", "cycles-m7:pretend"], "what cannot be asked is not");
+    assert.ok(limits.includes(state.now["ask-error"]));
+    assert.equal(answerOf(all, {...state.now, "ask-order": "0.7"}), null);
+  },
+  changesAreBetterOrWorseByKernelAndCounter() {
+    const row = (kernel, counter, from, to) => ({kernel, aspect: "accuracy", counter, a: from, b: to, ratio: to / from, size: Math.abs(Math.log(to / from)), note: ""});
+    const {all} = page({files: [a, b]});
+    const changes = changesOf(all, {equal: 3, onlyA: 1, onlyB: 0, rows: [
+      row("x", "error_max", 1, 2), row("x", "error_max", 1, 1.5), row("x", "effective_taps", 100, 110), row("y", "state_bytes", 10, 9),
+      row("y", "real_time", 10, 900), row("z", "of_another_program", 1, 3), {kernel: "x", counter: "", note: "only in A"}, {kernel: "x", counter: "", note: "wrong in B: nan"},
+      {...row("w", "error_max", 0, 1), size: 1e6}
+    ]});
+    assert.equal(changes.text, "Worse: 3 values of 2 kernels. Better: 2 values of 2 kernels. Unchanged: 3 rows in every counter. Wrong in one of the two: 1 row. " +
+      "Only in A: 1 row; only in B: 0 rows. Not judged: 1 host time, which two runs do not share.");
+    assert.deepEqual(changes.rows.map(one => changes.columns.map(each => each.text(one))), [
+      ["w", "error_max", "worse", "from 0", "1"], ["x", "error_max", "worse", "+50 % to +100 %", "2"],
+      ["z", "of_another_program", "other", "+200 %", "1"], ["y", "state_bytes", "better", "−10 %", "1"],
+      ["x", "effective_taps", "better", "+10 %", "1"]]);
+    const same = changesOf(all, {equal: 3, onlyA: 0, onlyB: 0, rows: []});
+    assert.equal(same.text, "Worse: nothing. Better: nothing. Unchanged: 3 rows in every counter.");
+  },
+  whatAnEncodingLeavesOpenIsNoDifference() {
+    const float24 = values => ({float24: btoa(String.fromCharCode(...values.flatMap(value => [...new Uint8Array(new Float32Array([value]).buffer)].slice(1))))});
+    const whole = ["ring_plain_f32", "ring_plain_q15"].map((kernel, i) => [kernel, "0.5", "600", "step", "", [0.0123456789, 0.01][i]]);
+    const with24 = numbers => ({name: "short", context: {}, bounds: {}, tables: [{...table("accuracy", keys, [], whole), numbers: {error_max: float24(numbers)}}]});
+    const exact = {name: "exact", context: {}, bounds: {}, tables: [table("accuracy", keys, ["error_max"], whole)]};
+    const differing = other => comparisonOf(page({files: [exact, other]}).all).rows.map(row => row.kernel);
+    assert.deepEqual(differing(with24([0.0123456789, 0.01])), []);
+    assert.deepEqual(differing(with24([0.012347, 0.01])), ["ring_plain_f32"]);
   },
   twoFilesAreCompared() {
     const {all, state} = page({files: [a, b]});
