@@ -37,7 +37,7 @@ struct Options {
     unsigned jobs = 1;
 };
 
-void run(const Options& options) {
+void run(const Options& options, const std::string& line) {
     std::vector<gap::Record> train = read_records(options.logs, options.columns);
     for (const std::string& name : options.without) {
         (void)gap::effect_named(name);
@@ -73,7 +73,7 @@ void run(const Options& options) {
         put(gap::to_json(answer), options.json);
     }
     if (!options.html.empty()) {
-        put(gap::to_html(answer), options.html);
+        put(gap::to_html(answer, line), options.html);
     }
     if (!options.improved.empty()) {
         put(gap::improved_model(answer), options.improved);
@@ -86,7 +86,7 @@ void run(const Options& options) {
 
 }  // namespace
 
-void add_options(Command& command, const Words&) {
+void add_options(Command& command, const Words& words) {
     command.takes_one_subcommand();
     auto options = std::make_shared<Options>();
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
@@ -160,7 +160,7 @@ void add_options(Command& command, const Words&) {
     of_drive.add_option("--html", options->html, "A page with curves, ranking and where the gap lies");
     of_drive.add_option("--improved", options->improved, "The model with the effect, which simulate runs");
     of_drive.add_option("--jobs", options->jobs, "Threads").at_least(1);
-    of_drive.callback([options] { run(*options); });
+    of_drive.callback([options, line = words.line] { run(*options, line); });
 }
 
 }  // namespace cli

@@ -34,7 +34,7 @@ std::vector<std::string> extrapolated_by(const Question& question, const Study& 
                             : std::vector<std::string>{};
 }
 
-std::string proposed(const Answer& answer, const Study& study, const Audit& found) {
+Proposal proposed(const Answer& answer, const Study& study, const Audit& found) {
     std::vector<const Candidate*> named;
     for (const std::size_t i : answer.decision.effects) {
         named.push_back(&answer.ranking[i].trained);
@@ -109,7 +109,9 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     answer.where = where_of(validation, answer.none(), answer.records);
     say("looking for the next experiment");
     answer.extrapolated = extrapolated_by(question, study, validation);
-    answer.next_experiment = proposed(answer, study, ground.found);
+    Proposal proposal = proposed(answer, study, ground.found);
+    answer.next_experiment = std::move(proposal.text);
+    answer.next_record = std::move(proposal.record);
     answer.notes = ground.found.notes;
     answer.notes.insert(answer.notes.end(), answer.decision.notes.begin(), answer.decision.notes.end());
     answer.linear_share = linear_share_of(answer.none().gap_after);

@@ -10,6 +10,7 @@
 #include "gap/drive/decide.hpp"
 #include "gap/drive/question.hpp"
 #include "gap/drive/residuals/locate.hpp"
+#include "gap/verdict/curve.hpp"
 
 namespace gap {
 
@@ -24,6 +25,7 @@ struct Answer {
     drive::Model base;                      ///< as judged, or as fitted without any effect
     std::vector<std::string> extrapolated;  ///< what validation has and training lacks, in words
     std::string next_experiment;
+    std::optional<NextRecord> next_record;  ///< of the experiment, where one was simulated
     std::vector<std::string> notes;
     [[nodiscard]] const Ranked& none() const;
     [[nodiscard]] const Ranked& chosen() const { return ranking[decision.chosen]; }

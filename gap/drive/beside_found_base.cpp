@@ -81,6 +81,7 @@ void ask_jointly(Answer& answer, const Question& question) {
     answer.decision.effects.clear();
     answer.decision.suspect.reset();
     answer.decision.confidence = std::min(answer.decision.confidence, 0.9);
+    answer.next_record.reset();
     answer.next_experiment =
         answer.extrapolated.empty()
             ? "none for this gap; a longer training record would tell the base's numbers by itself"

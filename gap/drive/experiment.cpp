@@ -197,9 +197,15 @@ std::vector<double> deviations_from(const Told& told, const Eigen::MatrixXd& inf
     return deviations;
 }
 
-// What an excitation would tell; nothing where the rig would go far beyond where it has been.
-std::optional<Told> told_after(const Study& study, const Candidate& named, const Whitener& whitener,
-                               const Trial& trial) {
+// What an excitation would tell, and what is simulated there.
+struct After {
+    Told told;
+    std::vector<double> output;
+};
+
+// Nothing where the rig would go far beyond where it has been.
+std::optional<After> told_after(const Study& study, const Candidate& named, const Whitener& whitener,
+                                const Trial& trial) {
     const Record& record = trial.record;
     Study then{study.base, study.scales, {}, all_count({record}), study.noise, study.least_deviation, 0};
     if (study.horizon > 0) {
@@ -210,12 +216,22 @@ std::optional<Told> told_after(const Study& study, const Candidate& named, const
     then.courses.emplace_back(record, 1);
     const Candidate start = begun(then, named, trial);
     const double beyond = 0.5 * study.scales.output_span;
-    for (const double z : simulate(scenario_of(then, start, 0), then.courses[0])) {
+    std::vector<double> output = simulate(scenario_of(then, start, 0), then.courses[0]);
+    for (const double z : output) {
         if (!(z > study.scales.output_low - beyond && z < study.scales.output_high + beyond)) {
             return std::nullopt;
         }
     }
-    return told_by(then, start, whitener);
+    std::optional<Told> told = told_by(then, start, whitener);
+    return told ? std::optional(After{std::move(*told), std::move(output)}) : std::nullopt;
+}
+
+// What a simulation reads where `left` is what a record's output has over it.
+std::vector<double> read_off(std::vector<double> output, const std::vector<double>& left) {
+    for (std::size_t i = 0; i < output.size() && i < left.size(); ++i) {
+        output[i] -= left[i];
+    }
+    return output;
 }
 
 // By how much a number's interval shrinks.
@@ -240,6 +256,8 @@ std::string to_text(std::vector<Narrower> all) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
+NextRecord drawn_of(const Trial& trial) { return {trial.text, trial.record.time_s, trial.record.input, {}}; }
+
 const char* const other_record = "a record at other levels and speeds, as a test of the size found here";
 const char* const same_record =
     "the same record once more: what comes again at the same place is no event from outside";
@@ -249,7 +267,7 @@ const char* const same_record =
 Proposal part(const Study& study, const std::vector<const Candidate*>& alternatives, double noise) {
     for (const Candidate* alternative : alternatives) {
         if (alternative->event_parameters() > 0) {
-            return {same_record, 0.0};
+            return {same_record};
         }
     }
     constexpr std::size_t most_alternatives = 5;
@@ -266,17 +284,21 @@ Proposal part(const Study& study, const std::vector<const Candidate*>& alternati
         }
         double nearest = std::numeric_limits<double>::infinity();
         std::string which;
+        NextRecord next = drawn_of(trial);
+        next.outputs.emplace_back(alternatives.front()->name(), record.output);
         for (std::size_t i = 1; i < std::min(alternatives.size(), most_alternatives); ++i) {
             const Candidate start = begun(then, *alternatives[i], trial);
             const Candidate refitted = fit(then, alternatives[i]->effects, start, nullptr, {6, 1, 12});
-            const double apart = rms_of(then, all_residuals(then, refitted)) / noise;
+            const std::vector<std::vector<double>> left = all_residuals(then, refitted);
+            const double apart = rms_of(then, left) / noise;
+            next.outputs.emplace_back(alternatives[i]->name() + ", refitted", read_off(record.output, left.front()));
             if (apart < nearest) {
                 nearest = apart;
                 which = alternatives[i]->name();
             }
         }
         if (nearest > best.apart) {
-            best = {trial.text, nearest};
+            best = {trial.text, nearest, std::move(next)};
             hardest = which;
         }
     }
@@ -287,17 +309,18 @@ Proposal part(const Study& study, const std::vector<const Candidate*>& alternati
                     "noise of {} once refitted. Log a signal between command and reading (motor speed, current, "
                     "supply), or measure one part alone",
                     best.text, hardest, std::max(0.0, best.apart), alternatives.front()->name()),
-                best.apart};
+                best.apart,
+                {}};
     }
     return {fmt::format("{}: simulated, {} once refitted to {} still misses it by {:.2g} times the "
                         "noise, and the others by more",
                         best.text, hardest, alternatives.front()->name(), best.apart),
-            best.apart};
+            best.apart, std::move(best.record)};
 }
 
-std::string sharpen(const Study& study, const Candidate& named, const Whitener& whitener) {
+Proposal sharpen(const Study& study, const Candidate& named, const Whitener& whitener) {
     if (named.event_parameters() > 0) {
-        return same_record;
+        return {same_record};
     }
     Candidate fitted = named;
     const std::vector<FreeParameter*> free = free_numbers(fitted, false);
@@ -309,18 +332,18 @@ std::string sharpen(const Study& study, const Candidate& named, const Whitener& 
     }
     const std::optional<Told> now = mine.empty() ? std::nullopt : told_by(study, named, whitener);
     if (!now) {
-        return other_record;
+        return {other_record};
     }
     const std::vector<double> before = deviations_from(*now, now->information, named);
     constexpr double worth_it = 1.2;
     double best = worth_it;
-    std::string text = other_record;
+    Proposal proposal{other_record};
     for (const Trial& trial : trials_of(study)) {
-        const std::optional<Told> then = told_after(study, named, whitener, trial);
+        std::optional<After> then = told_after(study, named, whitener, trial);
         if (!then) {
             continue;
         }
-        const std::vector<double> after = deviations_from(*now, now->information + then->information, named);
+        const std::vector<double> after = deviations_from(*now, now->information + then->told.information, named);
         double factor = 1.0;
         std::vector<Narrower> all;
         for (const std::size_t p : mine) {
@@ -330,39 +353,43 @@ std::string sharpen(const Study& study, const Candidate& named, const Whitener& 
         }
         if (factor > best) {
             best = factor;
-            text = fmt::format("{}, beside what there is: {}; by the slopes of what is simulated", trial.text,
-                               to_text(all));
+            proposal.text = fmt::format("{}, beside what there is: {}; by the slopes of what is simulated", trial.text,
+                                        to_text(all));
+            proposal.record = drawn_of(trial);
+            proposal.record->outputs.emplace_back(named.name(), then->output);
         }
     }
-    return text;
+    return proposal;
 }
 
-std::string next_experiment(const Finding& finding) {
+Proposal next_experiment(const Finding& finding) {
     const std::string lacking = fmt::format("train on records that have these, too, as validation has: {}",
                                             fmt::join(finding.extrapolated, "; "));
     switch (finding.outcome) {
         case Outcome::no_gap:
-            return finding.extrapolated.empty()
-                       ? "none for this gap; another operating profile would tell whether the model holds there"
-                       : fmt::format("none for this gap, though validation alone has these: {}",
-                                     fmt::join(finding.extrapolated, "; "));
+            return {finding.extrapolated.empty()
+                        ? "none for this gap; another operating profile would tell whether the model holds there"
+                        : fmt::format("none for this gap, though validation alone has these: {}",
+                                      fmt::join(finding.extrapolated, "; "))};
         case Outcome::attributed: {
-            const std::string sharper = sharpen(finding.study, *finding.named.front(), finding.whitener);
-            return finding.extrapolated.empty() ? sharper : lacking + ". Then " + sharper;
+            Proposal sharper = sharpen(finding.study, *finding.named.front(), finding.whitener);
+            sharper.text = (finding.extrapolated.empty() ? "" : lacking + ". Then ") + sharper.text;
+            return sharper;
         }
         case Outcome::ambiguous:
-            return part(finding.study, finding.named, finding.noise).text;
+            return part(finding.study, finding.named, finding.noise);
         case Outcome::unknown:
             break;
     }
     if (!finding.extrapolated.empty()) {
-        return lacking + ". Training never went there, so that whatever is fitted is a guess there";
+        return {lacking + ". Training never went there, so that whatever is fitted is a guess there"};
     }
-    return finding.input_levels <= 3
-               ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of them: the "
-                 "first shows what depends on level and direction, the second what depends on frequency"
-               : "the same record twice more: what repeats is of the drive, what does not came from outside; and one "
-                 "more signal (speed, current, supply) at the same time";
+    return {
+        finding.input_levels <= 3
+            ? "a staircase up and down with at least 5 levels, then a pseudo-random sequence about one of them: the "
+              "first shows what depends on level and direction, the second what depends on frequency"
+            : "the same record twice more: what repeats is of the drive, what does not came from outside; and one "
+              "more signal (speed, current, supply) at the same time"};
 }
 
 }  // namespace gap

@@ -2,16 +2,19 @@
 // sharper, simulated to prove that they do.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gap/drive/decide.hpp"
+#include "gap/verdict/curve.hpp"
 
 namespace gap {
 
 struct Proposal {
     std::string text;
     double apart = 0.0;  ///< rms by which the nearest alternative, refitted, misses the first, over the noise
+    std::optional<NextRecord> record = {};  ///< what was simulated, of an excitation that is proposed
 };
 
 /// \param alternatives  two or more, as they were fitted \param noise  standard deviation of readings
@@ -21,7 +24,7 @@ struct Proposal {
 /// known best, with the factors by which their intervals shrink: from the slopes of what is simulated there, the base's
 /// numbers and a new record's state fitted, too. \param named  as it was fitted \param whitener  of what it leaves in
 /// training
-[[nodiscard]] std::string sharpen(const Study& study, const Candidate& named, const Whitener& whitener);
+[[nodiscard]] Proposal sharpen(const Study& study, const Candidate& named, const Whitener& whitener);
 
 /// What is known when a verdict stands.
 struct Finding {
@@ -34,7 +37,6 @@ struct Finding {
     std::vector<std::string> extrapolated;  ///< what validation has and training lacks
 };
 
-/// In words, for the verdict.
-[[nodiscard]] std::string next_experiment(const Finding& finding);
+[[nodiscard]] Proposal next_experiment(const Finding& finding);
 
 }  // namespace gap

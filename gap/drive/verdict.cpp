@@ -123,7 +123,7 @@ std::vector<Curve> curves_of(const Answer& answer) {
     for (std::size_t r = 0; r < answer.records.size(); ++r) {
         const Record& record = answer.records[r];
         curves.push_back({record.name, record.time_s, record.output, base.residuals[r],
-                          &chosen == &base ? std::vector<double>{} : chosen.residuals[r]});
+                          &chosen == &base ? std::vector<double>{} : chosen.residuals[r], record.input});
     }
     return curves;
 }
@@ -164,9 +164,9 @@ Verdict verdict_of(const Answer& answer) {
 
 std::string to_json(const Answer& answer) { return to_json(verdict_of(answer)); }
 std::string to_text(const Answer& answer) { return to_text(verdict_of(answer)); }
-std::string to_html(const Answer& answer) {
+std::string to_html(const Answer& answer, const std::string& command) {
     const Verdict verdict = verdict_of(answer);
-    return to_html(verdict, std::get<OfDrive>(verdict.of), curves_of(answer));
+    return to_html(verdict, std::get<OfDrive>(verdict.of), {curves_of(answer), answer.next_record, command});
 }
 
 std::string improved_model(const Answer& answer) {

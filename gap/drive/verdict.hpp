@@ -12,7 +12,8 @@ namespace gap {
 [[nodiscard]] Verdict verdict_of(const Answer& answer);
 [[nodiscard]] std::string to_json(const Answer& answer);
 [[nodiscard]] std::string to_text(const Answer& answer);
-[[nodiscard]] std::string to_html(const Answer& answer);
+/// \param command  how it was asked, for the page; empty: not told
+[[nodiscard]] std::string to_html(const Answer& answer, const std::string& command = {});
 
 /// A model file with the chosen candidate's lasting effects in a field `effects`, which `glsum simulate` runs.
 [[nodiscard]] std::string improved_model(const Answer& answer);

@@ -43,6 +43,8 @@ fit() { "$program" indices "$folder/other.csv" --model "$1" --json | sed -n 's/.
 [ "$(echo "$(fit "$folder/improved.json") $(fit "$folder/linear.json")" | awk 'NF == 2 {print (1 - $1 < 0.5 * (1 - $2))}')" = 1 ] ||
     { echo "indices: improved $(fit "$folder/improved.json"), base $(fit "$folder/linear.json")"; failures=$((failures + 1)); }
 grep -qF 'input_dead_zone' "$folder/page.html" || { echo "page.html: expected the effect's name"; failures=$((failures + 1)); }
+grep -qF "<code>glsum diagnose drive --model $folder/linear.json" "$folder/page.html" || { echo "page.html: expected the command"; failures=$((failures + 1)); }
+grep -qF 'polyline class="input"' "$folder/page.html" || { echo "page.html: expected the input's curve"; failures=$((failures + 1)); }
 ! grep -qE 'https?://[^w]' "$folder/page.html" || { echo "page.html: expected nothing from the network"; failures=$((failures + 1)); }
 
 expect 0 "verdict: no_gap" diagnose drive --model "$folder/linear.json" --log "$folder/clean.csv" --validate "$folder/cleaner.csv"

@@ -164,7 +164,7 @@ TEST(NextExperiment, OfAFreeMotionIsToLetGoAgain) {
     record.output = gap::simulate(gap::scenario_of(study, named, 0), study.courses[0]);
     gap::Whitener whitener;
     whitener.deviation = whitener.stationary_deviation = 0.002;
-    const std::string text = gap::sharpen(study, named, whitener);
+    const std::string text = gap::sharpen(study, named, whitener).text;
     EXPECT_THAT(text, StartsWith("let go from as far out as it has been"));
     EXPECT_THAT(text, HasSubstr("narrower for gravity_nonlinearity.angle_per_unit"));
 }

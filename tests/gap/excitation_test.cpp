@@ -105,7 +105,7 @@ std::string words(gap::Outcome outcome, std::size_t levels, std::vector<std::str
     const drive::Model model = drive::make_fopdt(1.0, 1.0, 0.0);
     const gap::Study study{{gap::form_of(model), false}, gap::scales_of(model, {record}, {}), {}, {}, 0.1, 0.1, 0};
     const gap::Whitener whitener;
-    return gap::next_experiment({outcome, study, {}, whitener, 0.1, levels, std::move(extrapolated)});
+    return gap::next_experiment({outcome, study, {}, whitener, 0.1, levels, std::move(extrapolated)}).text;
 }
 
 TEST(NextWords, OfNoGapAskForAnotherProfile) {
@@ -171,10 +171,18 @@ TEST(Sharpened, IsWhatTheSlopesOfTheLongestRecordTell) {
     // Three times as long as the record, 1203 samples: no other excitation is.
     const double before = 1.96 / std::sqrt(Drifting::information(401) + made.prior());
     const double after = 1.96 / std::sqrt(Drifting::information(401) + Drifting::information(1200) + made.prior());
-    EXPECT_EQ(gap::sharpen(made.study, made.named, made.whitener),
+    EXPECT_EQ(gap::sharpen(made.study, made.named, made.whitener).text,
               fmt::format("three fifths, held for 120 s from 0 to 1, beside what there is: {:.3g} times narrower for "
                           "sensor_drift.per_s (within {:.2g} instead of {:.2g}); by the slopes of what is simulated",
                           before / after, after, before));
+    // What is drawn of it: three fifths held, and a drift of the output alone.
+    const auto record = gap::sharpen(made.study, made.named, made.whitener).record;
+    ASSERT_TRUE(record);
+    EXPECT_EQ(record->text, "three fifths, held for 120 s from 0 to 1");
+    EXPECT_EQ(record->input, std::vector<double>(record->time_s.size(), 0.6));
+    ASSERT_EQ(record->outputs.size(), 1U);
+    EXPECT_EQ(record->outputs[0].first, made.named.name());
+    EXPECT_EQ(record->outputs[0].second.size(), record->time_s.size());
 }
 
 // Where what is left is larger than the noise, intervals are as much wider, before and behind.
@@ -186,7 +194,7 @@ TEST(Sharpened, IsNoNarrowerForAMisfit) {
     const double n = 401.0;
     const double variance = 9.0 * n / (n - 1.0);
     const double before = 1.96 / std::sqrt(Drifting::information(401) / variance + made.prior());
-    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener),
+    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener).text,
                 HasSubstr(fmt::format("instead of {:.2g})", before)));
 }
 
@@ -195,12 +203,14 @@ TEST(Sharpened, OfAnEventIsTheSameRecordAgain) {
     made.named.effects = {&gap::effect_named("load_disturbance")};
     made.named.lasting.clear();
     made.named.own[0] = gap::parameters_of(*made.named.effects[0], made.study.scales, 0);
-    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener), StartsWith("the same record once more"));
+    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener).text, StartsWith("the same record once more"));
+    EXPECT_FALSE(gap::sharpen(made.study, made.named, made.whitener).record) << "nothing was simulated";
     // What has no number is tested elsewhere.
     made.named.effects = {&gap::effect_named("sensor_magnitude")};
     made.named.lasting = {gap::parameters_of(*made.named.effects[0], made.study.scales, 0)};
     made.named.own[0].clear();
-    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener), StartsWith("a record at other levels and speeds"));
+    EXPECT_THAT(gap::sharpen(made.study, made.named, made.whitener).text,
+                StartsWith("a record at other levels and speeds"));
 }
 
 }  // namespace

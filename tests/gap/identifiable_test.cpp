@@ -136,7 +136,8 @@ TEST(GapIdentifiable, WhatTheActuatorDoes) {
     expect_found({arm(), moved(-1.0)}, "input_dead_zone", {0.2, 0.35}, {{"width", 0.2}, {"width_down", 0.35}});
     expect_found({arm(), moved(0.0)}, "input_dead_zone", {0.2, -1.0}, {{"width", 0.2}});
     expect_found({arm(), moved(-1.0)}, "input_hysteresis", {0.3, 0.7}, {{"width", 0.3}, {"share", 0.7}});
-    expect_found({arm(), moved(0.0)}, "valve_stiction", {0.15, 0.06, 0.004}, {{"band", 0.15}, {"jump", 0.06}}, 0.15, 3.0);
+    expect_found({arm(), moved(0.0)}, "valve_stiction", {0.15, 0.06, 0.004}, {{"band", 0.15}, {"jump", 0.06}}, 0.15,
+                 3.0);
     expect_found({arm(), moved(0.0)}, "variable_delay", {0.12, 3.1, 0.8}, {{"depth_s", 0.12}, {"period_s", 3.1}});
 }
 
@@ -181,8 +182,19 @@ TEST(GapIdentifiable, AProposalLeavesTheSecondInputWhereItWas) {
     const gap::Study study = study_of(rig);
     const gap::Candidate second = gap::fit(study, {&gap::effect_named("second_input")}, {}, nullptr);
     const gap::Candidate offset = gap::fit(study, {&gap::effect_named("sensor_offset")}, {}, nullptr);
-    EXPECT_FALSE(gap::part(study, {&second, &offset}, rig.noise).text.empty());
-    EXPECT_FALSE(gap::sharpen(study, second, gap::whitener_of(study, second)).empty());
+    const gap::Proposal parting = gap::part(study, {&second, &offset}, rig.noise);
+    EXPECT_FALSE(parting.text.empty());
+    // What it draws is as far apart as it says.
+    ASSERT_TRUE(parting.record);
+    ASSERT_EQ(parting.record->outputs.size(), 2U);
+    const std::vector<double>& one = parting.record->outputs[0].second;
+    const std::vector<double>& other = parting.record->outputs[1].second;
+    double squares = 0.0;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+        squares += (one[i] - other[i]) * (one[i] - other[i]);
+    }
+    EXPECT_NEAR(std::sqrt(squares / static_cast<double>(one.size())) / rig.noise, parting.apart, 0.02 * parting.apart);
+    EXPECT_FALSE(gap::sharpen(study, second, gap::whitener_of(study, second)).text.empty());
 }
 
 // A released arm: nobody drives it, and its friction is told by what moves it instead.

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "gap/verdict/page.hpp"
+#include "gap/verdict/plot.hpp"
 
 namespace {
 
@@ -350,7 +351,7 @@ TEST(VerdictPage, DrawsWhatWasMeasuredAndSimulated) {
     gap::OfDrive of = of_drive();
     of.chosen = "none";
     const gap::Verdict verdict = verdict_of(of);
-    const std::string page = gap::to_html(verdict, of, {ramp(5)});
+    const std::string page = gap::to_html(verdict, of, {{ramp(5)}});
     // From 64 to 1090 along, from 8 for the highest to 296 for the lowest.
     EXPECT_THAT(
         page,
@@ -369,29 +370,69 @@ TEST(VerdictPage, DrawsWhatWasMeasuredAndSimulated) {
          {">0</text>", ">0.2</text>", ">0.8</text>", ">1</text>", ">0 s</text>", ">2</text>", ">10</text>"}) {
         EXPECT_THAT(page, HasSubstr(mark)) << mark;
     }
-    EXPECT_THAT(page, AllOf(HasSubstr(">0.15</text>"), Not(HasSubstr(">0.3</text>")), Not(HasSubstr(">5</text>"))));
-    EXPECT_EQ(count_of(page, "<svg "), 2U);
+    EXPECT_THAT(page, AllOf(HasSubstr(">0.15</text>"), Not(HasSubstr(">0.3</text>"))));
+    EXPECT_EQ(count_of(page, "<svg class=\"screen\""), 2U);
+    EXPECT_EQ(count_of(page, "<svg class=\"phone\""), 2U);
+}
+
+// Of a residual that grows like t: the integral of t^2 over each part.
+TEST(VerdictPage, ShadesWhereTheSquaresLie) {
+    const gap::Curve curve = ramp(6001);
+    const std::vector<double> shade = gap::shade_of(curve.left_by_base, curve.time_s);
+    ASSERT_EQ(shade.size(), 60U);
+    for (std::size_t i = 0; i < 60; ++i) {
+        // The integral of t^2 over a part, over that of the last part.
+        const auto cube = [](double k) { return k * k * k; };
+        const auto k = static_cast<double>(i);
+        EXPECT_NEAR(shade[i], (cube(k + 1) - cube(k)) / (cube(60) - cube(59)), 0.012) << i;
+    }
+    EXPECT_EQ(gap::shade_of({0.0, std::nan(""), 0.0}, {0.0, 1.0, 2.0}), std::vector<double>(60, 0.0));
+    gap::OfDrive of = of_drive();
+    const std::string page = gap::to_html(verdict_of(of), of, {{curve}});
+    EXPECT_THAT(page, HasSubstr("height=\"288.0\" opacity=\"0.30\""));
+    EXPECT_THAT(page, Not(HasSubstr("opacity=\"0.00\"")));
+}
+
+TEST(VerdictPage, DrawsTheInputAndTheNextRecordInSteps) {
+    gap::OfDrive of = of_drive();
+    gap::Curve curve = ramp(5);
+    curve.input = {0.0, 0.0, 1.0, 1.0, 0.0};
+    gap::NextRecord next{"a <step>",
+                         {0.0, 1.0, 2.0},
+                         {0.0, 1.0, 1.0},
+                         {{"backlash", {0.0, 0.5, 1.0}}, {"rate_limit, refitted", {0.0, 0.0, 1.0}}}};
+    const std::string page = gap::to_html(verdict_of(of), of, {{curve}, next, "glsum diagnose drive --log <x>"});
+    EXPECT_THAT(page,
+                HasSubstr("<polyline class=\"input\" points=\"64.0,86.0 320.5,86.0 577.0,86.0 577.0,8.0 833.5,8.0 "
+                          "1090.0,8.0 1090.0,86.0 \"/>"));
+    EXPECT_THAT(page, HasSubstr("<polyline class=\"after\" points=\"64.0,186.0 577.0,97.0 1090.0,8.0 \"/>"));
+    EXPECT_THAT(page, HasSubstr("<polyline class=\"base\" points=\"64.0,186.0 577.0,186.0 1090.0,8.0 \"/>"));
+    EXPECT_THAT(page, HasSubstr("output, simulated: a &lt;step&gt;"));
+    EXPECT_THAT(page, AllOf(HasSubstr("</i>backlash</span>"), HasSubstr("</i>rate_limit, refitted</span>")));
+    EXPECT_THAT(page, HasSubstr("<code>glsum diagnose drive --log &lt;x&gt;</code>"));
+    EXPECT_EQ(count_of(page, "<svg class=\"screen\""), 5U);
+    EXPECT_THAT(gap::to_html(verdict_of(of), of, {}), Not(HasSubstr("<svg")));
 }
 
 TEST(VerdictPage, LeavesOutWhatIsNoNumberAndThinsWhatIsLong) {
     gap::OfDrive of = of_drive();
     gap::Curve curve = ramp(5);
     curve.left_by_chosen = {0.0, std::nan(""), 0.0, 0.0, 0.0};
-    std::string page = gap::to_html(verdict_of(of), of, {curve});
+    std::string page = gap::to_html(verdict_of(of), of, {{curve}});
     EXPECT_THAT(page,
                 HasSubstr("<polyline class=\"after\" points=\"64.0,296.0 577.0,152.0 833.5,80.0 1090.0,8.0 \"/>"));
     EXPECT_THAT(page, HasSubstr("base + backlash"));
     // Of 4400 samples every second one.
-    page = gap::to_html(verdict_of(of), of, {ramp(4400)});
+    page = gap::to_html(verdict_of(of), of, {{ramp(4400)}});
     const std::size_t from = page.find("class=\"measured\" points=\"");
     EXPECT_EQ(count_of(page.substr(from, page.find("\"/>", from) - from), ","), 2200U);
-    page = gap::to_html(verdict_of(of), of, {ramp(4399)});
+    page = gap::to_html(verdict_of(of), of, {{ramp(4399)}});
     EXPECT_EQ(count_of(page.substr(from, page.find("\"/>", from) - from), ","), 4399U);
     // What never moves is drawn with a span of 1.
     gap::Curve flat = ramp(5);
     flat.measured.assign(5, 3.0);
     flat.left_by_base.assign(5, 0.0);
-    EXPECT_THAT(gap::to_html(verdict_of(of), of, {flat}),
+    EXPECT_THAT(gap::to_html(verdict_of(of), of, {{flat}}),
                 HasSubstr("<polyline class=\"measured\" points=\"64.0,296.0 "));
 }
 
