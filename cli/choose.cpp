@@ -12,6 +12,7 @@
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 
 namespace cli {
 namespace {
@@ -43,18 +44,16 @@ void check(Budget budget, const Check& check) {
     }
 }
 
-void run(const Budget& budget, const std::string& json) {
+void run(const Budget& budget, const Output& json) {
     if (budget.max_error == 0.0 && budget.derivative_error.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input, "--max-error or --derivative-error is required");
     }
     const choose::Question question = to_question(budget);
-    if (!json.empty()) {
-        base::check_writable(json);
-    }
+    json.check();
     const choose::Answer answer = choose::answer(question, board_for(question));
     fmt::print("{}", choose::to_table(answer, isatty(STDOUT_FILENO) == 1));
-    if (!json.empty()) {
-        base::write_file(json, choose::to_json(answer).dump(2) + "\n");
+    if (json.wanted()) {
+        json.write(choose::to_json(answer).dump(2) + "\n");
     }
     if (answer.choice.chosen) {
         plot_if_asked(budget, answer);
@@ -67,11 +66,11 @@ void run(const Budget& budget, const std::string& json) {
 
 void add_options(Command& command, const Words&) {
     auto budget = add_budget(command);
-    auto json = std::make_shared<std::string>();
+    auto json = std::make_shared<Output>();
     for (const char* needed : {"--step-s", "--target"}) {
         command.option(needed).required();
     }
-    command.add_option("--json", *json, "Writes the answer there too");
+    json->add_to(command, "--json", "The answer");
     auto against = std::make_shared<Check>();
     command
         .add_option("--check-against-brute-force", against->budgets,

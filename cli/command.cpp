@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <filesystem>
@@ -10,6 +11,7 @@
 
 #include "base/failure.hpp"
 #include "cli/help_page.hpp"
+#include "cli/option_rows.hpp"
 
 namespace cli {
 namespace {
@@ -23,6 +25,22 @@ void check(CLI::Option& option, const std::string& range, const std::function<bo
                                              : fmt::format("expected a number {}, found {}", range, word);
         },
         range));
+}
+
+// `indices --json log.csv`: where words may stand alone, one behind --json is its FILE only if it ends so. \param words
+// the last first
+void part_from_words(const CLI::App& app, std::vector<std::string>& words) {
+    const auto options = app.get_options();
+    if (std::none_of(options.begin(), options.end(), [](const CLI::Option* one) { return one->get_positional(); })) {
+        return;
+    }
+    for (std::size_t i = words.size(); i-- > 1;) {
+        const std::string& next = words[i - 1];
+        if (words[i] == "--json" && !next.ends_with(".json") && next != "-" &&
+            app.get_option_no_throw("--json") != nullptr) {
+            words.insert(words.begin() + static_cast<std::ptrdiff_t>(i), "-");
+        }
+    }
 }
 
 }  // namespace
@@ -90,6 +108,14 @@ Option Command::option(const std::string& name) { return Option(app_->get_option
 bool Command::has_option(const std::string& name) const { return app_->get_option_no_throw(name) != nullptr; }
 void Command::footer(const std::string& text) { app_->footer(text); }
 void Command::callback(std::function<void()> run) { app_->callback(std::move(run)); }
+void Command::prepare(std::function<void()> act) {
+    preparations_->push_back(std::move(act));
+    app_->parse_complete_callback([all = preparations_] {
+        for (const auto& one : *all) {
+            one();
+        }
+    });
+}
 
 Command Command::add_subcommand(const std::string& name, const std::string& summary) {
     return Command(std::shared_ptr<CLI::App>(app_, app_->add_subcommand(name, summary)));
@@ -97,7 +123,10 @@ Command Command::add_subcommand(const std::string& name, const std::string& summ
 void Command::takes_one_subcommand() { app_->require_subcommand(0, 1); }
 bool Command::given_subcommand() const { return !app_->get_subcommands().empty(); }
 
+std::string Command::rows_of_options(const std::string& name) const { return option_rows(*app_, name); }
+
 int Command::parse(std::vector<std::string> words) {
+    part_from_words(*app_, words);
     try {
         app_->parse(std::move(words));
     } catch (const CLI::ParseError& error) {

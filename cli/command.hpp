@@ -60,10 +60,15 @@ public:
     [[nodiscard]] bool has_option(const std::string& name) const;
     void footer(const std::string& text);
     void callback(std::function<void()> run);
+    /// Runs once the words are parsed, before the callback; several in turn.
+    void prepare(std::function<void()> act);
 
     Command add_subcommand(const std::string& name, const std::string& summary);
     void takes_one_subcommand();  ///< or none
     [[nodiscard]] bool given_subcommand() const;
+
+    /// Of the command and its subcommands, as `option_rows` has them.
+    [[nodiscard]] std::string rows_of_options(const std::string& name) const;
 
     /// Parses and runs. \param words  the last first
     /// \return 0, or where they are not as expected, which it then prints, the exit status of bad input
@@ -71,6 +76,8 @@ public:
 
 private:
     std::shared_ptr<CLI::App> app_;
+    std::shared_ptr<std::vector<std::function<void()>>> preparations_ =
+        std::make_shared<std::vector<std::function<void()>>>();
 };
 
 /// What the user typed, for commands that want it as it was.

@@ -9,6 +9,7 @@
 #include "base/files.hpp"
 #include "bench/gate/compare.hpp"
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 
 namespace cli {
 namespace {
@@ -21,8 +22,7 @@ struct Options {
     std::vector<std::string> counters{"*"};
     std::size_t shown = 20;
     bool force = false;
-    std::optional<Option> json;
-    std::string json_file;
+    Output json;
 };
 
 void run(const Options& options) {
@@ -37,12 +37,11 @@ void run(const Options& options) {
     if (comparison.pairs.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input, "compare: the two files share no counter of what was asked for");
     }
-    if (options.json->given() && options.json_file.empty()) {
-        fmt::print("{}", bench::gate::to_json(comparison));
-        return;
+    if (options.json.wanted()) {
+        options.json.write(bench::gate::to_json(comparison));
     }
-    if (options.json->given()) {
-        base::write_file(options.json_file, bench::gate::to_json(comparison));
+    if (options.json.to_stdout()) {
+        return;
     }
     fmt::print("compare: A is {}, B is {}\n{}", options.a.string(), options.b.string(),
                bench::gate::to_table(comparison, options.shown));
@@ -63,9 +62,7 @@ void add_options(Command& command, const Words&) {
     command.add_option("--show", options->shown, "How many of the largest changes").at_least(0).capture_default_str();
     command.add_option("--thresholds", options->thresholds, "Rules that say which direction is better");
     command.add_flag("--force", options->force, "Compare what is not comparable");
-    options->json = command.add_option("--json", options->json_file, "Every pair; to standard output without FILE")
-                        .expected(0, 1)
-                        .type_name("[FILE]");
+    options->json.add_to(command, "--json", "Every pair");
     command.callback([options] { run(*options); });
 }
 

@@ -38,9 +38,9 @@ void show_coverage(const CoverageOptions& options, const Covered& covered) {
         found = drive::measure_coverage(truth, drive::kind_named(covered.form), options.acquisition, options.runs,
                                         covered.seed, covered.jobs, [&] { progress.advance(); });
     }
-    put(covered.json ? drive::to_json(found, covered.model, covered.form)
-                     : drive::to_text(found, truth, options.acquisition),
-        covered.out);
+    put_either(
+        covered.json, [&] { return drive::to_json(found, covered.model, covered.form); },
+        [&] { return drive::to_text(found, truth, options.acquisition); }, covered.out);
     if (!drive::holds(found) && found.runs >= 100) {
         throw Failure(Exit::check_failed,
                       "coverage: expected each parameter inside its 95 % interval in 90 to 99 of 100 runs");

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 #include "drive/coverage.hpp"
 
 namespace cli {
@@ -24,7 +25,7 @@ struct Covered {
     std::string form;
     std::uint64_t seed;
     unsigned jobs;
-    bool json;
+    const Output& json;
     std::filesystem::path out;
 };
 

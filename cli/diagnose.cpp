@@ -12,6 +12,7 @@
 #include "cli/diagnose_cycles.hpp"
 #include "cli/drive_files.hpp"
 #include "cli/exam.hpp"
+#include "cli/output.hpp"
 #include "gap/drive/diagnose.hpp"
 #include "gap/drive/fair_records.hpp"
 #include "gap/drive/start.hpp"
@@ -31,7 +32,7 @@ struct Options {
     std::optional<double> horizon_s;
     std::string domain;
     std::vector<std::string> without;
-    std::filesystem::path json;
+    Output json;
     std::filesystem::path html;
     std::filesystem::path improved;
     unsigned jobs = 1;
@@ -69,8 +70,8 @@ void run(const Options& options, const std::string& line) {
     const gap::Answer answer =
         gap::diagnose(question, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
     fmt::print("{}", gap::to_text(answer));
-    if (!options.json.empty()) {
-        put(gap::to_json(answer), options.json);
+    if (options.json.wanted()) {
+        options.json.write(gap::to_json(answer));
     }
     if (!options.html.empty()) {
         put(gap::to_html(answer, line), options.html);
@@ -156,7 +157,7 @@ void add_options(Command& command, const Words& words) {
         .one_of({"mechanical", "thermal", "hydraulic", "electric"});
     of_drive.add_option("--without", options->without, "Effects to leave off the list").delimiter(',');
     add_diagnosis_column_options(of_drive, options->columns);
-    of_drive.add_option("--json", options->json, "The verdict, schema glsum-gap-1");
+    options->json.add_to(of_drive, "--json", "The verdict, schema glsum-gap-1");
     of_drive.add_option("--html", options->html, "A page with curves, ranking and where the gap lies");
     of_drive.add_option("--improved", options->improved, "The model with the effect, which simulate runs");
     of_drive.add_option("--jobs", options->jobs, "Threads").at_least(1);

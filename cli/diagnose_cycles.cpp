@@ -8,6 +8,7 @@
 #include "base/sha256.hpp"
 #include "cli/board.hpp"
 #include "cli/drive_files.hpp"
+#include "cli/output.hpp"
 #include "gap/cycles/blind.hpp"
 #include "gap/cycles/diagnose.hpp"
 #include "gap/cycles/tally.hpp"
@@ -22,7 +23,7 @@ using glsum::Failure;
 struct Options {
     std::filesystem::path measured;
     std::string core = "m7-ideal";
-    std::filesystem::path json;
+    Output json;
     std::size_t blind = 0;
     std::uint64_t seed = 1;
     std::filesystem::path out;
@@ -84,8 +85,8 @@ void run(const Options& options) {
                               });
     const gap::Verdict verdict = gap::cycles::verdict_of(found, options.core);
     fmt::print("{}: {} rows\n{}", options.measured.filename().string(), rows.size(), gap::to_text(verdict));
-    if (!options.json.empty()) {
-        put(gap::to_json(verdict), options.json);
+    if (options.json.wanted()) {
+        options.json.write(gap::to_json(verdict));
     }
 }
 
@@ -99,7 +100,7 @@ void add_diagnose_cycles(Command& diagnose) {
     command.add_option("--measured", options->measured,
                        "CSV: kernel,code,data,maintenance,taps,cycles, and instructions if they were counted");
     command.add_option("--core", options->core, "The prediction that is judged, a core file").capture_default_str();
-    command.add_option("--json", options->json, "The verdict, schema glsum-gap-1");
+    options->json.add_to(command, "--json", "The verdict, schema glsum-gap-1");
     Option blind = command.add_option(
         "--blind", options->blind,
         "Instead: so many measurements of cores with secret switches and costs, sealed and diagnosed from their files");
@@ -110,7 +111,7 @@ void add_diagnose_cycles(Command& diagnose) {
         if (options->blind == 0 && options->measured.empty()) {
             throw Failure(Exit::bad_input, "expected --measured FILE or --blind N --out FOLDER");
         }
-        if (options->blind > 0 && (options->out.empty() || !options->measured.empty() || !options->json.empty())) {
+        if (options->blind > 0 && (options->out.empty() || !options->measured.empty() || options->json.wanted())) {
             throw Failure(Exit::bad_input, "--blind: expected --out FOLDER, and neither --measured nor --json");
         }
         run(*options);

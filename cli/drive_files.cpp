@@ -110,4 +110,14 @@ void put(const std::string& text, const std::filesystem::path& path) {
     }
 }
 
+void put_either(const Output& json, const std::function<std::string()>& as_json,
+                const std::function<std::string()>& as_text, const std::filesystem::path& out) {
+    if (json.wanted()) {
+        json.or_to(out).write(as_json());
+    }
+    if (!json.to_stdout()) {
+        put(as_text(), out);
+    }
+}
+
 }  // namespace cli

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 #include "drive/log.hpp"
 #include "drive/model.hpp"
 #include "gap/drive/improved.hpp"
@@ -40,5 +42,10 @@ void add_diagnosis_column_options(Command& command, drive::Columns& columns);
 
 /// Writes the file whole, or prints where no path was given.
 void put(const std::string& text, const std::filesystem::path& path);
+
+/// The text to `out`, or printed, and JSON where that is wanted; where it would be printed, it goes to `out` in the
+/// text's place.
+void put_either(const Output& json, const std::function<std::string()>& as_json,
+                const std::function<std::string()>& as_text, const std::filesystem::path& out);
 
 }  // namespace cli

@@ -11,6 +11,7 @@
 #include "base/progress.hpp"
 #include "base/sha256.hpp"
 #include "cli/drive_files.hpp"
+#include "cli/output.hpp"
 #include "gap/drive/diagnose.hpp"
 #include "gap/exam/ask.hpp"
 #include "gap/exam/score.hpp"
@@ -105,7 +106,7 @@ void run_exam(const path& manifest, const path& data, const path& out, unsigned 
     fmt::print("sha256 of the answers' hashes: {}\n", base::sha256_of(out / hashes_file));
 }
 
-void score_exam(const path& answers, const path& truth, const path& json) {
+void score_exam(const path& answers, const path& truth, const Output& json) {
     if (truth.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input,
                              "score --exam: expected --truth FILE, what is known of the questions");
@@ -142,8 +143,8 @@ void score_exam(const path& answers, const path& truth, const path& json) {
                                                                  truth.string(), replies.begin()->first));
     }
     fmt::print("{}", exam::to_text(scored));
-    if (!json.empty()) {
-        base::write_file(json, exam::to_json(scored));
+    if (json.wanted()) {
+        json.write(exam::to_json(scored));
     }
 }
 

@@ -51,11 +51,11 @@ void finish_run(const std::filesystem::path& out, const bench::Results& results,
     bench::write_results(out, results.context, results.rows);
     std::filesystem::path stem = out;
     stem.replace_extension();
-    std::filesystem::path csv = stem;
-    csv += ".csv";
-    bench::write_csv(csv, results.rows);
+    const auto beside = [&](const char* end) { return std::filesystem::path(stem) += end; };
+    bench::write_csv(beside(".csv"), results.rows);
+    bench::write_tidy_csv(beside("-tidy.csv"), results.rows);
     bench::plot_error(groups, worst_of_signals(bench::truncation_bounds(results.context, results.rows, jobs)), stem);
-    fmt::print("{}\n{} rows in {}; beside it .csv, .svg and .png; glsum report makes a page of it\n",
+    fmt::print("{}\n{} rows in {}; beside it .csv, -tidy.csv, .svg and .png; glsum report makes a page of it\n",
                tables(groups, results, table), results.rows.size(), out.string());
     check_rows(results);
 }

@@ -16,6 +16,7 @@
 #include "bench/gate/outputs.hpp"
 #include "cli/command.hpp"
 #include "cli/gate_functions.hpp"
+#include "cli/output.hpp"
 
 namespace cli {
 namespace {
@@ -38,10 +39,8 @@ struct Options {
     std::vector<std::string> functions;
 };
 
-// An output that goes to a file where one is named and to standard output where none is.
-struct Output {
-    std::optional<Option> option;
-    std::string file;
+struct Written {
+    Output output;
     std::string (*text)(const Verdict&) = nullptr;
 };
 
@@ -100,10 +99,10 @@ void update_baseline(const Options& options) {
     fmt::print("\n{}: {} rows recorded; changed: {}\n", options.baseline.string(), baseline.rows.size(), changed);
 }
 
-void run(const Options& options, const std::vector<Output>& outputs) {
+void run(const Options& options, const std::vector<Written>& outputs) {
     if (!options.timed.elf.empty()) {
-        for (const Output& output : outputs) {
-            if (output.option->given() || options.annotations) {
+        for (const Written& one : outputs) {
+            if (one.output.wanted() || options.annotations) {
                 throw Failure(Exit::bad_input,
                               "--elf: expected no --json, --junit, --markdown or --annotations beside it");
             }
@@ -127,15 +126,10 @@ void run(const Options& options, const std::vector<Output>& outputs) {
     verdict.baseline_name = options.baseline.string();
     verdict.current_name = options.current.string();
     bool to_stdout = false;
-    for (const Output& output : outputs) {
-        if (!output.option->given()) {
-            continue;
-        }
-        if (output.file.empty()) {
-            to_stdout = true;
-            fmt::print("{}", output.text(verdict));
-        } else {
-            base::write_file(output.file, output.text(verdict));
+    for (const Written& one : outputs) {
+        if (one.output.wanted()) {
+            one.output.write(one.text(verdict));
+            to_stdout = to_stdout || one.output.to_stdout();
         }
     }
     if (!to_stdout && verdict.refusal.empty()) {
@@ -158,7 +152,7 @@ void run(const Options& options, const std::vector<Output>& outputs) {
 
 void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
-    auto outputs = std::make_shared<std::vector<Output>>(3);
+    auto outputs = std::make_shared<std::vector<Written>>(3);
     command.footer(
         "Layers: rows, right answer, accuracy, instructions and bytes, modelled cycles, host time.\n"
         "Exit status: 0 pass, 1 worse, 2 a file is broken, 4 the two runs cannot be compared.\n"
@@ -172,13 +166,12 @@ void add_options(Command& command, const Words&) {
         .default_str("results/thresholds.toml");
     const auto add_output = [&](std::size_t i, const char* name, const char* help,
                                 std::string (*text)(const Verdict&)) {
-        Output& output = (*outputs)[i];
-        output.text = text;
-        output.option = command.add_option(name, output.file, help).expected(0, 1).type_name("[FILE]");
+        (*outputs)[i].text = text;
+        (*outputs)[i].output.add_to(command, name, help);
     };
-    add_output(0, "--json", "Everything, for programs; to standard output without FILE", bench::gate::to_json);
-    add_output(1, "--junit", "Test report, likewise", bench::gate::to_junit);
-    add_output(2, "--markdown", "Step summary, likewise", bench::gate::to_markdown);
+    add_output(0, "--json", "Everything, for programs", bench::gate::to_json);
+    add_output(1, "--junit", "Test report", bench::gate::to_junit);
+    add_output(2, "--markdown", "Step summary", bench::gate::to_markdown);
     command.add_flag("--annotations", options->annotations, "GitHub annotations on standard output");
     Option update = command.add_flag("--update-baseline", options->update,
                                      "Record the run as the new baseline instead (needs --reason)");

@@ -80,7 +80,7 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
     if (!options.plant.empty()) {
         refuse("--plant: expected --controller beside it");
     }
-    if (!options.json.empty()) {
+    if (options.json.wanted()) {
         refuse("--json: expected --controller or --model beside it");
     }
     if (std::isnan(budget.order)) {
@@ -169,8 +169,8 @@ void add_options(Command& command, const Words& words) {
     command.add_option("--plant", options->plant,
                        "With --controller: a model file; the loop is measured beside full memory in double, and its "
                        "margins are told; an unstable one is refused");
-    command.add_option("--json", options->json,
-                       "What was found: with --controller schema glsum-controller-1, with --model glsum-model-1");
+    options->json.add_to(command, "--json",
+                         "What was found: with --controller schema glsum-controller-1, with --model glsum-model-1");
     command.add_flag("--verify", options->verify,
                      "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
                      "modelled cycles and the kernel's; of a controller, steps it here and there, compares its bits, "

@@ -65,9 +65,7 @@ void generate_controller(const ControllerOptions& options, const std::string& co
         throw glsum::Failure(glsum::Exit::bad_input, "--out: expected a file to write");
     }
     base::check_writable(options.out);
-    if (!options.json.empty()) {
-        base::check_writable(options.json);
-    }
+    options.json.check();
     generate::ControllerSpec spec;
     spec.controller =
         drive::parse_fopid(base::read_file(options.controller, drive::most_model_bytes), options.controller);
@@ -101,8 +99,8 @@ void generate_controller(const ControllerOptions& options, const std::string& co
         report.core = options.core;
         verify(report, spec, generate::written(spec, prefix, header), options.licence);
     }
-    if (!options.json.empty()) {
-        base::write_file(options.json, generate::to_json(report, spec));
+    if (options.json.wanted()) {
+        options.json.write(generate::to_json(report, spec));
     }
     for (const generate::CheckedBits& checked : report.checked) {
         if (!checked.good()) {

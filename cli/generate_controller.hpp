@@ -4,13 +4,14 @@
 #include <string>
 
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 
 namespace cli {
 
 struct ControllerOptions {
     std::string controller;
     std::string plant;  ///< a model file; empty: no loop is measured
-    std::string json;   ///< empty: none is written
+    Output json;
     std::string out;
     std::string prefix;
     std::string licence;

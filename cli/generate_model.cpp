@@ -59,9 +59,7 @@ void generate_model(const ModelOptions& options, const std::string& command) {
         throw Failure(Exit::bad_input, "--out: expected a file to write");
     }
     base::check_writable(options.out);
-    if (!options.json.empty()) {
-        base::check_writable(options.json);
-    }
+    options.json.check();
     const double max_error = options.max_error != 0.0 ? options.max_error : 1e-3;
     if (!(max_error > 0.0 && std::isfinite(max_error))) {
         throw Failure(Exit::bad_input, fmt::format("--max-error: expected a number above 0, found {}", max_error));
@@ -85,8 +83,8 @@ void generate_model(const ModelOptions& options, const std::string& command) {
         report.core = options.core;
         verify(report, generate::written(report.choice.spec, prefix, header));
     }
-    if (!options.json.empty()) {
-        base::write_file(options.json, generate::to_json(report));
+    if (options.json.wanted()) {
+        options.json.write(generate::to_json(report));
     }
     for (const generate::CheckedBits& checked : report.checked) {
         if (!checked.good()) {

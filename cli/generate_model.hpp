@@ -4,11 +4,13 @@
 #include <cstddef>
 #include <string>
 
+#include "cli/output.hpp"
+
 namespace cli {
 
 struct ModelOptions {
     std::string model;
-    std::string json;
+    Output json;
     std::string out;
     std::string prefix;
     std::string licence;

@@ -7,6 +7,7 @@
 
 #include "bench/generate/header.hpp"
 #include "cli/budget.hpp"
+#include "cli/output.hpp"
 
 namespace cli {
 
@@ -19,7 +20,7 @@ struct HeaderOptions {
     std::string controller;
     std::string model;
     std::string plant;
-    std::string json;
+    Output json;
     bool verify = false;
 };
 

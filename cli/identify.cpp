@@ -16,6 +16,7 @@
 #include "cli/coverage.hpp"
 #include "cli/drive_files.hpp"
 #include "cli/form_options.hpp"
+#include "cli/output.hpp"
 #include "drive/fit_report.hpp"
 #include "drive/model_file.hpp"
 #include "drive/pictures.hpp"
@@ -39,7 +40,7 @@ struct Options {
     std::string method = "least-squares";
     CharacteristicOptions characteristic;
     CoverageOptions coverage;
-    bool json = false;
+    Output json;
     std::filesystem::path out;
     std::filesystem::path plot;
 };
@@ -120,8 +121,9 @@ void run(const Options& given) {
     if (!options.out.empty()) {
         put(drive::to_json(fit.model), options.out);
     }
-    fmt::print("{}",
-               options.json ? drive::to_json(fit, record.name, indices) : drive::to_text(fit, record.name, indices));
+    put_either(
+        options.json, [&] { return drive::to_json(fit, record.name, indices); },
+        [&] { return drive::to_text(fit, record.name, indices); }, {});
     for (const std::string& warning : fit.warnings) {
         fmt::print(stderr, "glsum: warning: {}\n", warning);
     }
@@ -189,7 +191,7 @@ void add_options(Command& command, const Words&) {
     add_coverage_options(command, options->coverage);
     add_column_options(command, options->columns);
     command.add_option("--jobs", options->fit.jobs, "Threads").at_least(1);
-    command.add_flag("--json", options->json, "JSON instead of text");
+    options->json.add_to(command, "--json", "All of it");
     command.add_option("--out", options->out, "Model JSON");
     command.add_option("--plot", options->plot, "Draw measured, start and fitted: STEM.svg and STEM.png");
     command.callback([options] { run(*options); });

@@ -8,6 +8,7 @@
 #include "base/failure.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
+#include "cli/output.hpp"
 #include "drive/indices.hpp"
 #include "drive/response.hpp"
 
@@ -19,7 +20,7 @@ struct Options {
     drive::Columns columns;
     std::vector<std::filesystem::path> models;
     std::filesystem::path simulated;
-    bool json = false;
+    Output json;
     std::filesystem::path out;
 };
 
@@ -82,7 +83,8 @@ void run(const Options& options) {
     if (skipped > 0) {
         table += fmt::format("MaxAPE leaves out {} samples measured as exactly 0.\n", skipped);
     }
-    put(options.json ? all.dump(2) + "\n" : table, options.out);
+    put_either(
+        options.json, [&] { return all.dump(2) + "\n"; }, [&] { return table; }, options.out);
 }
 
 }  // namespace
@@ -97,7 +99,7 @@ void add_options(Command& command, const Words&) {
     command.add_option("--model", options->models, "Model JSON; repeatable");
     command.add_option("--simulated", options->simulated, "CSV with an output at the same stamps, instead of a model");
     add_column_options(command, options->columns);
-    command.add_flag("--json", options->json, "JSON instead of a table");
+    options->json.add_to(command, "--json", "All of it");
     command.add_option("--out", options->out, "File; printed if not given");
     command.callback([options] { run(*options); });
 }

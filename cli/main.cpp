@@ -47,6 +47,10 @@ int main(int argc, char** argv) {
         words.line += argv[i];
     }
     cli::add_options(command, words);
+    if (argc == 2 && std::string_view(argv[1]) == "--list-options") {  // cli/help.sh, for shells and the manual
+        fmt::print("{}", command.rows_of_options(cli::command_name));
+        return 0;
+    }
     // The launcher tells every command how many jobs may run at once.
     unsigned unused_jobs = 1;
     if (!command.has_option("--jobs")) {

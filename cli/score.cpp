@@ -14,6 +14,7 @@
 #include "base/progress.hpp"
 #include "cli/blind.hpp"
 #include "cli/exam.hpp"
+#include "cli/output.hpp"
 #include "drive/stand/blind/judge.hpp"
 #include "drive/stand/blind/score.hpp"
 #include "drive/stand/blind/set_folder.hpp"
@@ -34,7 +35,7 @@ struct Options {
     bool goals = false;
     bool no_oracle = false;
     unsigned jobs = 1;
-    std::filesystem::path json;
+    Output json;
     std::filesystem::path plot;
 };
 
@@ -95,8 +96,8 @@ void tell_goals(const Options& options, const std::vector<std::string>& missed) 
 }
 
 void write_results(const Options& options, const std::string& json, const std::vector<blind::Claim>& claims) {
-    if (!options.json.empty()) {
-        base::write_file(options.json, json);
+    if (options.json.wanted()) {
+        options.json.write(json);
     }
     if (!options.plot.empty()) {
         base::draw(blind::picture_of_calibration(claims), options.plot);
@@ -166,7 +167,7 @@ void add_options(Command& command, const Words&) {
     options->jobs = std::max(1U, std::thread::hardware_concurrency());
     command.add_option("--jobs", options->jobs, "Threads").at_least(1);
     command.add_flag("--goals", options->goals, "Exit 1 unless what is to be reached is");
-    command.add_option("--json", options->json, "Write all numbers as JSON");
+    options->json.add_to(command, "--json", "All numbers");
     command.add_option("--plot", options->plot,
                        "Draw how often answers are right by their confidence: STEM.svg and STEM.png");
     command.callback([options] {

@@ -13,6 +13,7 @@
 #include "base/files.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 #include "qemu/emulate/measured_calls.hpp"
 #include "qemu/emulate/predicted_calls.hpp"
 #include "qemu/emulate/rows_fit.hpp"
@@ -30,7 +31,7 @@ struct Options {
     std::string core = "stm32h747-dtcm";
     std::vector<std::string> without;
     std::filesystem::path rows;
-    std::filesystem::path json;
+    Output json;
     unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
     unsigned timeout = 120;
 };
@@ -120,17 +121,15 @@ void run_rows(const Options& options) {
     const std::string name = options.rows.string();
     const std::vector<qemu::MeasuredCall> rows = qemu::parse_measured_calls(
         base::read_file(options.rows, qemu::MeasuredLimits::bytes), name, options.rows.parent_path());
-    if (!options.json.empty()) {
-        base::check_writable(options.json);
-    }
+    options.json.check();
     const qemu::CallsProgram program{
         {emulate_script(), std::chrono::seconds(options.timeout), std::chrono::seconds(10)}, plugin(), cores_folder()};
     const std::vector<qemu::PredictedCall> predicted =
         qemu::predict_calls(program, rows, name, options.without, options.jobs);
     const qemu::RowsFit fit = qemu::fit_of(rows, predicted);
     fmt::print("{}", qemu::to_text(options.rows.filename().string(), rows, predicted, fit));
-    if (!options.json.empty()) {
-        base::write_file(options.json, qemu::to_json(name, rows, predicted, fit));
+    if (options.json.wanted()) {
+        options.json.write(qemu::to_json(name, rows, predicted, fit));
     }
     if (fit.missed > 0) {
         fail_by(fit.missed, rows.size());
@@ -156,7 +155,7 @@ void add_options(Command& command, const Words&) {
         .delimiter(',');
     Option rows = command.add_option("--rows", options->rows,
                                      "CSV of any programs' functions: elf,function,core,code,data,measured,per");
-    command.add_option("--json", options->json, "Writes the fit of --rows there").needs(rows);
+    options->json.add_to(command, "--json", "The fit of --rows").needs(rows);
     command.add_option("--jobs", options->jobs, "Emulators at once, with --rows").between(1, 1024);
     command.add_option("--timeout", options->timeout, "Seconds that a program of --rows may stay silent")
         .at_least(1)

@@ -10,6 +10,7 @@
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
 #include "cli/name_value.hpp"
+#include "cli/output.hpp"
 #include "drive/pictures.hpp"
 #include "drive/simulation_report.hpp"
 
@@ -32,7 +33,7 @@ struct Options {
     double until_s = 5.0;
     std::vector<double> at_s;
     bool no_compare = false;
-    bool json = false;
+    Output json;
     std::filesystem::path out;
     std::filesystem::path plot;
 };
@@ -60,7 +61,8 @@ void print_exact_values(const drive::Model& model, const Options& options) {
     for (const double t : options.at_s) {
         points.push_back({t, drive::exact_step_response(model, t)});
     }
-    put(options.json ? drive::to_json(points) : drive::to_text(points), options.out);
+    put_either(
+        options.json, [&] { return drive::to_json(points); }, [&] { return drive::to_text(points); }, options.out);
 }
 
 drive::Log make_record(const Options& options, double step_s) {
@@ -125,7 +127,9 @@ void run(Options options) {
     if (!options.out.empty()) {
         put(drive::to_csv(report.record), options.out);
     }
-    fmt::print("{}", options.json ? drive::to_json(report, options.model.string()) : drive::to_text(report, model));
+    put_either(
+        options.json, [&] { return drive::to_json(report, options.model.string()); },
+        [&] { return drive::to_text(report, model); }, {});
     if (!options.exact && !drive::delay_fits(model, options.scheme.step_s)) {
         fmt::print(stderr,
                    "glsum: warning: the dead time of {} s is no whole number of steps of {} s; rounded up to one\n",
@@ -180,7 +184,7 @@ void add_options(Command& command, const Words&) {
         .capture_default_str();
     command.add_flag("--no-compare", options->no_compare, "Leave out the comparison with the exact response");
     add_column_options(command, options->columns);
-    command.add_flag("--json", options->json, "The summary as JSON");
+    options->json.add_to(command, "--json", "The summary");
     command.add_option("--out", options->out, "CSV of time_s, input and output");
     command.add_option("--plot", options->plot, "Draw STEM.svg and STEM.png");
     command.callback([options] { run(*options); });

@@ -9,6 +9,7 @@
 #include "base/files.hpp"
 #include "base/sha256.hpp"
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 #include "cli/timed_elf.hpp"
 #include "qemu/emulate/foreign_program.hpp"
 #include "qemu/emulate/function_report.hpp"
@@ -21,7 +22,7 @@ constexpr std::size_t hot_rows = 20;
 struct Options {
     TimedElf timed;
     std::vector<std::string> functions;
-    std::filesystem::path json;
+    Output json;
     std::filesystem::path calls;
 };
 
@@ -34,10 +35,9 @@ void run(const Options& options) {
     for (const std::string& name : options.functions) {
         functions.push_back(elf.function(name));
     }
-    for (const std::filesystem::path& file : {options.json, options.calls}) {
-        if (!file.empty()) {
-            base::check_writable(file);
-        }
+    options.json.check();
+    if (!options.calls.empty()) {
+        base::check_writable(options.calls);
     }
     const std::vector<timing::TimingLog> logs = time_functions(options.timed, functions, request, false);
 
@@ -52,8 +52,8 @@ void run(const Options& options) {
         fmt::print("{}{}", reports.size() > 1 ? "\n" : "", qemu::to_text(reports.back()));
         qemu::write_calls(calls, function.name, log);
     }
-    if (!options.json.empty()) {
-        base::write_file(options.json, qemu::to_json(reports, base::sha256_of(options.timed.elf)));
+    if (options.json.wanted()) {
+        options.json.write(qemu::to_json(reports, base::sha256_of(options.timed.elf)));
     }
     if (!options.calls.empty()) {
         base::write_file(options.calls, calls.str());
@@ -77,7 +77,7 @@ void add_options(Command& command, const Words&) {
     add_timing_options(command, options->timed);
     command.add_option("--without", options->timed.without, "Effects that cost nothing: single_issue, load_use, ...")
         .delimiter(',');
-    command.add_option("--json", options->json, "Writes the result there; of several functions a list");
+    options->json.add_to(command, "--json", "The result; of several functions a list");
     command.add_option("--calls", options->calls, "Writes a CSV there, a row a call");
     command.callback([options] { run(*options); });
 }

@@ -9,6 +9,7 @@
 #include "base/files.hpp"
 #include "bench/gate/trend.hpp"
 #include "cli/command.hpp"
+#include "cli/output.hpp"
 
 namespace cli {
 namespace {
@@ -24,8 +25,7 @@ struct Options {
     std::size_t shown = 30;
     bool force = false;
     std::string plot;
-    std::optional<Option> json;
-    std::string json_file;
+    Output json;
 };
 
 void run(const Options& options) {
@@ -43,13 +43,11 @@ void run(const Options& options) {
         throw Failure(Exit::not_comparable,
                       "trend: " + trend.incomparable.front() + "; --force puts them into one row nevertheless");
     }
-    if (options.json->given() && options.json_file.empty()) {
-        fmt::print("{}", bench::gate::to_json(trend));
-    } else {
-        fmt::print("trend of {} runs, the oldest first\n{}", runs.size(), to_table(trend, options.shown));
+    if (options.json.wanted()) {
+        options.json.write(bench::gate::to_json(trend));
     }
-    if (options.json->given() && !options.json_file.empty()) {
-        base::write_file(options.json_file, bench::gate::to_json(trend));
+    if (!options.json.to_stdout()) {
+        fmt::print("trend of {} runs, the oldest first\n{}", runs.size(), to_table(trend, options.shown));
     }
     if (!options.plot.empty()) {
         if (const auto picture = bench::gate::picture(trend)) {
@@ -77,9 +75,7 @@ void add_options(Command& command, const Words&) {
     command.add_option("--plot", options->plot, "Writes FILE.svg and FILE.png").type_name("FILE");
     command.add_option("--thresholds", options->thresholds, "Rules that say which direction is better");
     command.add_flag("--force", options->force, "Put into one row what is not comparable");
-    options->json = command.add_option("--json", options->json_file, "All of it; to standard output without FILE")
-                        .expected(0, 1)
-                        .type_name("[FILE]");
+    options->json.add_to(command, "--json", "All of it");
     command.callback([options] { run(*options); });
 }
 

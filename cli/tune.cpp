@@ -8,6 +8,7 @@
 #include "base/gnuplot.hpp"
 #include "cli/command.hpp"
 #include "cli/drive_files.hpp"
+#include "cli/output.hpp"
 #include "drive/tune/tune_picture.hpp"
 #include "drive/tune/tune_report.hpp"
 
@@ -21,7 +22,7 @@ struct Options {
     std::optional<double> low;
     std::optional<double> high;
     bool integer = false;
-    bool json = false;
+    Output json;
     std::filesystem::path out;
     std::filesystem::path plot;
 };
@@ -47,7 +48,9 @@ void run(const Options& options) {
                              fmt::format("{}: no integer PID was found with {} and a stable loop; a fractional one was",
                                          options.model.string(), wish_text(tuned)));
     }
-    put(options.json ? to_json(tuned, options.model.string()) : to_text(tuned, options.model.string()), {});
+    put_either(
+        options.json, [&] { return to_json(tuned, options.model.string()); },
+        [&] { return to_text(tuned, options.model.string()); }, {});
     if (!options.out.empty()) {
         const bool integer = options.integer || !tuned.fractional;
         base::write_file(options.out, drive::to_json((integer ? tuned.integer : tuned.fractional)->controller));
@@ -97,7 +100,7 @@ void add_options(Command& command, const Words&) {
         .add_option("--until-s", request.until_s,
                     "So long for the set point, and again for the load; usually 20 / crossover")
         .above(0);
-    command.add_flag("--json", options->json, "JSON instead of text");
+    options->json.add_to(command, "--json", "All of it");
     command.add_option("--plot", options->plot,
                        "Also draw gain, phase, |S| and the steps of both: STEM.svg and STEM.png");
     command.callback([options] { run(*options); });

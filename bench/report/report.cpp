@@ -22,6 +22,7 @@ std::vector<std::filesystem::path> write_report(const Input& input, const Input*
     written.push_back(html);
     base::write_file(html, make_page(input, other));
     write_csv(beside(".csv"), input.results.rows);
+    write_tidy_csv(beside("-tidy.csv"), input.results.rows);
 
     const std::vector<Group> groups = group(input.results.rows);
     const std::vector<Cost> costs = costs_of(groups);

@@ -72,4 +72,33 @@ void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows)
     base::write_file(path, to_csv(rows));
 }
 
+std::string to_tidy_csv(const std::vector<Json>& rows) {
+    std::string text = "kernel,order,taps,target,signal,amplitude,repetition,counter,value,unit\n";
+    for (const Json& row : rows) {
+        const auto key = parse_key(row.value("name", ""));
+        if (!key || is_wrong(row) || row.value("run_type", "iteration") != "iteration") {
+            continue;
+        }
+        std::string subject;
+        for (const std::string* part : {&key->kernel, &key->order, &key->taps, &key->aspect, &key->signal}) {
+            subject += csv_field(*part) + ',';
+        }
+        subject += csv_field(key->amplitude) + ',' + std::to_string(row.value("repetition_index", 0)) + ',';
+        for (const auto& [field, value] : row.items()) {
+            const CounterFacts* facts = find_counter(field);
+            const bool is_number = value.is_number() && facts != nullptr;
+            // Of accuracy no time was taken: what Google Benchmark's tools expect there is a 0.
+            if (is_number && (facts->role == Role::counter || (facts->role == Role::time && key->is_host()))) {
+                text +=
+                    subject + csv_field(field) + ',' + value.dump() + ',' + csv_field(std::string(facts->unit)) + '\n';
+            }
+        }
+    }
+    return text;
+}
+
+void write_tidy_csv(const std::filesystem::path& path, const std::vector<Json>& rows) {
+    base::write_file(path, to_tidy_csv(rows));
+}
+
 }  // namespace bench

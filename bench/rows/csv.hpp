@@ -16,4 +16,9 @@ namespace bench {
 [[nodiscard]] std::string to_csv(const std::vector<Json>& rows);
 void write_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
 
+/// One line a number, for data frames: kernel, order, taps, target (accuracy, host, m7:<core>), signal, amplitude,
+/// repetition, counter, value, unit. Of sums' rows that are not wrong; what says which measurement it is, is no counter.
+[[nodiscard]] std::string to_tidy_csv(const std::vector<Json>& rows);
+void write_tidy_csv(const std::filesystem::path& path, const std::vector<Json>& rows);
+
 }  // namespace bench

@@ -378,4 +378,28 @@ TEST(Results, ACsvHasAColumnForEachField) {
     EXPECT_EQ(commas(head), commas(behind.substr(0, behind.find('\n'))));
 }
 
+// A number a line, with its unit; no bookkeeping, no time of what was not timed, nothing wrong and nobody else's row.
+TEST(Results, ATidyCsvHasALineForEachNumber) {
+    bench::Json error = bench::make_row("gl/a/order:0.5/taps:2+7/accuracy/signal:step", 7);
+    error["error_max"] = 0.25;
+    error["coefficient_bytes"] = 36;
+    bench::Json time = bench::make_row("gl/a/order:0.5/taps:600/host", 7);
+    time["real_time"] = 12.5;
+    time["repetition_index"] = 3;
+    bench::Json core = bench::make_row("gl/a/order:0.5/taps:600/m7:count", 7);
+    core["instructions_per_sample"] = 99.0;
+    core["stall_load_use"] = 1.5;
+    bench::Json wrong = error;
+    bench::mark_error(wrong, "overflows");
+    const std::string csv = bench::to_tidy_csv({error, time, core, wrong, bench::make_row("BM_other/8", 7)});
+    EXPECT_EQ(csv,
+              "kernel,order,taps,target,signal,amplitude,repetition,counter,value,unit\n"
+              "a,0.5,2+7,accuracy,step,,0,error_max,0.25,largest exact sum\n"
+              "a,0.5,2+7,accuracy,step,,0,coefficient_bytes,36,bytes\n"
+              "a,0.5,600,host,,,3,real_time,12.5,ns\n"
+              "a,0.5,600,host,,,3,cpu_time,0.0,ns\n"
+              "a,0.5,600,m7:count,,,0,instructions_per_sample,99.0,instructions\n"
+              "a,0.5,600,m7:count,,,0,stall_load_use,1.5,cycles\n");
+}
+
 }  // namespace

@@ -17,7 +17,7 @@ bench() {
 
 bench first --taps 50,120 --table all || fail "first run: $(tail -n 3 "$folder/first.err")"
 bench second --taps 50,full --kernels 'ring_*_f32,ring_*_q31,modes_*,null,peer_std_f32' || fail "second run failed: $(tail -n 3 "$folder/second.err")"
-for file in first.json first.csv first.svg first.png; do
+for file in first.json first.csv first-tidy.csv first.svg first.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
 done
 # Windows are marked by their lengths, however long the designs beside them are.

@@ -10,7 +10,7 @@ fail() { echo "$*"; failures=$((failures + 1)); }
 "$make_results" 4000 "$folder/a.json"
 expect 0 "Example:" report --help
 expect 0 "a.html" report "$folder/a.json"
-for file in a.html a.csv a.svg a.png a-curves.csv a-cost.svg a-cost.png a-fronts.svg a-fronts.png; do
+for file in a.html a.csv a-tidy.csv a.svg a.png a-curves.csv a-cost.svg a-cost.png a-fronts.svg a-fronts.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
 done
 expect 0 "least cost at an error, before" report "$folder/a.json"
