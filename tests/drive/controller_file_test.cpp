@@ -67,6 +67,7 @@ TEST(ControllerFile, RefusesByField) {
         return refusal(R"({"kind": "fopid", "sample_time_s": 0.001, )" + fields + "}");
     };
     EXPECT_EQ(with(R"("kp": 1)"), "accepted");
+    EXPECT_EQ(with(R"("kp": 1, "setpoint_weight": 0)"), "accepted") << "the set point then acts by the integral alone";
     EXPECT_EQ(with(R"("kp": 0)"), "pid.json: expected kp, ki or kd other than 0");
     EXPECT_EQ(with(R"("kp": "1")"), "pid.json: kp: expected a number, found \"1\"");
     EXPECT_THAT(with(R"("ki": 1, "integral_order": 1.01)"), HasSubstr("integral_order: expected an order above 0"));

@@ -118,6 +118,20 @@ TEST(Margins, AgreeWithADenseSweep) {
     EXPECT_NEAR(degrees(tune::Grid(plant)(gains).phase_rad), phase, 0.5);
 }
 
+// K (1 - a) z^-1 / (1 - a z^-1) is -K (1 - a) / (1 + a) at half the sample's rate, where |S| is largest: the grid ends
+// there. As |L| is nowhere 1, there is no margin of phase.
+TEST(Grid, EndsAtHalfTheSampleRate) {
+    constexpr double h = 0.1;
+    const double a = std::exp(-h / 0.05);
+    const SampledPlant plant(drive::make_fopdt(0.9, 0.05, 0.0), h, "plant");
+    const tune::Grid::Answer answer = tune::Grid(plant)({.kp = 1.0});
+    const double least = 0.9 * (1.0 - a) / (1.0 + a);
+    EXPECT_NEAR(answer.sensitivity, 1.0 / (1.0 - std::abs(plant(pi / h))), 1e-9);
+    EXPECT_NEAR(answer.sensitivity, 1.0 / (1.0 - least), 2e-2);
+    EXPECT_EQ(answer.phase_rad, pi);
+    EXPECT_EQ(answer.unstable_poles, 0);
+}
+
 // (z - 1)(z - a) z^d + jump (kp (z - 1) + ki h z) = 0, the plant's held step beginning with `jump`
 int poles_outside(double a, int d, double jump, double kp, double ki_h) {
     Eigen::VectorXd polynomial = Eigen::VectorXd::Zero(d + 3);  // rising powers

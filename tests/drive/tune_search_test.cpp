@@ -50,6 +50,8 @@ TEST(Tune, MarginAndCrossoverOnAFopdt) {
         EXPECT_GT(design->controller.gains.ki, 0.0);
         EXPECT_GE(design->controller.gains.kd, -1e-9);
     }
+    // Unless it is said, the load is half of what holds the set point of 1 against the plant's gain.
+    EXPECT_DOUBLE_EQ(tuned.trial.load, 0.5 / drive::static_gain(plants::fopdt()));
     EXPECT_EQ(tuned.integer->controller.gains.integral_order, 1.0);
     EXPECT_EQ(tuned.integer->controller.gains.derivative_order, 1.0);
     // A dead time of twice the lag: what the literature says of such plants, and so does the command.
