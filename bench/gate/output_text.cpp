@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "bench/gate/group.hpp"
 #include "bench/gate/outputs.hpp"
 
 namespace bench::gate {
@@ -38,20 +39,6 @@ std::string colour_of(Level level) {
     return "";
 }
 
-std::vector<const Finding*> findings_of(const Verdict& verdict, Level level) {
-    std::vector<const Finding*> found;
-    for (const Finding& finding : verdict.findings) {
-        if (finding.level == level) {
-            found.push_back(&finding);
-        }
-    }
-    return found;
-}
-
-std::string subject(const Finding& finding) {
-    return finding.counter.empty() ? finding.row : finding.row + " " + finding.counter;
-}
-
 std::string state_of(const LayerCount& count) {
     if (count.failed > 0) {
         return "FAIL";
@@ -60,6 +47,14 @@ std::string state_of(const LayerCount& count) {
         return "warn";
     }
     return count.compared > 0 ? "ok" : "-";
+}
+
+// How many there are, and of how many kernels, targets and counters where that is fewer.
+std::string title_of(const Verdict& verdict, Level level) {
+    const std::size_t all = verdict.with(level);
+    const std::size_t groups = groups_of(verdict, level).size();
+    return groups == all ? fmt::format("{} ({})", plural_of(level), all)
+                         : fmt::format("{} ({} in {} lines)", plural_of(level), all, groups);
 }
 
 std::string effect_text(Effect effect) {
@@ -112,8 +107,11 @@ std::string escape_annotation(const std::string& text, bool property) {
     return escaped;
 }
 
-std::string annotation(const char* command, const std::string& title, const std::string& text) {
-    return fmt::format("::{} title={}::{}\n", command, escape_annotation(title, true), escape_annotation(text, false));
+std::string annotation(const char* command, const Place& place, const std::string& title, const std::string& text) {
+    const std::string where =
+        place.file.empty() ? "" : fmt::format("file={},line={},", escape_annotation(place.file, true), place.line);
+    return fmt::format("::{} {}title={}::{}\n", command, where, escape_annotation(title, true),
+                       escape_annotation(text, false));
 }
 
 }  // namespace
@@ -142,13 +140,14 @@ std::string to_table(const Verdict& verdict, bool colour) {
     }
     constexpr std::size_t shown = 20;
     for (const Level level : levels) {
-        const auto found = findings_of(verdict, level);
+        const auto found = groups_of(verdict, level);
         if (found.empty()) {
             continue;
         }
-        text += fmt::format("\n{}\n", paint(colour_of(level), fmt::format("{} ({})", plural_of(level), found.size())));
+        text += fmt::format("\n{}\n", paint(colour_of(level), title_of(verdict, level)));
         for (std::size_t i = 0; i < std::min(shown, found.size()); ++i) {
-            text += fmt::format("  {:<22} {}: {}\n", name_of(found[i]->layer), subject(*found[i]), found[i]->what);
+            text +=
+                fmt::format("  {:<22} {}: {}\n", name_of(found[i].first().layer), found[i].subject(), found[i].what());
         }
         if (found.size() > shown) {
             text += fmt::format("  ... and {} more; --json has them all\n", found.size() - shown);
@@ -182,19 +181,19 @@ std::string to_markdown(const Verdict& verdict) {
     }
     constexpr std::size_t shown = 100;
     for (const Level level : levels) {
-        const auto found = findings_of(verdict, level);
+        const auto found = groups_of(verdict, level);
         if (found.empty()) {
             continue;
         }
         text += fmt::format(
-            "\n<details{}><summary>{} ({})</summary>\n\n| layer | row | counter | change | why |\n"
+            "\n<details{}><summary>{}</summary>\n\n| layer | row | counter | change | why |\n"
             "|---|---|---|---|---|\n",
-            level == Level::fail ? " open" : "", plural_of(level), found.size());
+            level == Level::fail ? " open" : "", title_of(verdict, level));
         for (std::size_t i = 0; i < std::min(shown, found.size()); ++i) {
-            const Finding& finding = *found[i];
-            text += fmt::format("| {} | {} | {} | {} | {} |\n", escape_markdown(std::string(name_of(finding.layer))),
-                                escape_markdown(finding.row), escape_markdown(finding.counter),
-                                escape_markdown(finding.what), escape_markdown(finding.reason));
+            const Finding& first = found[i].first();
+            text += fmt::format("| {} | {} | {} | {} | {} |\n", escape_markdown(std::string(name_of(first.layer))),
+                                escape_markdown(found[i].rows()), escape_markdown(first.counter),
+                                escape_markdown(found[i].what()), escape_markdown(first.reason));
         }
         if (found.size() > shown) {
             text += fmt::format("\n... and {} more\n", found.size() - shown);
@@ -207,17 +206,18 @@ std::string to_markdown(const Verdict& verdict) {
 std::string to_annotations(const Verdict& verdict) {
     constexpr std::size_t shown = 10;
     if (verdict.status != glsum::Exit::good && verdict.status != glsum::Exit::check_failed) {
-        return annotation("error", "glsum gate: " + verdict.word(), verdict.headline());
+        return annotation("error", {}, "glsum gate: " + verdict.word(), verdict.headline());
     }
     std::string text;
     for (const auto& [level, command] : {std::pair(Level::fail, "error"), std::pair(Level::warn, "warning")}) {
-        const auto found = findings_of(verdict, level);
+        const auto found = groups_of(verdict, level);
         for (std::size_t i = 0; i < std::min(shown, found.size()); ++i) {
             // The last place tells how many there are.
             const std::size_t left = i + 1 == shown ? found.size() - shown : 0;
             const std::string more = left > 0 ? fmt::format("\nand {} more", left) : "";
-            text += annotation(command, fmt::format("glsum gate: {}", name_of(found[i]->layer)),
-                               fmt::format("{}: {}{}", subject(*found[i]), found[i]->what, more));
+            text += annotation(command, place_of(found[i].first().row),
+                               fmt::format("glsum gate: {}", name_of(found[i].first().layer)),
+                               fmt::format("{}: {}{}", found[i].subject(), found[i].what(), more));
         }
     }
     return text;

@@ -7,7 +7,8 @@
 
 namespace bench::gate {
 
-/// For a terminal: layers, then findings, worst first. \param colour  whether the terminal shows it
+/// For a terminal: layers, then findings, worst first, a line for what a kernel changed in a counter. \param colour
+/// whether the terminal shows it
 [[nodiscard]] std::string to_table(const Verdict& verdict, bool colour);
 
 /// {"schema": "glsum-gate-1", ...}: everything, for programs.
@@ -19,7 +20,8 @@ namespace bench::gate {
 /// For a step summary (GitHub's $GITHUB_STEP_SUMMARY, 1 MiB at most): long lists are cut and say so.
 [[nodiscard]] std::string to_markdown(const Verdict& verdict);
 
-/// GitHub workflow commands, ::error title=...::..., one a line; at most ten of a kind, as many as GitHub shows.
+/// GitHub workflow commands, ::error file=...,line=...,title=...::..., at the kernel's line of the registry; at most
+/// ten of a kind, as many as GitHub shows.
 [[nodiscard]] std::string to_annotations(const Verdict& verdict);
 
 }  // namespace bench::gate

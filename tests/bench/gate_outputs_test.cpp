@@ -4,6 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+
+#include "bench/gate/group.hpp"
 #include "bench/rows/row.hpp"
 
 namespace {
@@ -209,22 +213,75 @@ TEST(GateOutputs, AnnotationsAreOfFailuresAndWarnings) {
               "::error title=glsum gate%3A not comparable::cpu: a,%0Db in the baseline, two now\n");
     EXPECT_EQ(to_annotations(Verdict{}), "");
     // Exactly ten are all shown, and none more is promised.
-    Verdict ten = verdict();
-    ten.findings.assign(10, ten.findings[1]);
-    EXPECT_THAT(to_annotations(ten), Not(HasSubstr("more")));
-    ten.findings.push_back(ten.findings[0]);
-    const std::string eleven = to_annotations(ten);
+    const auto of_kernels = [](std::size_t count) {
+        Verdict made = verdict();
+        const Finding one = made.findings[1];
+        made.findings.assign(count, one);
+        for (std::size_t i = 0; i < count; ++i) {
+            made.findings[i].row = "gl/k" + std::to_string(i) + "/order:0.5/taps:50/m7:count";
+        }
+        return made;
+    };
+    EXPECT_THAT(to_annotations(of_kernels(10)), Not(HasSubstr("more")));
+    const std::string eleven = to_annotations(of_kernels(11));
     EXPECT_EQ(std::count(eleven.begin(), eleven.end(), '\n'), 10);
     EXPECT_THAT(eleven, HasSubstr("%0Aand 1 more\n"));
     // The table shows twenty, Markdown a hundred.
-    ten.findings.assign(20, ten.findings[0]);
-    EXPECT_THAT(to_table(ten, false), Not(HasSubstr("more")));
-    ten.findings.assign(21, ten.findings[0]);
-    EXPECT_THAT(to_table(ten, false), HasSubstr("  ... and 1 more; --json has them all\n"));
-    ten.findings.assign(100, ten.findings[0]);
-    EXPECT_THAT(to_markdown(ten), Not(HasSubstr("more")));
-    ten.findings.assign(101, ten.findings[0]);
-    EXPECT_THAT(to_markdown(ten), HasSubstr("\n... and 1 more\n"));
+    EXPECT_THAT(to_table(of_kernels(20), false), Not(HasSubstr("more")));
+    EXPECT_THAT(to_table(of_kernels(21), false), HasSubstr("  ... and 1 more; --json has them all\n"));
+    EXPECT_THAT(to_markdown(of_kernels(100)), Not(HasSubstr("more")));
+    EXPECT_THAT(to_markdown(of_kernels(101)), HasSubstr("\n... and 1 more\n"));
+}
+
+// What a kernel changed in a counter is one line, at however many lengths; its annotation stands at its line of the
+// registry.
+TEST(GateOutputs, AKernelIsOneLine) {
+    Verdict made = verdict();
+    made.findings.clear();
+    for (const auto& [taps, change] : {std::pair("50", 0.02), std::pair("100", 0.031), std::pair("600", 0.025)}) {
+        made.findings.push_back(finding(Level::fail, Layer::model_cycles,
+                                        ("gl/ring_plain_f32/order:0.5/taps:" + std::string(taps) + "/m7:one").c_str(),
+                                        "model_cycles_per_sample", "more", "moved"));
+        made.findings.back().change = change;
+    }
+    Finding other = made.findings[0];
+    other.row = "gl/ring_plain_f32/order:0.5/taps:50/m7:two";  // another core
+    made.findings.push_back(other);
+    other.counter = "code_bytes";
+    made.findings.push_back(other);
+    made.findings.push_back(finding(Level::fail, Layer::rows, "gl/lost_one_f32/*", "", "lost", ""));
+    const std::string table = to_table(made, false);
+    EXPECT_THAT(
+        table,
+        HasSubstr("Failures (6 in 4 lines)\n"
+                  "  model_cycles           ring_plain_f32 m7:one model_cycles_per_sample: +2 % to +3.1 % in 3 rows\n"
+                  "  model_cycles           gl/ring_plain_f32/order:0.5/taps:50/m7:two model_cycles_per_sample: more\n"
+                  "  model_cycles           gl/ring_plain_f32/order:0.5/taps:50/m7:two code_bytes: more\n"
+                  "  rows                   gl/lost_one_f32/*: lost\n"));
+    EXPECT_THAT(
+        to_markdown(made),
+        HasSubstr("| ring\\_plain\\_f32 m7:one | model\\_cycles\\_per\\_sample | +2 % to +3.1 % in 3 rows | moved |"));
+    made.findings[1].change.reset();  // a counter that was 0
+    EXPECT_THAT(to_table(made, false),
+                HasSubstr("in 3 rows, the first gl/ring_plain_f32/order:0.5/taps:50/m7:one: more\n"));
+    made.findings[1].change = -2.5;
+    EXPECT_THAT(to_table(made, false), HasSubstr(": -250 % to +2.5 % in 3 rows\n"));
+
+    const Place place = place_of("gl/ring_plain_f32/order:0.5/taps:50/m7:one");
+    EXPECT_EQ(place.file, "kernels/glsum/registry.def");
+    std::ifstream registry(std::filesystem::path(TEST_PROJECT) / place.file);
+    std::string line;
+    for (int i = 0; i < place.line; ++i) {
+        ASSERT_TRUE(std::getline(registry, line));
+    }
+    EXPECT_TRUE(line.starts_with("GLSUM_KERNEL(ring_plain_f32,")) << line;
+    EXPECT_GT(place_of("gl/mirror_simd_f32/*").line, 0);
+    EXPECT_EQ(place_of("gl/lost_one_f32/*").file, "");
+    EXPECT_EQ(place_of("BM_other/8").file, "");
+    EXPECT_THAT(to_annotations(made),
+                HasSubstr("::error file=kernels/glsum/registry.def,line=" + std::to_string(place.line) +
+                          ",title=glsum gate%3A model_cycles::ring_plain_f32 m7:one"));
+    EXPECT_THAT(to_annotations(made), HasSubstr("::error title=glsum gate%3A rows::gl/lost_one_f32/*: lost\n"));
 }
 
 }  // namespace

@@ -526,7 +526,7 @@ TEST(GateOutputs, EscapeWhatTheirFormatsCannotHold) {
 TEST(GateOutputs, StayShortAndSaySo) {
     Results baseline = run();
     for (int i = 0; i < 1000; ++i) {
-        Json row = bench::make_row("gl/c/order:0.5/taps:" + std::to_string(i + 1) + "/m7:count", 32);
+        Json row = bench::make_row("gl/c" + std::to_string(i) + "/order:0.5/taps:50/m7:count", 32);
         row["instructions_per_sample"] = 10;
         baseline.rows.push_back(row);
     }
