@@ -420,7 +420,7 @@ TEST(Report, WritesEveryFileEvenOfHostileNamesAndOddLengths) {
     input.results.rows[1]["name"] = "gl/a_b_c/order:0.2/taps:many/accuracy/signal:step";
     input.results.rows[2]["name"] = "BM_other/8";
     const auto written = write_report(input, &input, folder / "page.html");
-    EXPECT_EQ(written.size(), 10U);
+    EXPECT_EQ(written.size(), 11U);
     for (const auto& file : written) {
         EXPECT_GT(std::filesystem::file_size(file), 0U) << file;
     }
@@ -434,7 +434,7 @@ TEST(Report, OfAFileWithoutCostsHasNoFronts) {
     Input input{"free.json", {}, {}};
     input.results.rows = {bench::make_row("gl/a_b_c/order:0.5/taps:50/accuracy/signal:step", 1)};
     input.results.rows[0]["error_max"] = 1e-2;
-    EXPECT_EQ(write_report(input, nullptr, folder / "page.html").size(), 7U);
+    EXPECT_EQ(write_report(input, nullptr, folder / "page.html").size(), 8U);
     EXPECT_FALSE(std::filesystem::exists(folder / "page-fronts.svg"));
     std::filesystem::remove_all(folder);
 }
@@ -443,7 +443,7 @@ TEST(Report, OfAFileWithoutAccuracyHasNoPictures) {
     const auto folder = std::filesystem::path(testing::TempDir()) / "report_other";
     Input input{"other.json", {}, {}};
     input.results.rows = {bench::make_row("BM_other/8", 1)};
-    EXPECT_EQ(write_report(input, nullptr, folder / "page.html").size(), 3U);
+    EXPECT_EQ(write_report(input, nullptr, folder / "page.html").size(), 4U);
     std::filesystem::remove_all(folder);
 }
 
