@@ -99,15 +99,30 @@ void update_baseline(const Options& options) {
     fmt::print("\n{}: {} rows recorded; changed: {}\n", options.baseline.string(), baseline.rows.size(), changed);
 }
 
+bool goes_to_stdout(const std::vector<Written>& outputs) {
+    return std::any_of(outputs.begin(), outputs.end(), [](const Written& one) { return one.output.to_stdout(); });
+}
+
+void write(const Verdict& verdict, const std::vector<Written>& outputs) {
+    for (const Written& one : outputs) {
+        if (one.output.wanted()) {
+            one.output.write(one.text(verdict));
+        }
+    }
+}
+
+void annotate(const Verdict& verdict, const Options& options) {
+    if (options.annotations) {
+        fmt::print("{}", bench::gate::to_annotations(verdict));
+    }
+}
+
 void run(const Options& options, const std::vector<Written>& outputs) {
     if (!options.timed.elf.empty()) {
-        for (const Written& one : outputs) {
-            if (one.output.wanted() || options.annotations) {
-                throw Failure(Exit::bad_input,
-                              "--elf: expected no --json, --junit, --markdown or --annotations beside it");
-            }
-        }
-        gate_functions({options.timed, options.functions, options.baseline, options.update, options.reason});
+        gate_functions(
+            {options.timed, options.functions, options.baseline, options.update, options.reason},
+            [&](const Verdict& verdict) { write(verdict, outputs), annotate(verdict, options); },
+            !goes_to_stdout(outputs));
         return;
     }
     if (options.update) {
@@ -125,19 +140,11 @@ void run(const Options& options, const std::vector<Written>& outputs) {
     }
     verdict.baseline_name = options.baseline.string();
     verdict.current_name = options.current.string();
-    bool to_stdout = false;
-    for (const Written& one : outputs) {
-        if (one.output.wanted()) {
-            one.output.write(one.text(verdict));
-            to_stdout = to_stdout || one.output.to_stdout();
-        }
-    }
-    if (!to_stdout && verdict.refusal.empty()) {
+    write(verdict, outputs);
+    if (!goes_to_stdout(outputs) && verdict.refusal.empty()) {
         fmt::print("{}", bench::gate::to_table(verdict, isatty(STDOUT_FILENO) == 1));
     }
-    if (options.annotations) {
-        fmt::print("{}", bench::gate::to_annotations(verdict));
-    }
+    annotate(verdict, options);
     if (verdict.status != Exit::good) {
         const std::string word = verdict.refusal.empty() ? "gate: " + verdict.word() + ": " : "";
         const std::string neighbour =

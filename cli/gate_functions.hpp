@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "bench/gate/verdict.hpp"
 #include "cli/timed_elf.hpp"
 
 namespace cli {
@@ -17,8 +19,10 @@ struct GatedElf {
     std::string reason;
 };
 
-/// \throws glsum::Failure (check failed) where a function grew, (bad input) for programs, baselines and names that are
-/// not there, (not comparable) for a baseline of another core or placement
-void gate_functions(const GatedElf& options);
+/// \param write  told the verdict once it stands, also one that could not judge \param is_text  whether it is printed,
+/// too \throws glsum::Failure (check failed) where a function grew, (bad input) for programs, baselines and names that
+/// are not there, (not comparable) for a baseline of another core or placement
+void gate_functions(const GatedElf& options, const std::function<void(const bench::gate::Verdict&)>& write,
+                    bool is_text);
 
 }  // namespace cli

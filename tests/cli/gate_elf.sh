@@ -144,7 +144,18 @@ held 1 "no longer called" uncalled.elf
 held 4 "cannot be compared" app.elf --core m7-ideal
 held 4 "cannot be compared" app.elf --place data=axi
 expect 2 "no function's name matches nothing_*" gate --elf "$folder/app.elf" --functions 'nothing_*' --baseline "$folder/app.json"
-held 2 "expected no --json" app.elf --json
+# The outputs of a gate of rows, of functions: a worse one fails in each of them, one that cannot be judged says why.
+cp "$folder/first.json" "$folder/app.json"
+held 1 "gate: worse: ctrl_speed" more.elf --json "$folder/g.json" --junit "$folder/g.xml" --markdown "$folder/g.md" --annotations
+told '^worse  ctrl_speed: cycles '
+told '^::error title=glsum gate%3A model_cycles::ctrl_speed: cycles '
+tr -d ' \n' <"$folder/g.json" | grep -q '"schema":"glsum-gate-1","verdict":"fail","exit_status":1,.*"rows":4,.*"layer":"model_cycles","compared":4,"failed":1.*"row":"ctrl_speed"' ||
+    fail "expected ctrl_speed in the JSON: $(cat "$folder/g.json")"
+grep -q 'tests="5" failures="1"' "$folder/g.xml" && grep -A 1 'name="ctrl_speed"' "$folder/g.xml" | grep -q '<failure' || fail "expected one failure in JUnit: $(cat "$folder/g.xml")"
+grep -q '^| model\\_cycles | ctrl\\_speed |' "$folder/g.md" || fail "expected ctrl_speed in Markdown: $(cat "$folder/g.md")"
+held 0 '"verdict": "pass"' app.elf --json
+! grep -q 'functions on' "$folder/said" || fail "expected JSON alone"
+held 4 '"verdict": "not comparable"' app.elf --place data=axi --json
 echo '{"schema": "glsum-functions-1"}' >"$folder/app.json"
 held 2 "app.json: no baseline of functions" app.elf
 echo '[' >"$folder/app.json"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# gate.sh: the gate as a step of a foreign project's CI. Runs the gate, writes gate.md and gate.txt (and of rows gate.xml, a JUnit report)
-# where it stands, and keeps one comment at the merge request, which later runs update in place. Its exit status is the gate's.
+# gate.sh: the gate as a step of a foreign project's CI. Runs the gate, writes gate.md, gate.txt and gate.xml, a JUnit report, where it
+# stands, and keeps one comment at the merge request, which later runs update in place. Its exit status is the gate's.
 # What is gated, in the environment:
 #   GLSUM_BASELINE   the baseline's file
 #   GLSUM_ELF        functions of this program, GLSUM_FUNCTIONS their globs; or
@@ -23,18 +23,19 @@ command -v curl >/dev/null && command -v jq >/dev/null || {
 }
 
 status=0
+rm -f gate.md gate.xml  # of an earlier run
 if [ -n "${GLSUM_ELF:-}" ]; then
-    # Without globs all of them are held.
-    set -f
-    "$root/glsum" gate --elf "$GLSUM_ELF" --functions ${GLSUM_FUNCTIONS:-'*'} --baseline "$GLSUM_BASELINE" ${GLSUM_OPTIONS:-} >gate.txt 2>gate.err || status=$?
+    set -f  # globs are of functions and not of files
+    "$root/glsum" gate --elf "$GLSUM_ELF" --functions ${GLSUM_FUNCTIONS:-'*'} --baseline "$GLSUM_BASELINE" \
+        --junit gate.xml --markdown gate.md --annotations ${GLSUM_OPTIONS:-} >gate.txt 2>gate.err || status=$?
     set +f
-    { printf '## glsum gate: %s\n\n```text\n' "$(case $status in 0) echo pass ;; 1) echo worse ;; *) echo "not judged" ;; esac)"; cat gate.txt; sed -n '$p' gate.err; printf '```\n'; } >gate.md
 else
     "$root/glsum" bench ${GLSUM_BENCH:---quick --targets m7} --out "$PWD/gate-run.json" >gate-run.txt 2>gate.err || fail $? "the run failed: $(tail -n 1 gate.err)"
     "$root/glsum" gate --baseline "$GLSUM_BASELINE" --current gate-run.json --junit gate.xml --markdown gate.md --annotations ${GLSUM_OPTIONS:-} >gate.txt 2>gate.err || status=$?
 fi
 cat gate.txt
 cat gate.err >&2
+[ -s gate.md ] || { printf '## glsum gate\n\n'; tail -n 1 gate.err; } >gate.md
 [ -z "${GITHUB_STEP_SUMMARY:-}" ] || cat gate.md >>"$GITHUB_STEP_SUMMARY"
 
 # request METHOD URL HEADER [JSON]: prints the answer; no comment is no reason to fail a build.
