@@ -5,7 +5,7 @@ use warnings;
 # Debian's smallest perl has no module open.
 binmode $_, ':utf8' for *STDIN, *STDOUT, *STDERR;
 
-my %most = (words_in_sentence => 25, lines => 80, top_lines => 150, top_words => 1500);
+my %most = (words_in_sentence => 25, lines => 80, top_lines => 150, top_words => 1500, words_of_the_glossary => 60);
 my $failures = 0;
 
 sub fail {
@@ -103,6 +103,12 @@ for my $file (@files) {
             }
         }
     }
+}
+
+# A language of more words than this nobody learns.
+for my $file (grep { $_ eq 'docs/glossary.md' } @files) {
+    my $words = grep { /^\| (?!word \|)\w/ } @{$pages{$file}{lines}};
+    fail($file, 1, "at most $most{words_of_the_glossary} words", $words) if $words > $most{words_of_the_glossary};
 }
 
 for my $file (grep { m{(?:^|/)README\.md$} } @files) {
