@@ -101,6 +101,9 @@ TEST(CompareJson, HoldsEveryPairWithItsRatioAndWhichWayIsBetter) {
     EXPECT_GT(time.at("ratio_low").get<double>(), 0.75);
     EXPECT_LT(time.at("ratio_high").get<double>(), 0.85);
     EXPECT_EQ(time.at("change"), "better");
+    // Both medians of twenty: 1.00095 times the fastest.
+    EXPECT_NEAR(time.at("a").get<double>(), 100.095, 1e-9);
+    EXPECT_NEAR(time.at("b").get<double>(), 80.076, 1e-9);
 }
 
 // What has to stay the same is worse whichever way it goes.
