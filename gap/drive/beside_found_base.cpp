@@ -119,7 +119,8 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
         say(fmt::format("the base: {} ({})", base->name, base->meaning));
         question.form = base->form;
         Answer answer = answer_to(question, say);
-        const bool closed = answer.decision.outcome == Outcome::no_gap;
+        // Of a disturbance another base may still know what it is.
+        const bool closed = answer.decision.outcome == Outcome::no_gap && !answer.decision.disturbed;
         const double price = price_of(answer, base->numbers, floor);
         if (const Described* richer = answer.lag_wanted ? with_one_lag_more(found, *base) : nullptr;
             richer != nullptr && std::find(asked.begin(), asked.end(), richer) == asked.end()) {

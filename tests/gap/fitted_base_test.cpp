@@ -117,6 +117,38 @@ TEST(FittedBase, NamesWhatTakesMostOfTheGapThoughItsOwnMisfitStays) {
     EXPECT_THAT(gap_test::names(answer), Contains(HasSubstr("input_curve"))) << text_of(answer);
 }
 
+// Two lags whose input somebody else disturbs: what he does is filtered as the input is, and is no error of a model.
+gap::Record disturbed(unsigned seed) {
+    constexpr int substeps = 5;
+    constexpr double step_s = 0.5 / substeps;
+    gap::Record record = record_of("disturbed", 0.5);
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise;
+    std::uniform_int_distribution<int> coin(0, 1);
+    double level = 0.0;
+    double lags[2] = {};
+    for (int k = 0; k < 1200; ++k) {
+        level = k % 20 == 0 ? coin(engine) : level;
+        record.time_s.push_back(0.5 * k);
+        record.input.push_back(level);
+        record.output.push_back(lags[1] + 1e-3 * noise(engine));
+        const double pushed = level + 0.5 * noise(engine);
+        for (int i = 0; i < substeps; ++i) {
+            lags[0] += step_s / 6.0 * (pushed - lags[0]);
+            lags[1] += step_s / 3.0 * (lags[0] - lags[1]);
+        }
+    }
+    return record;
+}
+
+TEST(FittedBase, HasNoGapWhereThePlantIsDisturbed) {
+    const gap::Answer answer = diagnosed("second_order", disturbed(1), disturbed(2), gap::Metric::simulation);
+    EXPECT_EQ(answer.decision.outcome, gap::Outcome::no_gap) << text_of(answer);
+    EXPECT_TRUE(answer.decision.disturbed) << text_of(answer);
+    EXPECT_FALSE(answer.leaves_noise);
+    EXPECT_GT(answer.none().gap_after, 0.1);
+}
+
 // Two unequal lags, of which a form has two equal ones: what that leaves is a part of the noise.
 TEST(FittedBase, HasNoGapWhereItsMisfitIsBelowTheNoise) {
     const Propeller linear{0.0, 0.0, {0.35, 0.2, 0.001}, 5e-3};

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 #include <set>
 #include <string>
 
@@ -71,7 +72,14 @@ protected:
         decision.confidence = 0.97;
         return decision;
     }
-    void beside_a_form() { ground_.study.base.refit = ground_.validation.base.refit = true; }
+    void beside_a_form() {
+        ground_.study.base.refit = ground_.validation.base.refit = true;
+        for (gap::Ranked& ranked : ranking_) {
+            ranked.trained.base = gap::base_of(ground_.study);
+            ranked.trained.own = {gap::state_of(ground_.study, ground_.study.courses[0].record())};
+            ranked.candidate = ranked.trained;
+        }
+    }
 
     static constexpr int samples = 400;
     gap::Question question_;  // whose records the ground looks at
@@ -222,6 +230,33 @@ TEST_F(Rules, WhatCanBeForeseenOfAFittedFormIsItsOwnWhereItIsSmall) {
     EXPECT_EQ(after("what_can_be_foreseen", none).outcome, Outcome::no_gap);
     known_.remainders[0] = {1.0 - 0.8895 * 0.8895, true, {}};
     EXPECT_EQ(after("what_can_be_foreseen", none).outcome, Outcome::unknown);
+}
+
+// An operating point that has moved since the base was fitted is foreseen by nothing that the input did.
+TEST_F(Rules, WhatCanBeForeseenIsNoLevel) {
+    beside_a_form();
+    known_.remainders[0] = {0.5, true, {}};  // about the level
+    gap::Decision none;
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.3;
+    const double deviation = gap::output_deviation(ground_.validation);
+    const auto share_at = [&](double level, double about) {
+        std::vector<double>& left = ranking_[0].residuals[0];
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            left[i] = deviation * (level + (i % 2 == 0 ? about : -about));
+        }
+        return gap::foreseeable(evidence(), none).share;
+    };
+    EXPECT_NEAR(share_at(0.0, 0.1), 0.5, 1e-3);
+    EXPECT_NEAR(share_at(0.1, 0.1), 0.25, 1e-3);
+    EXPECT_EQ(after("what_can_be_foreseen", none).outcome, Outcome::unknown);
+    EXPECT_NEAR(share_at(0.24, 0.1), 0.5 * 0.01 / (0.01 + 0.0576), 1e-3);
+    const gap::Decision moved = after("what_can_be_foreseen", none);
+    EXPECT_EQ(moved.outcome, Outcome::no_gap);
+    EXPECT_THAT(moved.notes, testing::Contains(HasSubstr("the operating point's")));
+    // A quarter of the deviation is no weather; a given model has no operating point to move.
+    EXPECT_NEAR(share_at(0.26, 0.1), 0.5, 1e-3);
+    ground_.study.base.refit = false;
+    EXPECT_NEAR(share_at(0.1, 0.1), 0.5, 1e-3);
 }
 
 // A tenth of what is left at least, a part of what can be closed, and two hundredths of the gap.
@@ -440,6 +475,61 @@ TEST_F(Rules, WhatIsNoNoiseBesideACauseIsAnotherCause) {
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::attributed);
     ranking_[jump].gap_after = 0.449;
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::unknown);
+}
+
+// Slow, and of no input: beside a fitted base that is what disturbs the plant.
+TEST_F(Rules, WhatIsNoNoiseMayDisturbThePlant) {
+    std::mt19937_64 engine(5);
+    std::normal_distribution<double> normal;
+    for (auto* records : {&question_.train, &question_.validate}) {
+        for (gap::Record& record : *records) {
+            double state = 0.0;
+            for (double& z : record.output) {
+                state = 0.9 * state + 0.02 * normal(engine);
+                z += state;
+            }
+        }
+    }
+    ground_ = gap::prepare(question_);
+    beside_a_form();
+    const std::vector<std::vector<double>> left = gap::all_residuals(ground_.validation, ranking_[0].candidate);
+    ranking_[0].residuals = left;
+    gap::Decision none;
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.1;
+    none.confidence = 0.95;
+    set_noise(0.01);
+    const auto outcome = [&] { return after("what_is_no_noise", none).outcome; };
+    const gap::Decision decision = after("what_is_no_noise", none);
+    EXPECT_EQ(decision.outcome, Outcome::no_gap);
+    EXPECT_TRUE(decision.disturbed);
+    EXPECT_EQ(decision.confidence, 0.7);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("a disturbance of the plant")));
+    // What input and output foresee for certain, or a third of, is none.
+    known_.remainders[0] = {0.32, false, {}};
+    EXPECT_EQ(outcome(), Outcome::no_gap);
+    known_.remainders[0] = {0.34, false, {}};
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    known_.remainders[0] = {0.05, true, {}};
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    known_.remainders[0] = {};
+    // Something listed takes 15 % of it.
+    none.noise_floor = 0.0852;
+    EXPECT_EQ(outcome(), Outcome::no_gap);
+    none.noise_floor = 0.0848;
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    none.noise_floor = 0.1;
+    // Twice as large as where it was fitted; or nobody drives it; or the model is given.
+    for (double& one : ranking_[0].residuals[0]) {
+        one *= 2.0;
+    }
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    ranking_[0].residuals = left;
+    ground_.study.scales.driven = false;
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    ground_.study.scales.driven = true;
+    EXPECT_EQ(outcome(), Outcome::no_gap);
+    ground_.study.base.refit = false;
+    EXPECT_EQ(outcome(), Outcome::unknown);
 }
 
 TEST_F(Rules, PatternsAreNoNoise) {

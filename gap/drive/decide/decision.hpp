@@ -18,6 +18,7 @@ struct Decision {
     double base_gap = 0.0;
     double noise_floor = 0.0;  ///< as a gap
     double confidence = 0.0;
+    bool disturbed = false;  ///< what is left is slow, and comes from no input
     std::vector<std::string> notes;
 
     void at_most(double bound) { confidence = confidence < bound ? confidence : bound; }

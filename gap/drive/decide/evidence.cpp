@@ -63,10 +63,42 @@ const Flexible& Evidence::remainder(std::size_t i) const {
     if (!same_records) {
         also = remainders(study, all_residuals(study, ranking[i].trained));
     }
+    std::vector<Remainder> judged = remainders(validation, ranking[i].residuals);
+    if (level_share(i) > 0.0) {
+        for (Remainder& one : judged) {
+            take_off_mean(one);
+        }
+    }
     return known_.remainders
-        .emplace(i, explain(remainders(validation, ranking[i].residuals), also, model_of(study.base.form).delay_s,
-                            study.scales.time_constant_s))
+        .emplace(i, explain(judged, also, model_of(study.base.form).delay_s, study.scales.time_constant_s))
         .first->second;
+}
+
+double Evidence::level_share(std::size_t i) const {
+    if (!beside_form() || i != none()) {
+        return 0.0;
+    }
+    // Beyond a quarter of the output's deviation something has moved it.
+    constexpr double most = 0.25;
+    const double least_square = validation.least_deviation * validation.least_deviation;
+    const Disturbance left = disturbance_of(remainders(validation, ranking[i].residuals), least_square);
+    const double all = left.mean_square + left.rms * left.rms;
+    return all > 0.0 && std::sqrt(left.mean_square) < most * output_deviation(validation) ? left.mean_square / all
+                                                                                          : 0.0;
+}
+
+bool Evidence::leaves_a_disturbance(std::size_t i) const {
+    // What follows the input in some blocks alone is not told from what does not.
+    constexpr double undecided = 1.0 / 3.0;
+    if (!beside_form() || !study.scales.driven || ranking[i].trained.has_events() || remainder(i).certain ||
+        remainder(i).explained > undecided) {
+        return false;
+    }
+    const auto left = [&](const Study& of, const std::vector<std::vector<double>>& residuals) {
+        return disturbance_of(remainders(of, residuals), of.least_deviation * of.least_deviation);
+    };
+    return are_one_disturbance(left(study, all_residuals(study, ranking[i].trained)),
+                               left(validation, ranking[i].residuals));
 }
 
 const std::string& Evidence::objection(std::size_t i) const {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "gap/drive/ranking.hpp"
+#include "gap/drive/residuals/disturbance.hpp"
 #include "gap/drive/residuals/flexible.hpp"
 
 namespace gap {
@@ -43,6 +44,11 @@ public:
     [[nodiscard]] bool is_no_noise(double gap) const { return over_noise(gap) > usual_ratio; }
     /// What a model without physics still takes off a candidate's residuals on the validation.
     [[nodiscard]] const Flexible& remainder(std::size_t i) const;
+    /// Of the squared gap of a fitted base alone: what its operating point has moved by since it was fitted.
+    [[nodiscard]] double level_share(std::size_t i) const;
+    /// Whether a candidate of a fitted base leaves what it left where it was fitted, stationary, and neither input nor
+    /// output foresee it.
+    [[nodiscard]] bool leaves_a_disturbance(std::size_t i) const;
 
     static constexpr double usual_ratio = 7.0;
 

@@ -30,6 +30,11 @@ void look_for_more(const Evidence& evidence, Decision& decision) {
                         "without physics",
                         100.0 * rest.share));
     }
+    constexpr double moved = 0.5;  // of the gap: worth a line
+    if (const double level = std::sqrt(evidence.level_share(decision.chosen)) * after; level > moved * after) {
+        decision.notes.push_back(fmt::format(
+            "the level has moved by {:.4f} of the deviation since the base was fitted: the operating point's", level));
+    }
     const bool none = decision.chosen == evidence.none();
     // Three effects that still leave what can be foreseen are an expansion of something else, not its causes.
     const bool expansion = evidence.ranking[decision.chosen].trained.effects.size() >= 3;
@@ -72,10 +77,28 @@ bool is_slow(const Evidence& evidence, const Decision& decision) {
            over_noise(evidence.study, rms_of(evidence.study, all_residuals(evidence.study, trained))) > much;
 }
 
+// Noise that the plant filters is slow. What a cause makes follows the input, or something listed takes a part of it.
+bool is_disturbance(const Evidence& evidence, const Decision& decision) {
+    constexpr double a_part = 0.15;
+    return decision.noise_floor > (1.0 - a_part) * evidence.gap(decision.chosen) &&
+           evidence.leaves_a_disturbance(decision.chosen);
+}
+
 void ask_for_noise(const Evidence& evidence, Decision& decision) {
-    if (is_slow(evidence, decision)) {
-        nothing_listed(decision, "slow and many times what differs from sample to sample");
+    if (!is_slow(evidence, decision)) {
+        return;
     }
+    if (is_disturbance(evidence, decision)) {
+        constexpr double sure = 0.7;
+        decision.disturbed = true;
+        decision.at_most(sure);
+        decision.notes.push_back(
+            fmt::format("what is left ({:.4f}) is slow, as large where it was fitted, and nothing of input or output "
+                        "foresees it: a disturbance of the plant, no error of the model",
+                        evidence.gap(decision.chosen)));
+        return;
+    }
+    nothing_listed(decision, "slow and many times what differs from sample to sample");
 }
 
 std::string burst_of(const Evidence& evidence, const Decision& decision) {
@@ -149,7 +172,8 @@ Foreseeable foreseeable(const Evidence& evidence, const Decision& decision) {
     const double after = evidence.gap(decision.chosen);
     const Flexible& flexible = evidence.remainder(decision.chosen);
     Foreseeable rest;
-    rest.share = flexible.certain && flexible.explained > least ? flexible.explained : 0.0;
+    const double of_level = evidence.level_share(decision.chosen);
+    rest.share = flexible.certain && flexible.explained > least ? (1.0 - of_level) * flexible.explained : 0.0;
     rest.left = after * std::sqrt(1.0 - rest.share);
     const double closable = square(decision.base_gap) - square(std::min(rest.left, decision.noise_floor));
     rest.of_closable = closable > 0.0 ? (square(after) - square(rest.left)) / closable : 0.0;
