@@ -10,13 +10,13 @@ std::filesystem::path cores_folder() { return std::filesystem::path(build_info::
 
 std::filesystem::path plugin() { return std::filesystem::path(build_info::build_folder) / "qemu" / "glsum_plugin.so"; }
 
-std::filesystem::path emulate_script() {
-    return std::filesystem::path(build_info::source_folder) / "targets" / build_info::emulated_board / "emulate";
+std::filesystem::path emulate_script(const base::Machine& machine) {
+    return std::filesystem::path(build_info::source_folder) / "targets" / machine.board / "emulate";
 }
 
-qemu::Board built_board() {
+qemu::Board built_board(const base::Machine& machine) {
     const std::filesystem::path built = build_info::build_folder;
-    qemu::Board board = qemu::find_board(built.parent_path() / build_info::emulated_board, plugin(), emulate_script());
+    qemu::Board board = qemu::find_board(built.parent_path() / machine.board, plugin(), emulate_script(machine));
     board.cores = cores_folder();
     (void)qemu::emulator_version();
     return board;
@@ -27,9 +27,9 @@ qemu::SiliconProgram built_silicon() {
     return {board.measure_elf.parent_path() / "silicon.elf", board.plugin, board.cores, board.emulator};
 }
 
-std::optional<qemu::Board> board_if_there() {
+std::optional<qemu::Board> board_if_there(const base::Machine& machine) {
     try {
-        return built_board();
+        return built_board(machine);
     } catch (const glsum::Failure&) {
         return std::nullopt;
     }

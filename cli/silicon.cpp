@@ -123,8 +123,12 @@ void run_rows(const Options& options) {
     if (!options.json.empty()) {
         base::check_writable(options.json);
     }
-    const qemu::CallsProgram program{
-        {emulate_script(), std::chrono::seconds(options.timeout), std::chrono::seconds(10)}, plugin(), cores_folder()};
+    const qemu::CallsProgram program{[&](const base::Machine& machine) {
+                                         return qemu::Emulator{emulate_script(machine),
+                                                               std::chrono::seconds(options.timeout),
+                                                               std::chrono::seconds(10)};
+                                     },
+                                     plugin(), cores_folder()};
     const std::vector<qemu::PredictedCall> predicted =
         qemu::predict_calls(program, rows, name, options.without, options.jobs);
     const qemu::RowsFit fit = qemu::fit_of(rows, predicted);
