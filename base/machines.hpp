@@ -14,12 +14,20 @@ struct Machine {
     std::string_view name;          ///< of the core, for texts
     std::string_view board;         ///< its folder of targets/, and the preset that builds its firmware
     std::string_view default_core;  ///< the core file where none is asked for: the fastest memories
+    unsigned issues_a_cycle;        ///< instructions, at most
 };
 
 inline constexpr std::array<Machine, 2> machines{{
-    {"m7", "cortex-m7", "Cortex-M7", "mps2-an500", "stm32f746-itcm"},
-    {"m4", "cortex-m4", "Cortex-M4", "mps2-an386", "cortex-m4-zerowait"},
+    {"m7", "cortex-m7", "Cortex-M7", "mps2-an500", "stm32f746-itcm", 2},
+    {"m4", "cortex-m4", "Cortex-M4", "mps2-an386", "cortex-m4-zerowait", 1},
 }};
+
+[[nodiscard]] constexpr std::array<std::string_view, machines.size()> machine_words() {
+    std::array<std::string_view, machines.size()> words;
+    std::transform(machines.begin(), machines.end(), words.begin(),
+                   [](const Machine& machine) { return machine.word; });
+    return words;
+}
 
 /// By its word.
 [[nodiscard]] constexpr const Machine* machine_called(std::string_view word) {

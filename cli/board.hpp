@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/machines.hpp"
+#include "bench/sweep/sweep.hpp"
 #include "qemu/emulate/firmware.hpp"
 #include "qemu/emulate/measured_cycles.hpp"
 #include "qemu/emulate/silicon.hpp"
@@ -27,7 +28,14 @@ inline constexpr const char* default_core = base::machines.front().default_core.
 [[nodiscard]] qemu::Board built_board(const base::Machine& machine = base::machines.front());
 
 /// Its program `silicon`. \throws as `built_board`
-[[nodiscard]] qemu::SiliconProgram built_silicon();
+[[nodiscard]] qemu::SiliconProgram built_silicon(const base::Machine& machine = base::machines.front());
+
+/// The core files that are modelled where none is asked for: one of each machine.
+[[nodiscard]] std::vector<std::string> default_cores();
+
+/// Gives a sweep its cores and their machines: those of its targets. \param asked  empty: counts and the usual cores
+/// \throws glsum::Failure (bad input) for a core that has no file, or whose machine is none of the targets
+void take_cores(bench::Sweep& sweep, const std::vector<std::string>& asked);
 
 /// Nothing where it throws.
 [[nodiscard]] std::optional<qemu::Board> board_if_there(const base::Machine& machine = base::machines.front());

@@ -13,6 +13,7 @@
 #include "base/files.hpp"
 #include "cli/board.hpp"
 #include "cli/command.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 #include "qemu/emulate/measured_calls.hpp"
 #include "qemu/emulate/predicted_calls.hpp"
 #include "qemu/emulate/rows_fit.hpp"
@@ -61,7 +62,7 @@ void print_sets(const timing::CoreFile& core, const std::vector<qemu::MeasuredCy
 
 void run(const Options& options) {
     const std::vector<qemu::MeasuredCycles> rows = read_measured_cycles(options.file);
-    const qemu::SiliconProgram program = built_silicon();
+    const qemu::SiliconProgram program = built_silicon(qemu::machine_of({options.core, "", ""}, cores_folder()));
     const timing::CoreFile core = timing::read_core(program.cores_folder, options.core);
     std::vector<qemu::CoreVariant> variants{{options.core, "", options.without}};
     for (const timing::RuleSet& set : core.sets) {
