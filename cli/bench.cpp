@@ -29,7 +29,7 @@ struct Options {
     std::vector<std::string> taps;
     std::vector<std::string> signals;
     std::vector<std::string> targets;  ///< empty: all that the rest of the request can be measured on
-    std::vector<std::string> cores{bench::count_only, default_core};
+    std::vector<std::string> cores;    ///< empty: counts, and the fastest core of each emulated machine
     std::string weights{bench::discretisation_names.front()};
     std::optional<std::string> shard;
     std::optional<unsigned> repetitions;
@@ -52,8 +52,9 @@ bench::Discretisation to_weights(const Options& options) {
         throw Failure(Exit::bad_input, fmt::format("--weights: expected one of {}, found {}",
                                                    fmt::join(bench::discretisation_names, ", "), options.weights));
     }
-    if (bench::names_weights(*weights) &&
-        std::find(options.targets.begin(), options.targets.end(), "m7") != options.targets.end()) {
+    if (bench::names_weights(*weights) && std::ranges::any_of(options.targets, [](const auto& target) {
+            return base::machine_called(target) != nullptr;
+        })) {
         throw Failure(Exit::bad_input,
                       fmt::format("--weights {}: only with --targets host; what the emulated target is told to run "
                                   "names an order, no weights",
@@ -97,13 +98,7 @@ bench::Sweep to_sweep(const Options& options) {
     check_signals(sweep.signals);
     sweep.targets = targets_of(options);
     check_targets(sweep.targets);
-    sweep.cores.clear();
-    for (const std::string& core : options.cores) {
-        if (std::find(sweep.cores.begin(), sweep.cores.end(), core) == sweep.cores.end()) {
-            sweep.cores.push_back(core);
-        }
-    }
-    (void)timing::cores_of(bench::timing_request(cores_folder(), sweep.modelled_cores()));
+    take_cores(sweep, options.cores);
     bench::take_kernels(sweep, options.kernels);
     if (sweep.kernels.empty() && sweep.peers.empty()) {
         throw Failure(Exit::bad_input,
@@ -111,6 +106,14 @@ bench::Sweep to_sweep(const Options& options) {
     }
     leave_out(sweep);
     return sweep;
+}
+
+std::vector<qemu::Board> boards_of(const bench::Sweep& sweep) {
+    std::vector<qemu::Board> boards;
+    for (const base::Machine* machine : sweep.machines()) {
+        boards.push_back(built_board(*machine));
+    }
+    return boards;
 }
 
 std::filesystem::path default_out(const std::optional<bench::Shard>& shard) {
@@ -124,11 +127,7 @@ void run(const Options& options, const std::vector<std::string>& flags) {
         options.shard ? std::optional(bench::parse_shard(*options.shard)) : std::nullopt;
     const std::filesystem::path out = options.out.empty() ? default_out(shard) : options.out;
     base::check_writable(out);
-    std::optional<qemu::Board> board;
-    if (sweep.wants("m7")) {
-        board = built_board();
-    }
-    const bench::Results results = bench::measure(sweep, shard, board ? &*board : nullptr, flags);
+    const bench::Results results = bench::measure(sweep, shard, boards_of(sweep), flags);
     if (!shard) {
         finish_run(out, results, sweep.jobs, options.table);
         return;
@@ -159,14 +158,15 @@ void add_options(Command& command, const Words& words) {
         .delimiter(',');
     command
         .add_option("--targets", options->targets,
-                    "host, m7 or both (default: both; with --weights that name their own, host)")
+                    "host, m7, m4 (default: host,m7; with --weights that name their own, host)")
         .delimiter(',');
     command
-        .add_option("--core", options->cores,
-                    "Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation serves "
-                    "all")
-        .delimiter(',')
-        .capture_default_str();
+        .add_option(
+            "--core", options->cores,
+            fmt::format("Cores of the timing model, files of qemu/cores; count: instructions alone. One emulation "
+                        "serves all of a machine (default: count, {})",
+                        fmt::join(default_cores(), ", ")))
+        .delimiter(',');
     command
         .add_option("--weights", options->weights,
                     "Which weights the kernels sum: gl, bdf2, bdf3, bdf4 (of that order for signals that start "

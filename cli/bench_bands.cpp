@@ -58,7 +58,7 @@ void run(Options options) {
     sweep.targets = {"m7"};
     sweep.cores = {study.core};
     sweep.orders = study.orders;
-    bench::Json context = bench::make_context(bench::Json(), sweep, &board);
+    bench::Json context = bench::make_context(bench::Json(), sweep, {board});
     context["step_s"] = study.step_s;
     const std::vector<bench::Json> rows = bench::rows_of_bands(points);
     bench::write_results(options.out, context, rows);

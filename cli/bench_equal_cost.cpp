@@ -49,7 +49,7 @@ void run(const Options& options) {
     sweep.samples = wanted.samples;
     sweep.orders = wanted.orders;
     sweep.signals = wanted.signals;
-    bench::Json context = bench::make_context(bench::Json(), sweep, nullptr);
+    bench::Json context = bench::make_context(bench::Json(), sweep, {});
     context["equal_cost"] = wanted.costs;
     bench::write_results(options.out, context, rows);
     std::filesystem::path stem = options.out;

@@ -14,6 +14,7 @@
 #include "cli/command.hpp"
 #include "cli/rising.hpp"
 #include "glsum/design/modes.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 
 namespace cli {
 namespace {
@@ -38,7 +39,7 @@ void run(Options options) {
     }
     base::check_writable(options.out);
     if (!options.wanted.core.empty()) {
-        options.wanted.board = built_board();
+        options.wanted.board = built_board(qemu::machine_of({options.wanted.core, "", ""}, cores_folder()));
     }
     const bench::Study study = bench::measure_horizons(options.wanted);
     fmt::print("{}", study.text);
@@ -75,9 +76,13 @@ void add_options(Command& command, const Words&) {
     command.callback([options] {
         check_orders(options->wanted.orders);
         check_targets(options->targets);
-        const bool modelled = std::ranges::find(options->targets, "m7") != options->targets.end();
-        if (modelled) {
-            options->wanted.core = default_core;
+        bench::Sweep sweep;
+        sweep.targets = options->targets;
+        if (sweep.machines().size() > 1) {
+            throw Failure(Exit::bad_input, "--targets: expected one of m7 and m4 at once");
+        }
+        if (!sweep.machines().empty()) {
+            options->wanted.core = sweep.machines().front()->default_core;
         }
         run(*options);
     });

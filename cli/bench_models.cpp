@@ -1,5 +1,6 @@
 // glsum bench models: whole models stepped in real time, on this machine and on the emulated Cortex-M7.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -44,8 +45,15 @@ bench::ModelLengths asked_lengths(const Options& options) {
 
 void run(Options options) {
     bench::Models& wanted = options.wanted;
-    if (std::find(wanted.targets.begin(), wanted.targets.end(), "m7") != wanted.targets.end()) {
-        wanted.board = built_board();
+    bench::Sweep sweep;
+    sweep.targets = wanted.targets;
+    if (sweep.machines().size() > 1) {
+        throw Failure(Exit::bad_input, "--targets: expected one of m7 and m4 at once");
+    }
+    take_cores(sweep, wanted.cores);
+    wanted.cores = sweep.modelled_cores();
+    if (!sweep.machines().empty()) {
+        wanted.board = built_board(*sweep.machines().front());
         (void)qemu::model_elf(*wanted.board);
     }
     wanted.models = std::filesystem::path(build_info::source_folder) / "drive" / "models";
@@ -65,7 +73,6 @@ void run(Options options) {
 
 void add_options(Command& command, const Words&) {
     auto options = std::make_shared<Options>();
-    options->wanted.cores = {default_core};
     options->wanted.jobs = std::max(1U, std::thread::hardware_concurrency());
     command.footer(
         "bench --drive is the same command.\n"
@@ -77,15 +84,19 @@ void add_options(Command& command, const Words&) {
         .capture_default_str();
     command.add_option("--taps", options->taps, "Lengths: numbers, full, or 2+7: two near taps and seven modes")
         .delimiter(',');
-    command.add_option("--targets", options->wanted.targets, "host, m7 or both").delimiter(',').capture_default_str();
-    command.add_option("--core", options->wanted.cores, "Cores of the timing model, files of qemu/cores")
+    command.add_option("--targets", options->wanted.targets, "host, m7 or m4, or host and one of them")
         .delimiter(',')
         .capture_default_str();
+    command
+        .add_option(
+            "--core", options->wanted.cores,
+            fmt::format("Cores of the timing model, files of qemu/cores; count: instructions alone (default: {})",
+                        fmt::join(default_cores(), " or ")))
+        .delimiter(',');
     command.add_option("--jobs", options->wanted.jobs, "Threads and emulators at once").between(1, 1024);
     command.add_option("--out", options->out, "Result file (default: results/drive.json)");
     command.callback([options] {
         check_targets(options->wanted.targets);
-        std::erase(options->wanted.cores, bench::count_only);
         run(*options);
     });
 }

@@ -1,6 +1,7 @@
 #include "cli/budget.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@
 #include "cli/board.hpp"
 #include "cli/derivative_goal.hpp"
 #include "glsum/weights.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 
 namespace cli {
 namespace {
@@ -94,18 +96,18 @@ std::shared_ptr<Budget> add_budget(Command& command, bool needs_order) {
         .above(0);
     command
         .add_option("--max-instructions", budget->max_instructions,
-                    "Instructions a sample, --target m7: ranked and limited in place of cycles")
+                    "Instructions a sample, --target m7 or m4: ranked and limited in place of cycles")
         .above(0);
     command.add_option("--max-bytes", budget->max_bytes, "Bytes of state and coefficients").above(0);
     command.add_option("--clock-hz", budget->clock_hz, "The core's clock: with --rate-hz, says the share of real time")
         .above(0);
     command.add_option("--rate-hz", budget->rate_hz, "Samples a second").above(0);
-    command.add_option("--target", budget->target, "host or m7");
+    command.add_option("--target", budget->target, "host, m7 or m4; choose takes m7,m4: both beside each other");
     command.add_option(
         "--core", budget->core,
         fmt::format("Core of the timing model, a file of qemu/cores, whose cycles are ranked and limited "
-                    "(default with --target m7: {}; with --max-instructions: none, instructions are)",
-                    default_core));
+                    "(default with --target m7: {}, m4: {}; with --max-instructions: none, instructions are)",
+                    base::machines[0].default_core, base::machines[1].default_core));
     command.add_option("--results", budget->results,
                        "Earlier measurements (default: results/latest.json if it is there); only rows of this very "
                        "build count, at h = 1 ms");
@@ -118,6 +120,12 @@ std::shared_ptr<Budget> add_budget(Command& command, bool needs_order) {
         .between(2, needs_order ? most_samples_of_a_sum : 10'000'000);
     command.add_option("--jobs", budget->jobs, "Threads and emulators at once").at_least(1);
     return budget;
+}
+
+std::string core_of(const Budget& budget) {
+    const base::Machine* const machine = base::machine_called(budget.target);
+    return !budget.core.empty() ? budget.core
+                                : std::string((machine != nullptr ? *machine : base::machines.front()).default_core);
 }
 
 std::size_t samples_of(const Budget& budget) {
@@ -146,11 +154,20 @@ choose::Question to_question(const Budget& budget) {
     if (budget.rate_hz && std::fabs(*budget.rate_hz * budget.step_s - 1.0) > 0.01) {
         refuse(fmt::format("--rate-hz: expected 1 / --step-s, {:.6g}, found {}", 1.0 / budget.step_s, *budget.rate_hz));
     }
-    if (budget.target != "host" && budget.target != "m7") {
-        refuse(fmt::format("--target: expected host or m7, found {}", budget.target));
+    const std::optional<choose::Target> target = choose::target_called(budget.target);
+    if (!target) {
+        refuse(fmt::format("--target: expected host, {}, found {}", fmt::join(base::machine_words(), " or "),
+                           budget.target));
     }
-    if (budget.target == "host" && !budget.core.empty()) {
-        refuse("--core: only with --target m7");
+    if (*target == choose::Target::host && !budget.core.empty()) {
+        refuse("--core: only with --target m7 or m4");
+    }
+    if (const base::Machine* const machine = choose::machine_of(*target); machine != nullptr && !budget.core.empty()) {
+        const base::Machine& of_core = qemu::machine_of({budget.core, "", ""}, cores_folder());
+        if (&of_core != machine) {
+            refuse(fmt::format("--core {}: of a {}; expected --target {} beside it", budget.core, of_core.name,
+                               of_core.word));
+        }
     }
     choose::Question question;
     question.conditions.order = budget.order;
@@ -161,9 +178,9 @@ choose::Question to_question(const Budget& budget) {
         refuse(fmt::format("--samples: expected 2 to {} of a sum, found {}", most_samples_of_a_sum,
                            question.conditions.samples));
     }
-    question.target = budget.target == "host" ? choose::Target::host : choose::Target::m7;
+    question.target = *target;
     const bool counts = question.target == choose::Target::host || (budget.max_instructions && budget.core.empty());
-    question.core = counts ? "" : budget.core.empty() ? default_core : budget.core;
+    question.core = counts ? "" : core_of(budget);
     question.kernels = choose::kernels_of(question.target, question.conditions.order);
     question.max_error = goal ? derivative_error(budget) : budget.max_error;
     question.goal = goal;
@@ -192,7 +209,8 @@ void plot_if_asked(const Budget& budget, const choose::Answer& answer) {
 }
 
 std::optional<qemu::Board> board_for(const choose::Question& question) {
-    return question.target == choose::Target::m7 ? built_board() : board_if_there();
+    const base::Machine* const machine = choose::machine_of(question.target);
+    return machine != nullptr ? built_board(*machine) : board_if_there();
 }
 
 }  // namespace cli

@@ -38,6 +38,9 @@ struct Budget {
 /// \return the budget that they fill.
 std::shared_ptr<Budget> add_budget(Command& command, bool needs_order = true);
 
+/// The core file that is modelled: the one asked for, or the usual one of the target's machine.
+[[nodiscard]] std::string core_of(const Budget& budget);
+
 /// Samples of the records.
 [[nodiscard]] std::size_t samples_of(const Budget& budget);
 

@@ -8,6 +8,7 @@
 
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
+#include "base/machines.hpp"
 #include "bench/sweep/signals.hpp"
 #include "glsum/weights.hpp"
 
@@ -36,8 +37,9 @@ void check_signals(const std::vector<std::string>& signals) {
 
 void check_targets(const std::vector<std::string>& targets) {
     for (const std::string& target : targets) {
-        if (target != "host" && target != "m7") {
-            throw Failure(Exit::bad_input, fmt::format("--targets: expected host, m7 or both, found {}", target));
+        if (target != "host" && base::machine_called(target) == nullptr) {
+            throw Failure(Exit::bad_input, fmt::format("--targets: expected some of host, {}, found {}",
+                                                       fmt::join(base::machine_words(), ", "), target));
         }
     }
 }

@@ -1,21 +1,35 @@
 // glsum choose: the cheapest kernel, length and format within a budget.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <memory>
 #include <optional>
+#include <sstream>
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
 #include "bench/choose/brute_force.hpp"
 #include "bench/choose/report.hpp"
+#include "bench/choose/side_by_side.hpp"
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
 #include "cli/output.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 
 namespace cli {
 namespace {
+
+// "m7,m4": each of them.
+std::vector<std::string> words_of(const std::string& list) {
+    std::vector<std::string> words;
+    std::istringstream rest(list);
+    for (std::string word; std::getline(rest, word, ',');) {
+        words.push_back(word);
+    }
+    return words;
+}
 
 struct Check {
     std::size_t budgets = 0;
@@ -24,15 +38,15 @@ struct Check {
 
 // Every length is counted: a short record unless another was asked for.
 void check(Budget budget, const Check& check) {
-    if (budget.target != "m7") {
+    if (base::machine_called(budget.target) == nullptr) {
         throw glsum::Failure(glsum::Exit::bad_input,
-                             "--check-against-brute-force: only with --target m7, whose counts repeat");
+                             "--check-against-brute-force: only with --target m7 or m4, whose counts repeat");
     }
     budget.samples = budget.samples != 0 ? budget.samples : 100;
     budget.max_error = 1.0;
     const choose::Question question = to_question(budget);
     const choose::Agreement found =
-        choose::check_against_brute_force(question, built_board(), check.budgets, check.seed);
+        choose::check_against_brute_force(question, *board_for(question), check.budgets, check.seed);
     fmt::print(
         "{}{} of {} random budgets: the same choice as a plain loop over {} measured candidates ({} kernels, every "
         "length to {})\n{} of them fit nothing; in {} of these no limit need be relaxed less than the nearest miss "
@@ -59,6 +73,52 @@ void run(const Budget& budget, const Output& json) {
         plot_if_asked(budget, answer);
     } else {
         throw glsum::Failure(glsum::Exit::check_failed, choose::nearest_miss(answer));
+    }
+}
+
+// Several machines, each with its own answer, then what was chosen for one on the others.
+void run_side_by_side(const Budget& budget, const std::vector<std::string>& targets, const Output& json) {
+    const auto refuse = [](const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); };
+    if (budget.max_error == 0.0 && budget.derivative_error.empty()) {
+        refuse("--max-error or --derivative-error is required");
+    }
+    if (budget.clock_hz || budget.rate_hz || budget.max_instructions || !budget.plot.empty()) {
+        refuse(
+            "--clock-hz, --rate-hz, --max-instructions, --plot: expected one --target; several have the clocks of "
+            "their core files");
+    }
+    std::vector<choose::Question> questions;
+    for (const std::string& target : targets) {
+        const base::Machine* const machine = base::machine_called(target);
+        if (machine == nullptr) {
+            refuse(fmt::format("--target: expected, of several, {}, found {}",
+                               fmt::join(base::machine_words(), " and "), target));
+        }
+        Budget own = budget;
+        own.target = target;
+        own.core.clear();
+        for (const std::string& core : words_of(budget.core)) {
+            if (&qemu::machine_of({core, "", ""}, cores_folder()) == machine) {
+                own.core = core;
+            }
+        }
+        questions.push_back(to_question(own));
+    }
+    json.check();
+    std::vector<choose::Answer> answers;
+    std::vector<qemu::Board> boards;
+    for (const choose::Question& question : questions) {
+        boards.push_back(built_board(*choose::machine_of(question.target)));
+        answers.push_back(choose::answer(question, boards.back()));
+        fmt::print("{}\n", choose::to_table(answers.back(), isatty(STDOUT_FILENO) == 1));
+    }
+    const std::vector<choose::OnMachine> rows = choose::side_by_side(answers, boards);
+    fmt::print("{}", choose::to_table(rows, answers));
+    if (json.wanted()) {
+        json.write(choose::to_json(rows, answers).dump(2) + "\n");
+    }
+    if (rows.empty()) {
+        throw glsum::Failure(glsum::Exit::check_failed, "nothing fits on any of them");
     }
 }
 
@@ -91,10 +151,14 @@ void add_options(Command& command, const Words&) {
         "1000\n"
         "         glsum choose --order 0.5 --step-s 0.001 --derivative-error 5% --band 0.05..80 --step-until 60 "
         "--target "
-        "m7");
+        "m7\n"
+        "         glsum choose --order 0.5 --step-s 0.001 --max-error 0.01 --target m7,m4");
     command.callback([budget, json, against] {
+        const std::vector<std::string> targets = words_of(budget->target);
         if (against->budgets > 0) {
             check(*budget, *against);
+        } else if (targets.size() > 1) {
+            run_side_by_side(*budget, targets, *json);
         } else {
             run(*budget, *json);
         }

@@ -22,7 +22,7 @@ qemu::GatedProgram gated_program(const GatedElf& options) {
     const qemu::Elf elf(options.timed.elf);
     const timing::TimingRequest request = to_request(options.timed, elf);
     const timing::CoreFile core = timing::cores_of(request).front();
-    qemu::check_runs_on_board(elf);
+    qemu::check_runs_on_board(elf, base::machine_of_core(timing::name_of(core.core)));
     const std::vector<qemu::Function> functions = elf.functions_like(options.functions);
     const std::vector<timing::TimingLog> logs = time_functions(options.timed, functions, request, true);
     std::string placed = core.text + timing::name_of(core.placement.code) + timing::name_of(core.placement.data);

@@ -21,6 +21,7 @@
 #include "cli/generate_controller.hpp"
 #include "cli/generate_model.hpp"
 #include "cli/header_options.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 
 namespace cli {
 namespace {
@@ -46,8 +47,8 @@ choose::Answer choose_one(const Budget& budget) {
 }
 
 void run(const HeaderOptions& options, Budget budget, const std::string& command) {
-    const std::string core = budget.core.empty() ? default_core : budget.core;
-    (void)timing::cores_of(bench::timing_request(cores_folder(), {core}));  // refused before anything is measured
+    const std::string core = core_of(budget);
+    const base::Machine& machine = qemu::machine_of({core, "", ""}, cores_folder());  // refused before all else
     if (!options.controller.empty()) {
         if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
             refuse(
@@ -112,7 +113,7 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
             refuse("--derivative-error: it fits a filter to what is chosen; expected no --kernel beside it");
         }
         budget.step_s = budget.step_s == 0.0 ? 0.001 : budget.step_s;
-        budget.target = budget.target.empty() ? "m7" : budget.target;
+        budget.target = budget.target.empty() ? std::string(machine.word) : budget.target;
         budget.max_error = 1.0;  // no limit: it is measured and told
         const std::vector<std::string> kernels = named_kernels(options.kernel, budget.order);
         if (kernels.size() > 1 && !options.out.empty()) {
@@ -125,7 +126,8 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
         }
         if (!options.out.empty()) {
             (void)generate::make_header(specs.front());  // refused before anything is measured
-            answer = choose::measure_one(to_question(budget), kernels.front(), specs.front().taps, board_if_there());
+            answer =
+                choose::measure_one(to_question(budget), kernels.front(), specs.front().taps, board_if_there(machine));
         }
     }
     if (!options.out.empty()) {
@@ -136,9 +138,9 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
         fmt::print("{} with {} taps in {}\n", spec.kernel, generate::length_of(spec).text(), options.out);
     }
     if (options.verify) {
-        const auto verified =
-            generate::verify_on_target(specs, built_board(), bench::timing_request(cores_folder(), {core}));
-        fmt::print("{}", generate::to_table(verified, core));
+        const qemu::Board board = built_board(machine);
+        const auto verified = generate::verify_on_target(specs, board, bench::timing_request(cores_folder(), {core}));
+        fmt::print("{}", generate::to_table(verified, core, board));
         const auto failed =
             std::count_if(verified.begin(), verified.end(), [](const auto& one) { return !one.good(); });
         if (failed > 0) {
@@ -171,11 +173,12 @@ void add_options(Command& command, const Words& words) {
                        "margins are told; an unstable one is refused");
     options->json.add_to(command, "--json",
                          "What was found: with --controller schema glsum-controller-1, with --model glsum-model-1");
-    command.add_flag("--verify", options->verify,
-                     "Compiles it for the emulated Cortex-M7, runs its self-check there, counts its instructions and "
-                     "modelled cycles and the kernel's; of a controller, steps it here and there, compares its bits, "
-                     "and tells its cycles and "
-                     "bytes beside an integer PID's");
+    command.add_flag(
+        "--verify", options->verify,
+        "Compiles it for the emulated core (--core, --target), runs its self-check there, counts its instructions and "
+        "modelled cycles and the kernel's; of a controller, steps it here and there, compares its bits, "
+        "and tells its cycles and "
+        "bytes beside an integer PID's");
     command.footer(
         "Takes the budget of `choose` (see there), --derivative-error and --band included, and writes what that "
         "chooses, among the kernels that can be "

@@ -15,6 +15,7 @@
 #include "bench/target/target_rows.hpp"
 #include "cli/board.hpp"
 #include "drive/model_file.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 
 namespace cli {
 namespace {
@@ -38,9 +39,10 @@ void verify(generate::ControllerReport& report, const generate::ControllerSpec& 
         controllers.push_back(
             generate::written(whole, prefix, generate::make_controller_header(whole, prefix, licence, {})));
     }
+    const base::Machine& machine = qemu::machine_of({report.core, "", ""}, cores_folder());
     try {
-        const auto all =
-            generate::check_on_target(controllers, built_board(), bench::timing_request(cores_folder(), {report.core}));
+        const auto all = generate::check_on_target(controllers, built_board(machine),
+                                                   bench::timing_request(cores_folder(), {report.core}));
         report.checked.push_back(all[0].bits);
         report.cost = all[0].cost;
         if (all.size() > 1) {
@@ -50,7 +52,7 @@ void verify(generate::ControllerReport& report, const generate::ControllerSpec& 
         if (failure.status() != glsum::Exit::missing) {
             throw;
         }
-        fmt::print("bits on the emulated Cortex-M7: not compared: {}\n", failure.what());
+        fmt::print("bits on the emulated {}: not compared: {}\n", machine.name, failure.what());
     }
     for (const generate::CheckedBits& one : report.checked) {
         fmt::print("{}\n", generate::to_text(one));

@@ -12,6 +12,7 @@
 #include "bench/target/target_rows.hpp"
 #include "cli/board.hpp"
 #include "drive/model_file.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 
 namespace cli {
 namespace {
@@ -33,16 +34,17 @@ double step_of(const ModelOptions& options, const drive::Model& model) {
 // Here, and on the target where it was built.
 void verify(generate::ModelReport& report, const generate::WrittenStepper& written) {
     report.checked = {generate::check_bits_here(written)};
+    const base::Machine& machine = qemu::machine_of({report.core, "", ""}, cores_folder());
     try {
-        const auto all =
-            generate::check_on_target({written}, built_board(), bench::timing_request(cores_folder(), {report.core}));
+        const auto all = generate::check_on_target({written}, built_board(machine),
+                                                   bench::timing_request(cores_folder(), {report.core}));
         report.checked.push_back(all[0].bits);
         report.cost = all[0].cost;
     } catch (const Failure& failure) {
         if (failure.status() != Exit::missing) {
             throw;
         }
-        fmt::print("bits on the emulated Cortex-M7: not compared: {}\n", failure.what());
+        fmt::print("bits on the emulated {}: not compared: {}\n", machine.name, failure.what());
     }
     for (const generate::CheckedBits& one : report.checked) {
         fmt::print("{}\n", generate::to_text(one));

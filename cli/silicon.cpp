@@ -14,6 +14,7 @@
 #include "cli/board.hpp"
 #include "cli/command.hpp"
 #include "cli/output.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 #include "qemu/emulate/measured_calls.hpp"
 #include "qemu/emulate/predicted_calls.hpp"
 #include "qemu/emulate/rows_fit.hpp"
@@ -62,7 +63,7 @@ void print_sets(const timing::CoreFile& core, const std::vector<qemu::MeasuredCy
 
 void run(const Options& options) {
     const std::vector<qemu::MeasuredCycles> rows = read_measured_cycles(options.file);
-    const qemu::SiliconProgram program = built_silicon();
+    const qemu::SiliconProgram program = built_silicon(qemu::machine_of({options.core, "", ""}, cores_folder()));
     const timing::CoreFile core = timing::read_core(program.cores_folder, options.core);
     std::vector<qemu::CoreVariant> variants{{options.core, "", options.without}};
     for (const timing::RuleSet& set : core.sets) {
@@ -122,8 +123,12 @@ void run_rows(const Options& options) {
     const std::vector<qemu::MeasuredCall> rows = qemu::parse_measured_calls(
         base::read_file(options.rows, qemu::MeasuredLimits::bytes), name, options.rows.parent_path());
     options.json.check();
-    const qemu::CallsProgram program{
-        {emulate_script(), std::chrono::seconds(options.timeout), std::chrono::seconds(10)}, plugin(), cores_folder()};
+    const qemu::CallsProgram program{[&](const base::Machine& machine) {
+                                         return qemu::Emulator{emulate_script(machine),
+                                                               std::chrono::seconds(options.timeout),
+                                                               std::chrono::seconds(10)};
+                                     },
+                                     plugin(), cores_folder()};
     const std::vector<qemu::PredictedCall> predicted =
         qemu::predict_calls(program, rows, name, options.without, options.jobs);
     const qemu::RowsFit fit = qemu::fit_of(rows, predicted);

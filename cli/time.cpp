@@ -30,7 +30,7 @@ void run(const Options& options) {
     const qemu::Elf elf(options.timed.elf);
     const timing::TimingRequest request = to_request(options.timed, elf);
     const timing::CoreFile core = timing::cores_of(request).front();
-    qemu::check_runs_on_board(elf);
+    qemu::check_runs_on_board(elf, base::machine_of_core(timing::name_of(core.core)));
     std::vector<qemu::Function> functions;
     for (const std::string& name : options.functions) {
         functions.push_back(elf.function(name));

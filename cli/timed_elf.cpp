@@ -8,6 +8,7 @@
 
 #include "base/failure.hpp"
 #include "cli/name_value.hpp"
+#include "qemu/emulate/foreign_program.hpp"
 #include "qemu/emulate/timed_program.hpp"
 
 namespace cli {
@@ -88,7 +89,9 @@ std::vector<timing::TimingLog> time_functions(const TimedElf& options, const std
     }
     std::sort(entries.begin(), entries.end());
     entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
-    const qemu::Emulator emulator{emulate_script(), std::chrono::seconds(options.timeout), std::chrono::seconds(10)};
+    const base::Machine& machine = qemu::machine_of(request.cores.front(), request.cores_folder);
+    const qemu::Emulator emulator{emulate_script(machine), std::chrono::seconds(options.timeout),
+                                  std::chrono::seconds(10)};
     const std::vector<timing::TimingLog> sorted = qemu::time_program(
         emulator, plugin(), options.elf, {functions.front().name}, entries, request, {}, {}, uncalled);
     std::vector<timing::TimingLog> logs;

@@ -66,7 +66,7 @@ std::vector<Cost> OnTarget::costs(const std::vector<Case>& cases) {
         }
     }
     if (!plan.empty()) {
-        base::Progress progress("emulated Cortex-M7", plan.size());
+        base::Progress progress(board_.name(), plan.size());
         const auto counted = bench::count_on_target(
             plan, signals_, board_, jobs_, [&] { progress.advance(); }, timing_);
         for (std::size_t i = 0; i < plan.size(); ++i) {

@@ -84,7 +84,12 @@ Earlier read_earlier(const Question& question, const bench::Json& context) {
             fmt::format("everything is measured afresh, not of {}: its weights are {}, not gl", name, weights);
         return earlier;
     }
-    const std::string firmware = difference(results.context, context, {"elf_sha256"});
+    // Of a run on several machines the file has the hash of each one's firmware.
+    const base::Machine* const machine = machine_of(question.target);
+    const std::string own = machine == nullptr ? "" : fmt::format("{}_elf_sha256", machine->word);
+    const bool own_firmware =
+        !text(context, "elf_sha256").empty() && text(results.context, own.c_str()) == text(context, "elf_sha256");
+    const std::string firmware = own_firmware ? "" : difference(results.context, context, {"elf_sha256"});
     std::string build = difference(results.context, context, {"glsum_version", "compiler", "flags", "contraction"});
     const bool clean = text(results.context, "dirty") == "false" && text(context, "dirty") == "false";
     if (build.empty() && !firmware.empty()) {
@@ -104,7 +109,7 @@ Earlier read_earlier(const Question& question, const bench::Json& context) {
     earlier.errors = build.empty();
     earlier.note = fmt::format("errors: {}", earlier.errors ? "of " + name + " where it has them"
                                                             : "measured afresh, not of " + name + ": " + build);
-    if (question.target == Target::m7) {
+    if (machine != nullptr) {
         // The file may have other cores too.
         const std::string core = question.core.empty() ? "" : text(context, "core_file");
         const bool same_core = text(results.context, "core_file").find(core) != std::string::npos;
@@ -137,7 +142,8 @@ void remember(const Earlier& earlier, const Question& question, OnTarget& costs)
     for_each_row(earlier, question, [&](const bench::RowKey& key, std::size_t taps, const bench::Json& row) {
         const auto value = value_of(row, counter);
         const auto limited = value_of(row, limit);
-        if (!key.is_target() || (costs.modelled() && key.core() != question.core) || !value || !limited) {
+        if (key.machine() != machine_of(question.target) || (costs.modelled() && key.core() != question.core) ||
+            !value || !limited) {
             return;
         }
         // In software double the data decides, and with it the order at which the count was taken.

@@ -29,7 +29,8 @@ bench::Json context_of(const Question& question, const std::optional<qemu::Board
     if (!question.core.empty()) {
         sweep.cores = {question.core};
     }
-    bench::Json context = bench::make_context({}, sweep, board ? &*board : nullptr);
+    bench::Json context =
+        bench::make_context({}, sweep, board ? std::vector<qemu::Board>{*board} : std::vector<qemu::Board>{});
     context["executable"] = "glsum choose";
     context["step_s"] = question.conditions.step_s;
     return context;
@@ -94,7 +95,8 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
                                        const std::optional<qemu::Board>& board, std::string& note) {
     if (question.target == Target::host) {
         if (question.max_instructions) {
-            throw Failure(Exit::bad_input, "--max-instructions: only with --target m7; on the host use --max-cycles");
+            throw Failure(Exit::bad_input,
+                          "--max-instructions: only with --target m7 or m4; on the host use --max-cycles");
         }
         note = fmt::format(
             "host times: taken in this run alone, {} interleaved repetitions of each candidate, never of a file",
@@ -108,10 +110,11 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
         throw Failure(Exit::bad_input, "--max-cycles: with --max-instructions only instructions are counted");
     }
     if (!board) {
-        throw Failure(Exit::missing, "the emulated board is needed for --target m7 and was not found");
+        throw Failure(Exit::missing, fmt::format("the emulated board is needed for --target {} and was not found",
+                                                 word_of(question.target)));
     }
-    note = question.core.empty() ? "counted on the emulated Cortex-M7; instructions are not cycles"
-                                 : fmt::format("cycles: modelled for {}, on the emulated Cortex-M7", question.core);
+    note = question.core.empty() ? fmt::format("counted on the {}; instructions are not cycles", board->name())
+                                 : fmt::format("cycles: modelled for {}, on the {}", question.core, board->name());
     auto costs = std::make_unique<OnTarget>(*board, question.counted_order(), question.conditions.samples,
                                             question.conditions.seed, question.jobs, question.core);
     remember(earlier, question, *costs);
@@ -119,6 +122,21 @@ std::unique_ptr<CostSource> make_costs(const Question& question, const Earlier& 
 }
 
 }  // namespace
+
+const base::Machine* machine_of(Target target) {
+    return target == Target::host ? nullptr : base::machine_called(word_of(target));
+}
+
+std::string_view word_of(Target target) { return target == Target::host ? "host" : target == Target::m7 ? "m7" : "m4"; }
+
+std::optional<Target> target_called(std::string_view word) {
+    for (const Target target : {Target::host, Target::m7, Target::m4}) {
+        if (word_of(target) == word) {
+            return target;
+        }
+    }
+    return std::nullopt;
+}
 
 std::vector<std::string> kernels_of(Target target, double order) {
     std::vector<std::string> kernels;
@@ -144,7 +162,7 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
     const std::vector<std::string> left_out = question.goal ? leave_out(kernels) : std::vector<std::string>{};
     const Limits limits{
         question.max_error,
-        question.target == Target::m7 && question.max_instructions ? question.max_instructions : question.max_cycles,
+        question.target != Target::host && question.max_instructions ? question.max_instructions : question.max_cycles,
         question.max_bytes};
     answer.choice = choose(errors.source(), *costs, kernels, limits, question.jobs);
     answer.unit = costs->unit();
@@ -189,7 +207,7 @@ Answer measure_one(const Question& question, const std::string& kernel, std::siz
                                   candidate.error.fault));
     }
     std::string note;
-    if (question.target == Target::m7 && !board) {
+    if (question.target != Target::host && !board) {
         candidate.cost.fault = "the emulated board was not found";
         answer.unit = answer.limited_unit = question.core.empty() ? "instructions" : "model cycles";
     } else {

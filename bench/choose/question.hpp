@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "base/machines.hpp"
 #include "bench/choose/conditions.hpp"
 #include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/search.hpp"
@@ -16,7 +18,12 @@
 
 namespace choose {
 
-enum class Target { host, m7 };
+enum class Target { host, m7, m4 };
+/// The emulated machine of a target; null: this machine itself.
+[[nodiscard]] const base::Machine* machine_of(Target target);
+/// "host", "m7", "m4"; nothing for other words.
+[[nodiscard]] std::optional<Target> target_called(std::string_view word);
+[[nodiscard]] std::string_view word_of(Target target);
 
 struct Question {
     Conditions conditions;
@@ -48,12 +55,13 @@ struct Answer {
     bench::Json context;                         ///< the conditions of this run
 };
 
-/// Kernels that run on a target: all but `null`, on the m7 without the host's own, those of integrals for these alone.
+/// Kernels that run on a target: all but `null`, on an emulated one without the host's own, those of integrals for
+/// these alone.
 [[nodiscard]] std::vector<std::string> kernels_of(Target target, double order);
 
-/// \param board  needed for the target m7; on the host it only says whether a file's rows are of this build
-/// \throws glsum::Failure (bad input) for limits that do not suit the target; (missing) without a board for the target
-/// m7.
+/// \param board  needed for an emulated target; on the host it only says whether a file's rows are of this build
+/// \throws glsum::Failure (bad input) for limits that do not suit the target; (missing) without a board for an emulated
+/// target.
 [[nodiscard]] Answer answer(const Question& question, const std::optional<qemu::Board>& board);
 
 /// The error and cost of one kernel and length, whatever the limits: `chosen` of the answer. Without a board the

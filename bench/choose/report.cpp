@@ -181,11 +181,14 @@ std::string budget_share(const Answer& answer, const Candidate& candidate) {
         fmt::format("{} at {} samples a second leave {} cycles a sample", hertz(*question.clock_hz),
                     fmt::format("{:g}", *question.rate_hz), count(budget));
     if (answer.unit == "instructions") {
-        const double least = candidate.cost.value / 2.0;
+        const base::Machine* const machine = machine_of(question.target);
+        const unsigned width = machine != nullptr ? machine->issues_a_cycle : 2;
+        const double least = candidate.cost.value / width;
         return fmt::format(
-            "{}; a core that issues two instructions a cycle needs at least {} of them for {} instructions: "
+            "{}; a core that issues {} a cycle needs at least {} of them for {} instructions: "
             "at least {:.3g} %, and more by every stall",
-            time, count(std::ceil(least)), count(candidate.cost.value), 100.0 * least / budget);
+            time, width == 1 ? "one instruction" : "two instructions", count(std::ceil(least)),
+            count(candidate.cost.value), 100.0 * least / budget);
     }
     return fmt::format("{}; {} takes {:.3g} %", time,
                        answer.unit == "ns" ? "the host's cycle count" : "the model's upper end",
@@ -296,7 +299,7 @@ bench::Json to_json(const Answer& answer) {
     bench::Json& asked = json["question"];
     asked["order"] = question.conditions.order;
     asked["step_s"] = question.conditions.step_s;
-    asked["target"] = question.target == Target::host ? "host" : "m7";
+    asked["target"] = word_of(question.target);
     asked["core"] = question.core;
     if (question.goal) {
         asked["derivative_error"] = question.max_error;

@@ -14,8 +14,9 @@ namespace bench::gate {
 namespace {
 
 // Of the machine and the moment, not of what is compared.
-constexpr std::string_view left_out_of_context[] = {"host_name",           "executable", "num_cpus", "mhz_per_cpu",
-                                                    "cpu_scaling_enabled", "caches",     "load_avg", "elf_sha256"};
+constexpr std::string_view left_out_of_context[] = {"host_name",   "executable",          "num_cpus",
+                                                    "mhz_per_cpu", "cpu_scaling_enabled", "caches",
+                                                    "load_avg",    "elf_sha256",          "m4_elf_sha256"};
 
 std::string today() {
     const std::time_t time = std::time(nullptr);

@@ -31,6 +31,9 @@ constexpr Field fields[] = {
     {"weights", Matters::always, Effect::incomparable},
     {"target_compiler", Matters::to_target, Effect::incomparable},
     {"target_flags", Matters::to_target, Effect::incomparable},
+    // Of a second machine in the same run.
+    {"m4_target_compiler", Matters::to_target, Effect::incomparable},
+    {"m4_target_flags", Matters::to_target, Effect::incomparable},
     {"target_count_order", Matters::to_target, Effect::incomparable},
     {"placement", Matters::to_target, Effect::incomparable},
     // With its hash, under whatever key that begins so.

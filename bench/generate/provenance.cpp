@@ -17,7 +17,8 @@ std::string text(const bench::Json& context, const char* field) {
 std::vector<std::string> provenance(const choose::Answer& answer, const std::string& command) {
     const choose::Question& question = answer.question;
     const choose::Candidate& chosen = answer.choice.chosen.value();
-    const bool on_target = question.target == choose::Target::m7;
+    const base::Machine* const machine = choose::machine_of(question.target);
+    const bool on_target = machine != nullptr;
     std::vector<std::string> lines;
     if (!question.goal) {
         lines = {fmt::format("Measured error {:.3g} ({}): the largest of S_k over {} samples at h = {:g} s,",
@@ -30,7 +31,7 @@ std::vector<std::string> provenance(const choose::Answer& answer, const std::str
                         ? fmt::format("Measured cost a sample of the kernel that this is made from: {}{}",
                                       choose::cost_text(answer, chosen),
                                       on_target ? answer.unit == "instructions"
-                                                      ? ", on an emulated Cortex-M7: no cycles"
+                                                      ? fmt::format(", on an emulated {}: no cycles", machine->name)
                                                       : ", for " + question.core
                                                 : " on " + text(answer.context, "cpu"))
                         : fmt::format("Cost not measured: {}", chosen.cost.fault));

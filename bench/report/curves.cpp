@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "base/files.hpp"
 #include "bench/rows/csv.hpp"
@@ -22,16 +21,12 @@ const ModelCycles* cycles_on(const std::string& core, const Entry& entry) {
 }  // namespace
 
 std::vector<Cost> costs_of(const std::vector<Group>& groups) {
-    std::set<std::string> cores;
     bool host = false;
     bool target = false;
     for (const Group& group : groups) {
         for (const Entry& entry : group.entries) {
             host = host || entry.host_ns;
             target = target || entry.target_instructions;
-            for (const auto& [core, cycles] : entry.model_cycles) {
-                cores.insert(core);
-            }
         }
     }
     std::vector<Cost> costs;
@@ -39,17 +34,20 @@ std::vector<Cost> costs_of(const std::vector<Group>& groups) {
         costs.push_back({Cost::Kind::host_time, "", "host_ns", "host, ns per sample",
                          [](const Entry& entry) { return entry.host_ns; }});
     }
+    const base::Machine* const known = counted_on(groups);
+    const base::Machine* const counted = known != nullptr ? known : base::machines.data();
     if (target) {
         costs.push_back({Cost::Kind::instructions, "", "instructions",
-                         "emulated Cortex-M7, instructions per sample (not cycles)",
-                         [](const Entry& entry) { return entry.target_instructions; }});
+                         fmt::format("emulated {}, instructions per sample (not cycles)", counted->name),
+                         [](const Entry& entry) { return entry.target_instructions; }, counted});
     }
-    for (const std::string& core : cores) {
+    for (const auto& [machine, core] : modelled_cores(groups)) {
         costs.push_back({Cost::Kind::model_cycles, core, "model_cycles:" + core, core + ", modelled cycles per sample",
-                         [core](const Entry& entry) {
+                         [core = core](const Entry& entry) {
                              const ModelCycles* const cycles = cycles_on(core, entry);
                              return cycles == nullptr ? std::nullopt : std::optional(cycles->median);
-                         }});
+                         },
+                         machine});
     }
     costs.push_back({Cost::Kind::bytes, "", "bytes", "bytes of state and coefficients",
                      [](const Entry& entry) { return entry.bytes; }});

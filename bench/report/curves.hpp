@@ -20,6 +20,7 @@ struct Cost {
     std::string name;   ///< of a CSV column: host_ns, instructions, model_cycles:<core>, bytes
     std::string title;  ///< with its unit
     std::function<std::optional<double>(const Entry&)> of;
+    const base::Machine* machine = &base::machines.front();  ///< of cycles and instructions
 };
 
 /// The costs that occur in a run.

@@ -69,7 +69,7 @@ export function wordsOf(kernel) {
 const wholeSignal = signal => !signal.includes(",");  // the amplitude sweep is another question
 
 /// What each kernel does at each order and length of one file, whatever the signal: cases[order][kernel][taps] =
-/// {kernel, order, taps, at: number of taps, accuracy: table, signals: {signal: its row}, host, m7: {core: counters}, fault}.
+/// {kernel, order, taps, at: number of taps, accuracy: table, signals: {signal: its row}, host, m7: {aspect of an emulated core: counters}, fault}.
 export function joinFile(file, ofTheClock) {
   const tables = file.tables.map(decodeTable);
   const accuracy = tables.find(table => table.aspect === "accuracy");
@@ -186,7 +186,9 @@ export function bytesOf(found) {
 
 /// What an error is drawn against: {id, title, unit, aspect, cost(case), band(case)}.
 export function axesOf(files) {
-  const aspects = [...new Set(files.flatMap(file => file.tables.map(table => table.aspect)))].filter(a => a.startsWith("m7"));
+  // The Cortex-M7's first, where there are others too.
+  const aspects = [...new Set(files.flatMap(file => file.tables.map(table => table.aspect)))].filter(a => /^m[0-9]+:/.test(a))
+    .sort((a, b) => d3.descending(a.slice(0, 2), b.slice(0, 2)));
   const has = (aspect, counter) =>
     files.some(file => file.tables.some(table => table.aspect === aspect && table.number[counter]));
   const axes = [{id: "taps", title: "memory length", unit: "taps", cost: found => found.at}];
@@ -208,9 +210,12 @@ export function axesOf(files) {
   }
   const counted = aspects.find(aspect => has(aspect, "instructions_per_sample"));
   if (counted) {
-    axes.push({id: "instructions", aspect: counted, title: "instructions, emulated Cortex-M7", unit: "instructions per sample, not cycles",
+    const core = counted.slice(0, 3);
+    axes.push({id: "instructions", aspect: counted, title: "instructions, emulated Cortex-" + core.slice(0, 2).toUpperCase(),
+               unit: "instructions per sample, not cycles",
                cost: found => {
-                 const row = Object.values(found.m7).find(counters => counters.instructions_per_sample !== undefined);
+                 const row = Object.entries(found.m7).filter(([aspect]) => aspect.startsWith(core)).map(([, counters]) => counters)
+                   .find(counters => counters.instructions_per_sample !== undefined);
                  return row && row.instructions_per_sample;
                }});
   }

@@ -22,9 +22,10 @@ struct Words {
 Words words_of(const Cost& cost) {
     switch (cost.kind) {
         case Cost::Kind::model_cycles:
-            return {"cycles", fmt::format("cycles of a Cortex-M7, modelled for {}", cost.core), 0};
+            return {"cycles", fmt::format("cycles of a {}, modelled for {}", cost.machine->name, cost.core), 0};
         case Cost::Kind::instructions:
-            return {"instructions", "instructions of the emulated Cortex-M7, which are not cycles", 0};
+            return {"instructions",
+                    fmt::format("instructions of the emulated {}, which are not cycles", cost.machine->name), 0};
         case Cost::Kind::host_time:
             return {"ns", "time on this machine", 1};
         case Cost::Kind::bytes:

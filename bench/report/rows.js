@@ -57,7 +57,7 @@ export function rowsShown(all, now) {
     ids, chosen: chosen.id, rows, columns: [...texts, ...numbers],
     text: `${grouped(rows.length)} of ${grouped(table.rows)} rows of ${chosen.id} pass the filters.` +
       (timed ? " Host timing is taken at one order." : "") +
-      (table.aspect === "m7:count" ? " Instructions of the emulated core; they are not cycles." : "")
+      (table.aspect.endsWith(":count") ? " Instructions of the emulated core; they are not cycles." : "")
   };
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <set>
 
 namespace bench {
 namespace {
@@ -14,46 +13,43 @@ std::string count(std::optional<double> value, const char* form) {
     return value ? fmt::format(fmt::runtime(form), *value) : "-";
 }
 
-// The modelled cores of a group, by name.
-std::set<std::string> cores_of(const Group& group) {
-    std::set<std::string> cores;
-    for (const Entry& entry : group.entries) {
-        for (const auto& [core, cycles] : entry.model_cycles) {
-            cores.insert(core);
-        }
-    }
-    return cores;
+using Cores = std::vector<ModelledCore>;
+
+// "M7", "M4"
+std::string short_name(const base::Machine& machine) {
+    return std::string(machine.name.substr(machine.name.rfind('-') + 1));
 }
 
 // Instructions and the most of them; of modelled cores the cycles and the band over the rule sets instead of the
 // latter.
-std::string target_cells(const Entry& entry, const std::set<std::string>& cores) {
+std::string target_cells(const Entry& entry, const Cores& cores) {
     const char mark = entry.target_front ? '*' : ' ';
     if (cores.empty()) {
         return fmt::format("  {:>10}{} {:>10}", count(entry.target_instructions, "{:.1f}"), mark,
                            count(entry.target_worst, "{:.0f}"));
     }
     std::string cells = fmt::format("  {:>10}", count(entry.target_instructions, "{:.1f}"));
-    for (const std::string& core : cores) {
-        const auto found = entry.model_cycles.find(core);
+    for (const ModelledCore& core : cores) {
+        const auto found = entry.model_cycles.find(core.name);
         const bool known = found != entry.model_cycles.end();
         const std::string band = known && found->second.low && found->second.high
                                      ? fmt::format("{:.0f} to {:.0f}", *found->second.low, *found->second.high)
                                      : "-";
         cells += fmt::format("  {:>9}{} {:>17}", known ? fmt::format("{:.1f}", found->second.median) : "-",
-                             core == *cores.begin() ? mark : ' ', band);
+                             &core == cores.data() ? mark : ' ', band);
     }
     return cells;
 }
 
-std::string line_of(const Entry& entry, const std::set<std::string>& cores) {
+std::string line_of(const Entry& entry, const Cores& cores) {
     const bool ranked = entry.error_max && entry.fault.empty();
     const bool dominated = ranked && !entry.host_front && !entry.target_front;
     std::string note = entry.fault;  // from a file: without what would steer a terminal
     std::replace_if(
         note.begin(), note.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }, ' ');
     if (note.empty() && entry.software_double) {
-        note = "double in software on the M7";
+        note = fmt::format("double in software on the {}",
+                           short_name(entry.counted_on != nullptr ? *entry.counted_on : base::machines.front()));
     }
     if (dominated) {
         note = note.empty() ? "dominated" : "dominated; " + note;
@@ -66,16 +62,21 @@ std::string line_of(const Entry& entry, const std::set<std::string>& cores) {
     return line;
 }
 
-std::string heading_of(const Group& group, const std::set<std::string>& cores) {
+std::string heading_of(const Group& group, const Cores& cores) {
     std::string text = fmt::format("\norder {}, {} taps", group.order, group.taps);
-    std::string target = fmt::format("  {:>10}", "M7 instr.");
+    const base::Machine* const machine = counted_on({&group, 1});
+    const std::string counted = short_name(machine != nullptr ? *machine : base::machines.front());
+    std::string target = fmt::format("  {:>10}", counted + " instr.");
     if (cores.empty()) {
-        target += fmt::format("  {:>10}", "M7 worst");
-    } else {
-        text += fmt::format("; M7 cycles modelled for {}", fmt::join(cores, ", then "));
+        target += fmt::format("  {:>10}", counted + " worst");
     }
-    for (std::size_t core = 0; core < cores.size(); ++core) {
-        target += fmt::format("  {:>9}  {:>17}", "M7 cycles", "band");
+    const base::Machine* before = nullptr;
+    for (const ModelledCore& core : cores) {
+        const std::string modelled = short_name(*core.machine);
+        text += core.machine == before ? ", then " + core.name
+                                       : fmt::format("; {} cycles modelled for {}", modelled, core.name);
+        before = core.machine;
+        target += fmt::format("  {:>9}  {:>17}", modelled + " cycles", "band");
     }
     return text + fmt::format("\n  {:<25} {:>9} {:>9}  {:>9}  {:>9}{}  {:>8}\n", "kernel", "error max", "rounding",
                               "host ns", "cycles", target, "bytes");
@@ -91,7 +92,7 @@ std::string to_table(const std::vector<Group>& groups, bool colour) {
         std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
             return a.error_max.value_or(1e300) < b.error_max.value_or(1e300);
         });
-        const std::set<std::string> cores = cores_of(group);
+        const Cores cores = modelled_cores({&group, 1});
         modelled = modelled || !cores.empty();
         text += heading_of(group, cores);
         for (const Entry& entry : entries) {

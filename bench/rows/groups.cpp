@@ -1,7 +1,9 @@
 #include "bench/rows/groups.hpp"
 
 #include <algorithm>
+#include <set>
 #include <unordered_map>
+#include <utility>
 
 #include "bench/rows/front.hpp"
 #include "bench/rows/key.hpp"
@@ -44,26 +46,34 @@ void add_row(Entry& entry, const RowKey& key, const Json& row) {
         keep_larger(entry.truncation_error_max, value_of(row, Counter::truncation_error_max));
         keep_larger(entry.effective_taps, value_of(row, Counter::effective_taps));
     } else if (key.is_target()) {
-        entry.target_instructions = value_of(row, Counter::instructions_per_sample);
-        entry.target_worst = value_of(row, Counter::worst_instructions);
+        const base::Machine* const machine = key.machine();
+        if (entry.counted_on == nullptr || machine <= entry.counted_on) {
+            entry.counted_on = machine;
+            entry.target_instructions = value_of(row, Counter::instructions_per_sample);
+            entry.target_worst = value_of(row, Counter::worst_instructions);
+        }
         if (const auto cycles = value_of(row, Counter::model_cycles_per_sample)) {
             entry.model_cycles[key.core()] = {*cycles, value_of(row, Counter::model_cycles_low),
-                                              value_of(row, Counter::model_cycles_high)};
+                                              value_of(row, Counter::model_cycles_high), machine};
         }
         const glsum::CatalogueEntry* facts = glsum::find_kernel(entry.kernel);
         entry.software_double = facts != nullptr && facts->in_double;
     }
     const auto state = value_of(row, Counter::state_bytes);
     const auto coefficients = value_of(row, Counter::coefficient_bytes);
-    if (state && coefficients && (key.is_target() || !entry.target_instructions)) {
+    const bool counts = key.is_target() ? key.machine() == entry.counted_on : !entry.target_instructions;
+    if (state && coefficients && counts) {
         entry.bytes = *state + *coefficients;
     }
 }
 
-// Modelled cycles where there are any, of the first core by name.
+// Modelled cycles where there are any, of the first core.
 std::optional<double> target_cost(const Entry& entry) {
-    return entry.model_cycles.empty() ? entry.target_instructions
-                                      : std::optional(entry.model_cycles.begin()->second.median);
+    const ModelCycles* first = nullptr;
+    for (const auto& [core, cycles] : entry.model_cycles) {
+        first = first == nullptr || cycles.machine < first->machine ? &cycles : first;
+    }
+    return first == nullptr ? entry.target_instructions : std::optional(first->median);
 }
 
 // \param cost  of an entry, if it has one
@@ -84,6 +94,34 @@ void mark_front(Group& group, CostOf cost, bool Entry::*front) {
 }
 
 }  // namespace
+
+std::vector<ModelledCore> modelled_cores(std::span<const Group> groups) {
+    std::set<std::pair<const base::Machine*, std::string>> found;
+    for (const Group& group : groups) {
+        for (const Entry& entry : group.entries) {
+            for (const auto& [core, cycles] : entry.model_cycles) {
+                found.emplace(cycles.machine, core);
+            }
+        }
+    }
+    std::vector<ModelledCore> cores;
+    for (const auto& [machine, core] : found) {
+        cores.push_back({machine, core});
+    }
+    return cores;
+}
+
+const base::Machine* counted_on(std::span<const Group> groups) {
+    const base::Machine* first = nullptr;
+    for (const Group& group : groups) {
+        for (const Entry& entry : group.entries) {
+            if (entry.counted_on != nullptr && (first == nullptr || entry.counted_on < first)) {
+                first = entry.counted_on;
+            }
+        }
+    }
+    return first;
+}
 
 std::vector<Group> group(const std::vector<Json>& rows) {
     std::vector<Group> groups;

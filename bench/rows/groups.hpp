@@ -3,9 +3,11 @@
 
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "base/machines.hpp"
 #include "bench/rows/row.hpp"
 
 namespace bench {
@@ -15,6 +17,7 @@ struct ModelCycles {
     double median;
     std::optional<double> low;
     std::optional<double> high;
+    const base::Machine* machine = &base::machines.front();
 };
 
 /// What one kernel does at one order and length.
@@ -23,9 +26,10 @@ struct Entry {
     std::optional<double> error_max;           ///< worst of the signals
     std::optional<double> rounding_error_max;  ///< worst of the signals
     std::optional<double> truncation_error_max;
-    std::optional<double> host_ns;      ///< median of the repetitions
-    std::optional<double> host_cycles;  ///< likewise
-    std::optional<double> target_instructions;
+    std::optional<double> host_ns;              ///< median of the repetitions
+    std::optional<double> host_cycles;          ///< likewise
+    const base::Machine* counted_on = nullptr;  ///< the first of `base::machines` that it was counted on
+    std::optional<double> target_instructions;  ///< there
     std::optional<double> target_worst;
     std::map<std::string, ModelCycles> model_cycles;  ///< by core
     std::optional<double> effective_taps;
@@ -42,6 +46,15 @@ struct Group {
     std::string taps;
     std::vector<Entry> entries;
 };
+
+struct ModelledCore {
+    const base::Machine* machine;
+    std::string name;
+};
+/// The modelled cores of some groups: those of the first machine first, then by name.
+[[nodiscard]] std::vector<ModelledCore> modelled_cores(std::span<const Group> groups);
+/// The first machine that something of them was counted on; null: none.
+[[nodiscard]] const base::Machine* counted_on(std::span<const Group> groups);
 
 /// Groups by order and length, in the order of their appearance. Host timings, taken at one order, serve all;
 /// of repetitions the median counts.

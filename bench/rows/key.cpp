@@ -110,7 +110,9 @@ std::string_view take(std::string_view& rest) {
 
 }  // namespace
 
-std::string on_target(const std::string& core) { return std::string(RowKey::target) + core; }
+std::string on_target(const base::Machine& machine, const std::string& core) {
+    return std::string(machine.word) + ':' + core;
+}
 
 std::string to_name(const RowKey& key) { return written(key, SIZE_MAX); }
 

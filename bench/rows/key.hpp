@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/machines.hpp"
+
 namespace bench {
 
 /// What is measured in a row; each kind has a name of its own form, which begins with the kind's word.
@@ -28,26 +30,30 @@ struct RowKey {
     std::string samples;
     std::string poles;
     std::string hz;      ///< "0.05..80"
-    std::string aspect;  ///< accuracy, host, m7:<core>
+    std::string aspect;  ///< accuracy, host, m7:<core>, m4:<core>
     std::string signal;
     std::string amplitude;  ///< empty: 1
 
     [[nodiscard]] bool is_accuracy() const { return aspect == accuracy; }
     [[nodiscard]] bool is_host() const { return aspect == host; }
-    [[nodiscard]] bool is_target() const { return aspect.starts_with(target); }
+    [[nodiscard]] bool is_target() const { return machine() != nullptr; }
+    /// Of a target's row: the emulated machine that it is of; null of all others.
+    [[nodiscard]] const base::Machine* machine() const {
+        const std::size_t end = aspect.find(':');
+        return end == aspect.npos ? nullptr : base::machine_called(std::string_view(aspect).substr(0, end));
+    }
     /// Of a target's row: the core's name, or `count_only`.
-    [[nodiscard]] std::string core() const { return aspect.substr(target.size()); }
+    [[nodiscard]] std::string core() const { return aspect.substr(aspect.find(':') + 1); }
 
     static constexpr std::string_view accuracy = "accuracy";
     static constexpr std::string_view host = "host";
-    static constexpr std::string_view target = "m7:";
 };
 
 /// In place of a core's name: no timing model, only what the emulator counts.
 inline constexpr const char* count_only = "count";
 
-/// "m7:<core>"
-[[nodiscard]] std::string on_target(const std::string& core);
+/// "m7:<core>", "m4:<core>"
+[[nodiscard]] std::string on_target(const base::Machine& machine, const std::string& core);
 
 [[nodiscard]] std::string to_name(const RowKey& key);
 

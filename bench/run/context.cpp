@@ -62,7 +62,7 @@ std::string core_files(const qemu::Board& board, const std::vector<std::string>&
 
 }  // namespace
 
-Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
+Json make_context(Json google, const Sweep& sweep, const std::vector<qemu::Board>& boards) {
     Json context = std::move(google);
     if (context.is_null()) {
         context["date"] = now();
@@ -86,14 +86,17 @@ Json make_context(Json google, const Sweep& sweep, const qemu::Board* board) {
 #if defined(GLSUM_SIMD)
     context["simd"] = std::string(glsum::simd_instruction_set());
 #endif
-    context["core_file"] = board != nullptr ? core_files(*board, sweep.modelled_cores()) : "none";
-    if (board != nullptr) {
-        const std::filesystem::path info = board->measure_elf.parent_path() / "build_info.json";
+    context["core_file"] = boards.empty() ? "none" : core_files(boards.front(), sweep.modelled_cores());
+    for (const qemu::Board& board : boards) {
+        const std::string whose = &board == boards.data() ? "" : std::string(board.machine->word) + '_';
+        const std::filesystem::path info = board.measure_elf.parent_path() / "build_info.json";
         const TargetBuild target = parse_target_build(base::read_file(info, std::size_t{1} << 20), info.string());
-        context["target_compiler"] = target.compiler;
-        context["target_flags"] = target.flags;
+        context[whose + "target_compiler"] = target.compiler;
+        context[whose + "target_flags"] = target.flags;
+        context[whose + "elf_sha256"] = base::sha256_of(board.measure_elf);
+    }
+    if (!boards.empty()) {
         context["qemu_version"] = qemu::emulator_version();
-        context["elf_sha256"] = base::sha256_of(board->measure_elf);
         context["target_count_order"] = fmt::format("{}", count_order(sweep));
         context["placement"] = "code below 4 MB, data from 0x20000000 (flat memory)";
     }

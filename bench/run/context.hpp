@@ -8,7 +8,7 @@
 namespace bench {
 
 /// Adds our fields to a context that has Google Benchmark's, or makes those that apply without it.
-/// \param board  null when nothing ran on the target
-[[nodiscard]] Json make_context(Json google, const Sweep& sweep, const qemu::Board* board);
+/// \param boards  on which something ran: the fields of those behind the first begin with their machine's word
+[[nodiscard]] Json make_context(Json google, const Sweep& sweep, const std::vector<qemu::Board>& boards);
 
 }  // namespace bench

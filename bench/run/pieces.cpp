@@ -32,10 +32,10 @@ std::vector<Piece> make_pieces(const Sweep& sweep) {
     for (std::size_t i = 0; i < sweep.orders.size() * sweep.signals.size(); ++i) {
         pieces.push_back({Piece::Kind::accuracy, i, accuracy_cost(sweep)});
     }
-    if (sweep.wants("m7")) {
+    for (const base::Machine* machine : sweep.machines()) {
         const std::vector<double> costs = piece_costs(make_target_plan(sweep));
         for (std::size_t i = 0; i < costs.size(); ++i) {
-            pieces.push_back({Piece::Kind::target, i, seconds_per_emulated_tap * costs[i]});
+            pieces.push_back({Piece::Kind::target, i, seconds_per_emulated_tap * costs[i], machine});
         }
     }
     if (sweep.wants("host")) {

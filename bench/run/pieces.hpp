@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/machines.hpp"
 #include "bench/rows/shard.hpp"
 #include "bench/sweep/sweep.hpp"
 
@@ -11,14 +12,16 @@ namespace bench {
 
 /// What is measured in one go because it shares its costly part:
 ///   accuracy  one order and signal, all kernels and lengths: they are held against one exact sum
-///   target    one kernel and length, all orders: they share their counts of instructions; with modes, one kernel
-///   host      all timings: rows of one run are compared by ratio, so none is taken elsewhere or at another time
+///   target    one kernel and length on one machine, all orders: they share their counts of instructions; with modes,
+///   one kernel host      all timings: rows of one run are compared by ratio, so none is taken elsewhere or at another
+///   time
 /// The rows of a run are those of its pieces, one piece after the other.
 struct Piece {
     enum class Kind { accuracy, target, host };
     Kind kind;
     std::size_t number;  ///< among those of its kind: order * signals + signal; as in `TargetPlan::Row::piece`; 0
     double cost;         ///< seconds on one core, roughly: only shards of about equal cost depend on it
+    const base::Machine* machine = nullptr;  ///< of `target`
 };
 
 /// All pieces of the sweep's targets: accuracy first, then target, then host.

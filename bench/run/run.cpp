@@ -11,14 +11,14 @@
 
 namespace bench {
 
-Results measure(const Sweep& sweep, const std::optional<Shard>& shard, const qemu::Board* board,
+Results measure(const Sweep& sweep, const std::optional<Shard>& shard, const std::vector<qemu::Board>& boards,
                 const std::vector<std::string>& flags) {
     const std::vector<Piece> pieces = make_pieces(sweep);
     const std::vector<std::size_t> share = pieces_of(pieces, shard.value_or(Shard{}));
-    const auto numbers = [&](Piece::Kind kind) {
+    const auto numbers = [&](Piece::Kind kind, const base::Machine* machine = nullptr) {
         std::vector<std::size_t> of_kind;
         for (const std::size_t piece : share) {
-            if (pieces[piece].kind == kind) {
+            if (pieces[piece].kind == kind && pieces[piece].machine == machine) {
                 of_kind.push_back(pieces[piece].number);
             }
         }
@@ -31,8 +31,10 @@ Results measure(const Sweep& sweep, const std::optional<Shard>& shard, const qem
     if (const auto cases = numbers(Piece::Kind::accuracy); !cases.empty()) {
         append(measure_accuracy(sweep, cases));
     }
-    if (const auto on_target = numbers(Piece::Kind::target); !on_target.empty()) {
-        append(measure_on_target(sweep, *board, on_target));
+    for (const qemu::Board& board : boards) {
+        if (const auto on_target = numbers(Piece::Kind::target, board.machine); !on_target.empty()) {
+            append(measure_on_target(sweep, board, on_target));
+        }
     }
     Json google;
     if (!numbers(Piece::Kind::host).empty()) {
@@ -42,7 +44,7 @@ Results measure(const Sweep& sweep, const std::optional<Shard>& shard, const qem
         append({std::move(timing.rows)});
     }
     Results results;
-    results.context = make_context(std::move(google), sweep, board);
+    results.context = make_context(std::move(google), sweep, boards);
     if (shard) {
         Json counts = Json::array();
         for (std::size_t i = 0; i < share.size(); ++i) {

@@ -14,9 +14,9 @@ namespace bench {
 
 /// Measures the pieces of a sweep one after the other; host timings come last and alone.
 /// \param shard  if any, only its pieces; the context's `shard` tells which, for `merge`
-/// \param board  null when the sweep does not want the emulated target
+/// \param boards  of the emulated machines that the sweep wants
 /// \param flags  Google Benchmark's own, as given by the user
-[[nodiscard]] Results measure(const Sweep& sweep, const std::optional<Shard>& shard, const qemu::Board* board,
-                              const std::vector<std::string>& flags);
+[[nodiscard]] Results measure(const Sweep& sweep, const std::optional<Shard>& shard,
+                              const std::vector<qemu::Board>& boards, const std::vector<std::string>& flags);
 
 }  // namespace bench

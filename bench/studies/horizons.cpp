@@ -89,7 +89,7 @@ void measure_cycles(std::vector<HorizonCase>& all, const qemu::Board& board, con
                             qemu::calls_to_measure(kernel, one.modes->length()), one.modes->modes});
         }
     }
-    base::Progress progress("emulated Cortex-M7", plan.size());
+    base::Progress progress(board.name(), plan.size());
     const auto measured = qemu::measure(
         board, plan, {make_signal("noise", 1000, Sweep().seed)}, [&] { progress.advance(); }, qemu::Counting::blocks,
         timing_request(board.cores, {core}));
@@ -146,7 +146,7 @@ Study measure_horizons(const Horizons& wanted) {
     sweep.samples = horizons.back();
     sweep.orders = orders;
     sweep.signals.assign(std::begin(signal_names), std::end(signal_names));
-    study.context = make_context(Json(), sweep, nullptr);
+    study.context = make_context(Json(), sweep, {});
     study.context["horizons"] = horizons;
     study.context["core"] = core;
     study.picture = picture_of(orders, all);

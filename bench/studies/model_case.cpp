@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <map>
 
 #include "bench/rows/result_file.hpp"
@@ -10,7 +12,13 @@
 
 namespace bench {
 
-Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::size_t> core, double clock_hz) {
+std::string in_thousands(double cycles) {
+    const auto whole = static_cast<std::int64_t>(std::llround(cycles));
+    return whole < 1000 ? std::to_string(whole) : fmt::format("{} {:03}", whole / 1000, whole % 1000);
+}
+
+Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::size_t> core, double clock_hz,
+            double period) {
     RowKey key;
     key.kind = RowKind::model;
     key.model = one.model;
@@ -41,7 +49,7 @@ Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::
     const qemu::MeasuredRow& counted = *one.counted;
     row.set_text("label", label_of(core.has_value(), "", one.in_double()));
     add_instructions(row, counted);
-    row.set(Counter::instructions_share_of_period, static_cast<double>(counted.worst_instructions) / period_cycles);
+    row.set(Counter::instructions_share_of_period, static_cast<double>(counted.worst_instructions) / period);
     if (core) {
         const qemu::ModelledCall& modelled = counted.cores.at(*core);
         add_modelled(row, modelled, clock_hz);
@@ -57,10 +65,11 @@ Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::
     return std::move(row).take();
 }
 
-std::string to_table(const std::vector<ModelCase>& cases, const std::string& model) {
+std::string to_table(const std::vector<ModelCase>& cases, const std::string& model, const std::string& counted_on,
+                     double period) {
     std::string text = fmt::format("\n{}\n  {:<28} {:>6} {:>5} {:>5} {:>10} {:>10} {:>10} {:>17} {:>8} {:>8}  {}\n",
-                                   model, "kernel", "taps", "MACs", "for s", "error max", "at the end", "M7 instr.",
-                                   "model cycles", "period", "bytes", "host ns");
+                                   model, "kernel", "taps", "MACs", "for s", "error max", "at the end",
+                                   counted_on + " instr.", "model cycles", "period", "bytes", "host ns");
     for (const ModelCase& one : cases) {
         if (one.model != model) {
             continue;
@@ -80,7 +89,7 @@ std::string to_table(const std::vector<ModelCase>& cases, const std::string& mod
                                 : cores[0].low == cores[0].high ? fmt::format("{:.0f}", cores[0].cycles)
                                                                 : fmt::format("{:.0f} ({:.0f}-{:.0f})", cores[0].cycles,
                                                                               cores[0].low, cores[0].high),
-                                100.0 * (cores.empty() ? worst : cores[0].worst_cycles) / period_cycles,
+                                100.0 * (cores.empty() ? worst : cores[0].worst_cycles) / period,
                                 one.counted->state_bytes + one.counted->coefficient_bytes);
         } else {
             text += fmt::format("{:>10} {:>17} {:>8} {:>8}  ", "-", "-", "-", "-");
@@ -92,12 +101,12 @@ std::string to_table(const std::vector<ModelCase>& cases, const std::string& mod
     return text;
 }
 
-std::string deadline_table(const std::vector<ModelCase>& cases) {
+std::string deadline_table(const std::vector<ModelCase>& cases, double period) {
     std::string text = fmt::format(
-        "\nThe longest memory at 1 kHz, 216 000 cycles a step, by the line through two counted lengths\n  {:<10} "
+        "\nThe longest memory at 1 kHz, {} cycles a step, by the line through two counted lengths\n  {:<10} "
         "{:<28} "
         "{:>16} {:>14} {:>16} {:>16}\n",
-        "model", "kernel", "instr. a tap", "bytes a tap", "1 a cycle", "in 320 KB");
+        in_thousands(period), "model", "kernel", "instr. a tap", "bytes a tap", "1 a cycle", "in 320 KB");
     std::map<std::pair<std::string, std::string>, std::vector<const ModelCase*>> counted;
     for (const ModelCase& one : cases) {
         if (one.counted && one.fault.empty() && one.design.memory().modes == 0) {
@@ -120,7 +129,7 @@ std::string deadline_table(const std::vector<ModelCase>& cases) {
         text += fmt::format(
             "  {:<10} {:<28} {:>16.2f} {:>14.1f} {:>16} {:>16}\n", key.first, key.second,
             (cost(*longest) - cost(*shortest)) / span, (bytes(*longest) - bytes(*shortest)) / span,
-            drive::largest_taps(taps(*shortest), cost(*shortest), taps(*longest), cost(*longest), period_cycles),
+            drive::largest_taps(taps(*shortest), cost(*shortest), taps(*longest), cost(*longest), period),
             drive::largest_taps(taps(*shortest), bytes(*shortest), taps(*longest), bytes(*longest), 320.0 * 1024.0));
     }
     return text +

@@ -15,7 +15,7 @@
 namespace bench {
 
 constexpr double model_step_s = 0.001;
-constexpr double period_cycles = 216e6 * model_step_s;  ///< an STM32F746 at 1 kHz
+constexpr double period_cycles = 216e6 * model_step_s;  ///< an STM32F746 at 1 kHz, where no other core is asked for
 constexpr std::size_t emulated_double_taps = 600;       ///< longer ones take minutes in software
 
 struct ModelCase {
@@ -42,15 +42,19 @@ struct ModelCase {
     [[nodiscard]] bool runs_on_target() const { return !in_double() || design.memory().taps <= emulated_double_taps; }
 };
 
+/// "216 000"
+[[nodiscard]] std::string in_thousands(double cycles);
+
 /// \param aspect  host, or of the target
 /// \param core  which of the counted row's modelled cores; counts alone without
 [[nodiscard]] Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::size_t> core = {},
-                          double clock_hz = 1.0);
+                          double clock_hz = 1.0, double period = period_cycles);
 
-/// Of one model. \param model  its name
-[[nodiscard]] std::string to_table(const std::vector<ModelCase>& cases, const std::string& model);
+/// Of one model. \param model  its name \param counted_on  short: "M7" \param period  cycles of a step at 1 kHz
+[[nodiscard]] std::string to_table(const std::vector<ModelCase>& cases, const std::string& model,
+                                   const std::string& counted_on = "M7", double period = period_cycles);
 
 /// The longest memory that a period leaves, if every cycle took an instruction, and what bytes 320 KB leave.
-[[nodiscard]] std::string deadline_table(const std::vector<ModelCase>& cases);
+[[nodiscard]] std::string deadline_table(const std::vector<ModelCase>& cases, double period = period_cycles);
 
 }  // namespace bench

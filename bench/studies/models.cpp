@@ -205,7 +205,7 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
                 chosen.push_back(i);
             }
         }
-        base::Progress progress("models on the emulated Cortex-M7", chosen.size());
+        base::Progress progress("models on the " + wanted.board->name(), chosen.size());
         // As many at once as the firmware has room for.
         constexpr std::size_t at_once = 20;
         for (std::size_t first = 0; first < chosen.size(); first += at_once) {
@@ -225,15 +225,25 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
         }
     }
 
+    const base::Machine& machine = wanted.board ? *wanted.board->machine : base::machines.front();
+    const std::string short_name(machine.name.substr(machine.name.rfind('-') + 1));
+    // Of the chip that the machine's rows are for where none is asked for.
+    const std::string usual(machine.default_core);
+    const double clock_hz = &machine == base::machines.data()
+                                ? period_cycles / model_step_s
+                                : clocks_of(timing_request(wanted.core_files, {usual})).front();
+    const double period = clock_hz * model_step_s;
+    const std::string chip = &machine == base::machines.data() ? "an STM32F746" : usual;
+
     Study study;
     for (const ModelCase& one : cases) {
         if (wants("host")) {
             study.rows.push_back(to_row(one, std::string(RowKey::host)));
         }
         if (one.counted) {
-            study.rows.push_back(to_row(one, on_target(count_only)));
+            study.rows.push_back(to_row(one, on_target(machine, count_only), {}, 1.0, period));
             for (std::size_t c = 0; c < wanted.cores.size(); ++c) {
-                study.rows.push_back(to_row(one, on_target(wanted.cores[c]), c, clocks[c]));
+                study.rows.push_back(to_row(one, on_target(machine, wanted.cores[c]), c, clocks[c], period));
             }
         }
         study.wrong += one.fault.empty() && one.same_bits ? 0 : 1;
@@ -244,18 +254,19 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
         "ringapart:\n"
         "the textbook's, one for each order; modes: 2+7 near taps and modes, full memory.\n");
     for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
-        study.text += to_table(cases, name);
+        study.text += to_table(cases, name, short_name, period);
     }
     study.text += fmt::format(
-        "\n  M7: instructions a step on the emulated core, dead time and factors included; model cycles: "
+        "\n  {}: instructions a step on the emulated core, dead time and factors included; model cycles: "
         "what the timing\n"
         "  model gives it on {}, with the band over its rule sets. period: the worst step's {} over\n"
-        "  216 000, the cycles of a step on an STM32F746. Every row that ran there computed the host's "
+        "  {}, the cycles of a step on {}. Every row that ran there computed the host's "
         "bits over the\n"
         "  whole record.\n",
-        wanted.cores.empty() ? "no core" : wanted.cores[0], wanted.cores.empty() ? "instructions" : "cycles");
+        short_name, wanted.cores.empty() ? "no core" : wanted.cores[0],
+        wanted.cores.empty() ? "instructions" : "cycles", in_thousands(period), chip);
     if (wanted.board) {
-        study.text += deadline_table(cases);
+        study.text += deadline_table(cases, period);
     }
     if (wants("host") && !wanted.quick) {
         study.text += time_long_records(models["niopdt"], "niopdt", wanted.long_records, study.rows);
@@ -270,7 +281,8 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
     if (wanted.board) {
         stepped_on->measure_elf = qemu::model_elf(*wanted.board);
     }
-    study.context = make_context(Json(), sweep, wanted.board ? &*stepped_on : nullptr);
+    study.context =
+        make_context(Json(), sweep, stepped_on ? std::vector<qemu::Board>{*stepped_on} : std::vector<qemu::Board>{});
     for (const char* of_sums : {"target_count_order", "weights", "first_weights"}) {
         study.context.erase(of_sums);
     }

@@ -1,4 +1,4 @@
-// Whole models stepped in real time at 1 kHz, on this machine and on the emulated Cortex-M7.
+// Whole models stepped in real time at 1 kHz, on this machine and on an emulated one.
 #pragma once
 
 #include <functional>
@@ -28,7 +28,7 @@ struct Models {
     unsigned jobs = 1;
     std::filesystem::path models;           ///< the folder of fopdt.json, sopdt.json and niopdt.json
     std::filesystem::path core_files;       ///< the folder of those
-    std::optional<qemu::Board> board = {};  ///< with the target m7
+    std::optional<qemu::Board> board = {};  ///< of the emulated machine among the targets
 };
 
 /// Rows `drive/<model>/<kernel>/taps:<L>/<target>`. \param say  told of what is left out, and why

@@ -183,7 +183,7 @@ Study measure_records(const Records& wanted) {
     sweep.orders = orders;
     sweep.signals = signals;
     sweep.repetitions = repetitions;
-    study.context = make_context(Json(), sweep, nullptr);
+    study.context = make_context(Json(), sweep, {});
     study.context["records"] = samples;
     study.context["fftw"] = FftwConvolution::version();
     return study;

@@ -5,11 +5,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/machines.hpp"
 #include "bench/rows/key.hpp"
 #include "bench/sweep/discretisation.hpp"
 #include "glsum/kernel.hpp"
@@ -50,9 +52,11 @@ struct Sweep {
     /// are designed for, over the record.
     std::vector<double> design_errors{1e-2, 1e-3, 1e-4, 1e-6};
     std::vector<std::string> signals;
-    std::vector<std::string> targets{"host", "m7"};  ///< where the cost is measured
-    /// On m7: cores of the timing model, and `count` for instructions alone; not empty.
+    std::vector<std::string> targets{"host", "m7"};  ///< where the cost is measured: host, words of machines
+    /// On the emulated machines: cores of the timing model, and `count` for instructions alone; not empty.
     std::vector<std::string> cores{count_only};
+    /// Whose machine is not the first one: its word.
+    std::map<std::string, std::string> machine_of_core = {};
     std::size_t samples = 5000;
     std::uint64_t seed = 2020;
     Discretisation weights = Discretisation::gl;  ///< which every kernel and peer sums
@@ -65,8 +69,29 @@ struct Sweep {
                      [](const std::string& core) { return core != count_only; });
         return modelled;
     }
-    [[nodiscard]] bool wants(const char* target) const {
+    /// Those of `cores` that are modelled on a machine, or counted there.
+    [[nodiscard]] std::vector<std::string> cores_on(const base::Machine& machine) const {
+        std::vector<std::string> here;
+        std::copy_if(cores.begin(), cores.end(), std::back_inserter(here), [&](const std::string& core) {
+            const auto found = machine_of_core.find(core);
+            const std::string_view word =
+                found == machine_of_core.end() ? base::machines.front().word : std::string_view(found->second);
+            return core == count_only || word == machine.word;
+        });
+        return here;
+    }
+    [[nodiscard]] bool wants(std::string_view target) const {
         return std::find(targets.begin(), targets.end(), target) != targets.end();
+    }
+    /// The emulated machines among the targets, in the order of `base::machines`.
+    [[nodiscard]] std::vector<const base::Machine*> machines() const {
+        std::vector<const base::Machine*> wanted;
+        for (const base::Machine& machine : base::machines) {
+            if (wants(machine.word)) {
+                wanted.push_back(&machine);
+            }
+        }
+        return wanted;
     }
 };
 

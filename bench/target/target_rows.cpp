@@ -41,10 +41,10 @@ std::vector<Compared<Outcome>> run_in_shares(const std::vector<qemu::PlannedRow>
     return compared;
 }
 
-// The row of one of the sweep's cores. \param clock_hz  of a modelled one
-Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::MeasuredRow& measured, const std::string& core,
-             const qemu::ModelledCall* modelled, double clock_hz) {
-    Row made(row_key(row.kernel, row.order, row.length, on_target(core)), 32);
+// The row of one of the sweep's cores, which `aspect` names. \param clock_hz  of a modelled one
+Json to_json(const TargetPlan::Row& row, double counted_at, const qemu::MeasuredRow& measured,
+             const std::string& aspect, const qemu::ModelledCall* modelled, double clock_hz) {
+    Row made(row_key(row.kernel, row.order, row.length, aspect), 32);
     made.set_text("label",
                   label_of(modelled != nullptr, fmt::format("; counted at order {}", counted_at), row.software_double));
     if (measured.status != glsum::Status::ok) {
@@ -154,9 +154,12 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
         replay_plan.push_back(replay.planned);
     }
 
-    base::Progress progress("emulated Cortex-M7", plan.counts.size() + replay_plan.size());
+    base::Progress progress(board.name(), plan.counts.size() + replay_plan.size());
     const auto done = [&] { progress.advance(); };
-    const timing::TimingRequest request = timing_request(board.cores, sweep.modelled_cores());
+    const std::vector<std::string> cores = sweep.cores_on(*board.machine);
+    std::vector<std::string> modelled_cores = cores;
+    std::erase(modelled_cores, count_only);
+    const timing::TimingRequest request = timing_request(board.cores, modelled_cores);
     const std::vector<double> clocks = clocks_of(request);
     const auto counts = count_on_target(plan.counts, signals, board, sweep.jobs, done, request);
     const auto replays = run_in_shares<qemu::ReplayedRow>(
@@ -178,11 +181,11 @@ std::vector<std::vector<Json>> measure_on_target(const Sweep& sweep, const qemu:
                                                      pieces.begin())];
         const qemu::MeasuredRow& measured = counts[row.count].row;
         std::size_t modelled = 0;
-        for (const std::string& core : sweep.cores) {
+        for (const std::string& core : cores) {
             const bool counted = core == count_only;
             const qemu::ModelledCall* call = counted || measured.cores.empty() ? nullptr : &measured.cores[modelled];
-            rows.push_back(
-                to_json(row, plan.counts[row.count].order, measured, core, call, counted ? 1.0 : clocks[modelled]));
+            rows.push_back(to_json(row, plan.counts[row.count].order, measured, on_target(*board.machine, core), call,
+                                   counted ? 1.0 : clocks[modelled]));
             modelled += counted ? 0 : 1;
             if (!same_bits[i]) {
                 mark_error(rows.back(), other_bits);

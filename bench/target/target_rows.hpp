@@ -1,4 +1,4 @@
-// Rows of the emulated Cortex-M7, with the proof that it computes the host's bits.
+// Rows of an emulated machine, with the proof that it computes the host's bits.
 #pragma once
 
 #include <cstddef>
@@ -47,9 +47,9 @@ inline constexpr const char* other_bits = "the target's outputs differ from the 
 
 /// For each kernel that runs on the target, order and length: instructions, loads, stores and branches of the first
 /// call and of a steady one, the worst of a whole turn, bytes of code, stack, state and coefficients. Named
-/// ".../m7:count": counts of instructions, never called cycles. For each modelled core of the sweep the same row again,
-/// named ".../m7:<core>", with the cycles that the timing model gives the same calls; its time is theirs at the core's
-/// clock.
+/// ".../m7:count", or ".../m4:count" by the board's machine: counts of instructions, never called cycles. For each core
+/// of the sweep that is modelled there the same row again, named ".../m7:<core>", with the cycles that the timing model
+/// gives the same calls; its time is theirs at the core's clock.
 ///
 /// Which instructions a kernel executes follows from its length and, in fixed point, the scale; each such case is
 /// counted once, and the rows of every order have it, their labels saying at which order it was taken. In software

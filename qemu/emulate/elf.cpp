@@ -265,14 +265,14 @@ std::vector<Function> Elf::functions_like(const std::vector<std::string>& globs)
 }
 
 // The core starts where the vector table says, in Thumb state; the ELF's own entry is for loaders, and often not set.
-void Elf::check_starts() const {
+void Elf::check_starts(const std::string& core) const {
     const auto first =
         std::find_if(sections_.begin(), sections_.end(), [](const Section& section) { return section.address == 0; });
     if (first == sections_.end() || first->bytes.size() < 8 || (word(4) & 1U) == 0) {
         throw Failure(Exit::bad_input,
-                      fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found none whose vector table at "
+                      fmt::format("{}: expected a program for a {} (ARMv7E-M), found none whose vector table at "
                                   "address 0 starts it in Thumb state",
-                                  path_.string()));
+                                  path_.string(), core));
     }
 }
 
@@ -293,13 +293,13 @@ void Elf::check_lies_within(const std::vector<Extent>& memories, const std::stri
     }
 }
 
-void Elf::check_runs_on_cortex_m7() const {
+void Elf::check_runs_on(const std::string& core) const {
     const auto refuse = [&](const std::string& found) {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected a program for a Cortex-M7 (ARMv7E-M), found {}",
-                                                   path_.string(), found));
+        throw Failure(Exit::bad_input,
+                      fmt::format("{}: expected a program for a {} (ARMv7E-M), found {}", path_.string(), core, found));
     };
     if (attributes_.empty()) {
-        check_starts();  // written in assembly: its encodings will tell
+        check_starts(core);  // written in assembly: its encodings will tell
         return;
     }
     // [Arm IHI 0045, Tag_CPU_arch]

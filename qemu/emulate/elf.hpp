@@ -36,10 +36,11 @@ public:
     [[nodiscard]] std::vector<Function> functions_like(const std::vector<std::string>& globs) const;
     /// \throws glsum::Failure (bad input), which names the section and its address, when one lies elsewhere
     void check_lies_within(const std::vector<Extent>& memories, const std::string& whose) const;
+    /// \param core  its name, for the message
     /// \throws glsum::Failure (bad input) when the vector table at address 0 does not start it in Thumb state
-    void check_starts() const;
+    void check_starts(const std::string& core) const;
     /// \throws glsum::Failure (bad input) when it was built for another core than an M-profile one up to ARMv7E-M.
-    void check_runs_on_cortex_m7() const;
+    void check_runs_on(const std::string& core) const;
     /// The function that holds an address.
     [[nodiscard]] const Function* function_at(std::uint32_t address) const;
     /// Behind the last byte of the function that begins at an address: by its symbol's size, or, where that has none,

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/machines.hpp"
 #include "glsum/kernel.hpp"
 #include "qemu/emulate/emulator.hpp"
 #include "qemu/emulate/modelled_calls.hpp"
@@ -22,8 +23,11 @@ struct Board {
     std::filesystem::path replay_elf;
     std::filesystem::path plugin;
     Emulator emulator;
-    std::filesystem::path cores = {};  ///< folder of core files, for the timing model
+    std::filesystem::path cores = {};                        ///< folder of core files, for the timing model
+    const base::Machine* machine = &base::machines.front();  ///< that it emulates
 
+    /// "emulated Cortex-M7"
+    [[nodiscard]] std::string name() const { return "emulated " + std::string(machine->name); }
     /// Of the board, below targets/: its `emulate` and its memory map.
     [[nodiscard]] std::filesystem::path folder() const { return emulator.command.parent_path(); }
 };

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <tuple>
 #include <utility>
 
 #include "base/failure.hpp"
@@ -21,6 +22,7 @@ namespace {
 struct Timed {
     std::filesystem::path elf;
     Function function;
+    const base::Machine* machine;
     timing::TimingRequest request;
     std::vector<std::pair<std::size_t, std::size_t>> rows;  // and the request's core of each
 };
@@ -54,7 +56,7 @@ std::size_t core_of(timing::TimingRequest& request, const MeasuredCall& row, con
 std::vector<Timed> plan_of(const CallsProgram& program, const std::vector<MeasuredCall>& rows, const std::string& name,
                            const std::vector<std::string>& without) {
     std::map<std::filesystem::path, std::unique_ptr<Elf>> elves;
-    std::map<std::pair<std::filesystem::path, std::uint32_t>, std::size_t> known;
+    std::map<std::tuple<std::filesystem::path, std::uint32_t, const base::Machine*>, std::size_t> known;
     std::vector<Timed> plan;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const MeasuredCall& row = rows[i];
@@ -62,12 +64,13 @@ std::vector<Timed> plan_of(const CallsProgram& program, const std::vector<Measur
             std::unique_ptr<Elf>& elf = elves[row.elf];
             if (!elf) {
                 elf = std::make_unique<Elf>(row.elf);
-                check_runs_on_board(*elf);
             }
+            const base::Machine* const machine = &machine_of(timing::core_asked_for(row.core), program.cores_folder);
+            check_runs_on_board(*elf, *machine);
             const Function function = elf->function(row.function);
-            const auto [at, is_new] = known.emplace(std::pair(row.elf, function.address), plan.size());
+            const auto [at, is_new] = known.emplace(std::tuple(row.elf, function.address, machine), plan.size());
             if (is_new) {
-                plan.push_back({row.elf, function, {program.cores_folder.string(), {}}, {}});
+                plan.push_back({row.elf, function, machine, {program.cores_folder.string(), {}}, {}});
             }
             Timed& timed = plan[at->second];
             const std::size_t cores = timed.request.cores.size();
@@ -91,7 +94,7 @@ std::vector<PredictedCall> predict_calls(const CallsProgram& program, const std:
     base::parallel_for(plan.size(), jobs, [&](std::size_t p) {
         const Timed& timed = plan[p];
         const timing::TimingLog log = for_row(name, rows[timed.rows.front().first], [&] {
-            return time_program(program.emulator, program.plugin, timed.elf, {timed.function.name},
+            return time_program(program.emulator(*timed.machine), program.plugin, timed.elf, {timed.function.name},
                                 {timed.function.address}, timed.request, {}, {})
                 .front();
         });

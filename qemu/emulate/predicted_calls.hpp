@@ -3,9 +3,11 @@
 
 #include <array>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "base/machines.hpp"
 #include "qemu/emulate/emulator.hpp"
 #include "qemu/emulate/measured_calls.hpp"
 #include "qemu/timing/effects.hpp"
@@ -22,12 +24,12 @@ struct PredictedCall {
 };
 
 struct CallsProgram {
-    Emulator emulator;
+    std::function<Emulator(const base::Machine&)> emulator;
     std::filesystem::path plugin;
     std::filesystem::path cores_folder;
 };
 
-/// Row by row. Each function of a program runs once, on all the cores and placements that rows ask of it.
+/// Row by row. Each function of a program runs once on a board, on all the cores and placements that rows ask of it.
 /// \param name     of the file of the rows; with a row's line it begins every message
 /// \param without  effects that cost nothing
 /// \param jobs     emulators at once

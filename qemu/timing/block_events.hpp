@@ -30,6 +30,7 @@ struct AccessEvent {
 struct Event : AccessEvent {
     Prediction prediction = Prediction::right;
     bool taken = false;                           ///< what is executed next does not stand behind this
+    bool second_half = false;                     ///< it begins in the middle of a word of 4 bytes
     std::uint8_t words = 0;                       ///< of the fetch, taken up for this instruction, at most 7
     std::array<std::uint16_t, 4> fetch_delays{};  ///< extra cycles of each word
     Effect fetch_effect = Effect::icache_misses;
@@ -78,8 +79,9 @@ struct PackedEvent {
         effect = index(e.store_effect);
     }
     const std::uint64_t fetch = e.fetch_delayed() ? 1 + index(e.fetch_effect) : 0;
-    return {std::bit_cast<std::uint64_t>(accesses) | effect << 39 | fetch << 43 | std::uint64_t{e.words} << 48 |
-                std::uint64_t{e.taken} << 51 | static_cast<std::uint64_t>(e.prediction) << 52,
+    return {std::bit_cast<std::uint64_t>(accesses) | effect << 39 | fetch << 43 | std::uint64_t{e.second_half} << 47 |
+                std::uint64_t{e.words} << 48 | std::uint64_t{e.taken} << 51 |
+                static_cast<std::uint64_t>(e.prediction) << 52,
             std::bit_cast<std::uint64_t>(e.fetch_delays)};
 }
 

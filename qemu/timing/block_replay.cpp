@@ -9,11 +9,6 @@ namespace {
 constexpr std::size_t most_steps = std::size_t{1} << 16;
 constexpr std::size_t most_words = std::size_t{1} << 21;
 
-constexpr std::uint64_t mix(std::uint64_t hash, std::uint64_t value) {
-    hash = (hash ^ value) * 0x9E3779B97F4A7C15U;
-    return hash ^ hash >> 29;
-}
-
 }  // namespace
 
 BlockReplay::BlockReplay(const CoreFile& core) : replay_(core) { forget(); }

@@ -8,7 +8,7 @@
 namespace timing {
 
 CallTimer::Core::Core(const CoreFile& core)
-    : file(core), surroundings(core.sets[0].figures, core.placement), replay(core) {}
+    : file(core), surroundings(core.sets[0].figures, core.placement, core.core), replay(core) {}
 
 CallTimer::CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
                      std::function<void(const TimedCall&)> done, std::vector<AddressRange> double_routines)

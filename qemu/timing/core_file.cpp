@@ -19,12 +19,20 @@ using glsum::Failure;
 struct Key {
     const char* name;
     std::int64_t Figures::*figure;
+    std::optional<Core> core;  // without: of any
 };
 constexpr Key keys[] = {
-#define ROW(section, name) {#section "." #name, &Figures::section##_##name},
+#define ROW(section, name) {#section "." #name, &Figures::section##_##name, Core::cortex_m7},
+#include "qemu/timing/m7_rows.def"
+#undef ROW
+#define ROW(section, name) {#section "." #name, &Figures::section##_##name, Core::cortex_m4},
+#include "qemu/timing/cortex_m4/rows.def"
+#undef ROW
+#define ROW(section, name) {#section "." #name, &Figures::section##_##name, std::nullopt},
 #include "qemu/timing/rows.def"
 #undef ROW
 };
+bool is_of(const Key& key, Core core) { return !key.core || *key.core == core; }
 
 const Key* find_key(const std::string& name) {
     const auto* found =
@@ -113,6 +121,7 @@ struct Collected {
     std::map<std::string, Origin> rows;
     std::map<std::string, Rival> rivals;
     std::optional<Placement> placement;
+    Core core = Core::cortex_m7;
     std::vector<std::string> off;
     std::string note;
     std::string text;
@@ -194,7 +203,13 @@ void collect(const std::filesystem::path& file, const std::filesystem::path& fol
         if (word == "base") {
             continue;
         }
-        if (word == "note") {
+        if (word == "core") {
+            const std::string name = text_of(table, "core");
+            if (name != name_of(Core::cortex_m7) && name != name_of(Core::cortex_m4)) {
+                reject(node, "core: expected cortex-m7 or cortex-m4, found " + name);
+            }
+            into.core = name == name_of(Core::cortex_m4) ? Core::cortex_m4 : Core::cortex_m7;
+        } else if (word == "note") {
             into.note = text_of(table, "note");
         } else if (word == "placement") {
             const toml::table* placement = node.as_table();
@@ -223,7 +238,16 @@ void collect(const std::filesystem::path& file, const std::filesystem::path& fol
         } else if (word == "set") {
             read_rivals(node, into);
         } else {
-            reject(node, word + ": no such key; expected base, note, placement, effects_off, rows, set");
+            reject(node, word + ": no such key; expected base, core, note, placement, effects_off, rows, set");
+        }
+    }
+}
+
+void check_rows_are_of(Core core, const std::map<std::string, Origin>& rows) {
+    for (const auto& [name, row] : rows) {
+        if (!is_of(*find_key(name), core)) {
+            throw Failure(Exit::bad_input,
+                          row.file + ":" + std::to_string(row.line) + ": " + name + ": no row of a " + name_of(core));
         }
     }
 }
@@ -250,6 +274,7 @@ Place place_named(const std::string& name) {
     }
     throw Failure(Exit::bad_input, "place: expected itcm, dtcm, flash or axi, found " + name);
 }
+std::string name_of(Core core) { return core == Core::cortex_m4 ? "cortex-m4" : "cortex-m7"; }
 std::string name_of(Place place) {
     return place == Place::itcm ? "itcm" : place == Place::dtcm ? "dtcm" : place == Place::flash ? "flash" : "axi";
 }
@@ -319,8 +344,13 @@ CoreFile read_core_file(const std::filesystem::path& file, const std::filesystem
         throw Failure(Exit::bad_input, file.string() + ": expected placement = { code = \"..\", data = \"..\" }");
     }
     core.placement = *collected.placement;
+    core.core = collected.core;
+    check_rows_are_of(core.core, collected.rows);
     core.sets.push_back({"nominal", "", {}, true});
     for (const Key& key : keys) {
+        if (!is_of(key, core.core)) {
+            continue;
+        }
         const auto row = collected.rows.find(key.name);
         if (row == collected.rows.end()) {
             throw Failure(Exit::bad_input, file.string() + ": expected the row " + key.name);
@@ -336,6 +366,7 @@ CoreFile read_core_file(const std::filesystem::path& file, const std::filesystem
         core.origins.push_back(row->second);
     }
     for (const auto& [rival_name, rival] : collected.rivals) {
+        check_rows_are_of(core.core, rival.rows);
         RuleSet set{rival_name, rival.note, core.sets[0].figures, rival.fits};
         for (const auto& [key, row] : rival.rows) {
             set.figures.*find_key(key)->figure = row.value;

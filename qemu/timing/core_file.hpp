@@ -12,12 +12,18 @@
 
 namespace timing {
 
-/// The figures, named <section>_<name> as in rows.def.
+/// The figures of all cores, named <section>_<name> as in the rows; a core file has those of its own.
 struct Figures {
 #define ROW(section, name) std::int64_t section##_##name = 0;
+#include "qemu/timing/cortex_m4/rows.def"
+#include "qemu/timing/m7_rows.def"
 #include "qemu/timing/rows.def"
 #undef ROW
 };
+
+/// Which model a core file has figures for.
+enum class Core : std::uint8_t { cortex_m7, cortex_m4 };
+[[nodiscard]] std::string name_of(Core core);
 
 /// How a figure is known.
 enum class Mark : std::uint8_t {
@@ -75,11 +81,12 @@ struct CoreFile {
     static constexpr std::size_t most_sets = 8;
     std::string name;
     std::string note;
+    Core core = Core::cortex_m7;
     Placement placement;
     Effects off;  ///< effects that cost nothing in this core
     bool double_in_software_off = false;
     std::vector<RuleSet> sets;    ///< the nominal one first
-    std::vector<Origin> origins;  ///< of the nominal set, in the order of rows.def
+    std::vector<Origin> origins;  ///< of the nominal set, in the order of the rows
     std::string text;             ///< of all files that it was read from, for its hash
 };
 

@@ -49,4 +49,7 @@ inline constexpr std::array<std::string_view, 6> effects_beside_a_call{
 
 [[nodiscard]] constexpr std::size_t index(Effect effect) { return static_cast<std::size_t>(effect); }
 
+/// Half cycles lost to each effect.
+using Losses = std::array<std::int64_t, effect_count>;
+
 }  // namespace timing

@@ -9,22 +9,18 @@
 
 #include <array>
 #include <cstdint>
-#include <span>
 
-#include "qemu/stream/stream.hpp"
 #include "qemu/timing/core_file.hpp"
 #include "qemu/timing/decoded.hpp"
 #include "qemu/timing/effects.hpp"
 #include "qemu/timing/latency.hpp"
+#include "qemu/timing/model_of.hpp"
 #include "qemu/timing/prepared.hpp"
 #include "qemu/timing/store_buffer.hpp"
 #include "qemu/timing/stored_words.hpp"
 #include "qemu/timing/surroundings.hpp"
 
 namespace timing {
-
-/// Half cycles lost to each effect.
-using Losses = std::array<std::int64_t, effect_count>;
 
 /// All that the core remembers of the instructions before. Cycles, but for the positions.
 struct State {
@@ -78,10 +74,15 @@ struct State {
     State();
     bool operator==(const State&) const = default;
 };
+/// Of what differs between states most.
+[[nodiscard]] std::uint64_t hash_of(const State& state);
 
 /// The core under one rule set.
 class Pipeline {
 public:
+    using State = timing::State;
+    static constexpr Core core = Core::cortex_m7;
+
     /// \param longest_fetch  the most extra cycles that a word of a fetch will come with (`Memory::longest_fetch`)
     Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects off);
     Pipeline(const Pipeline&) = delete;
@@ -126,25 +127,6 @@ private:
     std::int64_t result_delay_ = 0;  // cycles that the loads of the instruction at work come late
 };
 
-/// The core with its surroundings, each instruction computed as it comes. `Replay` (replay.hpp) gives the same, faster.
-/// For short programs: its positions end after 10^9 cycles.
-class Model {
-public:
-    Model(const Figures& figures, Placement placement, Effects off)
-        : surroundings_(figures, placement), pipeline_(figures, surroundings_.memory().longest_fetch(), off) {}
-
-    /// One executed instruction. \param next  address of the one that was executed after it
-    /// \return the half cycle in which it issues
-    std::int64_t execute(const Prepared& instruction, std::uint32_t address, std::span<const qemu::Access> accesses,
-                         std::uint32_t next) {
-        pipeline_.execute(instruction, surroundings_.meet(instruction.decoded, address, accesses, next));
-        return pipeline_.state.position;
-    }
-    [[nodiscard]] const Losses& losses() const { return pipeline_.losses; }
-
-private:
-    Surroundings surroundings_;
-    Pipeline pipeline_;
-};
+using Model = ModelOf<Pipeline>;
 
 }  // namespace timing

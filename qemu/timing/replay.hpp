@@ -9,10 +9,9 @@
 #include <cstdint>
 #include <memory>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
-#include "qemu/timing/model.hpp"
+#include "qemu/timing/pipelines.hpp"
 
 namespace timing {
 
@@ -58,22 +57,15 @@ private:
         std::array<std::uint8_t, effect_count> effects{};
         std::array<std::int32_t, effect_count> lost{};
     };
-    using Joint = std::vector<State>;  // of all sets
-
     [[nodiscard]] static std::uint64_t hash(const Key& key);
-    [[nodiscard]] static std::uint64_t hash(const Joint& joint);
     [[nodiscard]] Step compute(const Prepared& instruction, const Event& event);
-    [[nodiscard]] std::uint32_t number_of(Joint joint);
     void take(const Step& step);
     void forget();
     void grow();
 
-    std::vector<std::unique_ptr<Pipeline>> pipelines_;
-    std::vector<Joint> states_;
-    std::unordered_multimap<std::uint64_t, std::uint32_t> numbers_;  // of states, by hash
-    std::uint64_t epoch_ = 0;                                        // times that states were numbered anew
-    std::uint32_t state_ = 0;                                        // the present one
-    std::uint32_t loaded_ = 0;                                       // the one that the pipelines hold
+    std::unique_ptr<Pipelines> pipelines_;
+    std::uint64_t epoch_ = 0;  // times that states were numbered anew
+    std::uint32_t state_ = 0;  // the present one
 
     std::vector<Step> steps_;            // the first is none
     std::vector<std::uint32_t> places_;  // by hash, open addressing; 0: free

@@ -21,8 +21,9 @@ std::uint16_t narrowed(std::int64_t cycles) {
 
 }  // namespace
 
-Surroundings::Surroundings(const Figures& figures, const Placement& placement)
+Surroundings::Surroundings(const Figures& figures, const Placement& placement, Core core)
     : figures_(figures),
+      predicts_(core == Core::cortex_m7),
       fetch_shift_(static_cast<unsigned>(std::countr_zero(static_cast<std::uint32_t>(figures.fetch_bytes)))),
       memory_(figures_, placement),
       predictor_(figures.branch_target_entries, figures.branch_return_entries) {}
@@ -108,7 +109,9 @@ void Surroundings::follow(const Decoded& d, std::uint32_t address, std::uint32_t
         if (event.taken) {
             fetched_ = 0xFFFFFFFFU;
         }
-        event.prediction = predictor_.meet(d, address, next);
+        if (predicts_) {
+            event.prediction = predictor_.meet(d, address, next);
+        }
     }
 }
 
@@ -128,6 +131,7 @@ void Surroundings::fetch(const Decoded& d, std::uint32_t address, Event& event) 
         event.fetch_delays[words++ % event.fetch_delays.size()] = narrowed(delay.cycles);
     }
     event.words = words & 7U;
+    event.second_half = (address & 2U) != 0;
 }
 
 void Surroundings::load(std::span<const qemu::Access> accesses, AccessEvent& event, Effect& effect) {

@@ -18,7 +18,8 @@ namespace timing {
 
 class Surroundings {
 public:
-    Surroundings(const Figures& figures, const Placement& placement);
+    /// \param core  whether it predicts branches, at all
+    Surroundings(const Figures& figures, const Placement& placement, Core core);
     Surroundings(const Surroundings&) = delete;
     Surroundings& operator=(const Surroundings&) = delete;
     /// \param next  address of the instruction that is executed after it
@@ -42,6 +43,7 @@ private:
     void store(std::span<const qemu::Access> accesses, Event& event);
 
     const Figures figures_;  // memory_ refers to it
+    bool predicts_;
     unsigned fetch_shift_;
     Memory memory_;
     Predictor predictor_;

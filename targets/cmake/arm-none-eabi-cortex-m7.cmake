@@ -1,22 +1,7 @@
-# GNU Arm toolchain for a Cortex-M7. GLSUM_FPU: its floating-point unit, `none`, `single` as the STM32F746 has it, or `double`.
+# For a Cortex-M7. GLSUM_FPU: its floating-point unit, `none`, `single` as the STM32F746 has it, or `double`.
 # QEMU's Cortex-M7 has double precision: what was made for that would run there and fault on an STM32F746.
-set(CMAKE_SYSTEM_NAME Generic)
-set(CMAKE_SYSTEM_PROCESSOR cortex-m7)
-set(CMAKE_CXX_COMPILER arm-none-eabi-g++)
-set(CMAKE_ASM_COMPILER arm-none-eabi-gcc)
-set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
-set(GLSUM_FPU single CACHE STRING "none, single or double")
-list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES GLSUM_FPU)
-set(fpu_none "-mfloat-abi=soft")
+set(cpu cortex-m7)
+set(fpus "none, single or double")
 set(fpu_single "-mfloat-abi=hard -mfpu=fpv5-sp-d16")
 set(fpu_double "-mfloat-abi=hard -mfpu=fpv5-d16")
-if(NOT fpu_${GLSUM_FPU})
-    message(FATAL_ERROR "GLSUM_FPU: expected none, single or double, found '${GLSUM_FPU}'")
-endif()
-set(GLSUM_CORE_FLAGS "-mcpu=cortex-m7 -mthumb ${fpu_${GLSUM_FPU}}")
-# Functions begin words of a fetch: else what one costs would move with the sizes of those before it.
-set(CMAKE_CXX_FLAGS_INIT "${GLSUM_CORE_FLAGS} -falign-functions=8 -ffunction-sections -fdata-sections -fno-threadsafe-statics -Wno-psabi")
-set(CMAKE_ASM_FLAGS_INIT "${GLSUM_CORE_FLAGS}")
-set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
-set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
-set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+include(${CMAKE_CURRENT_LIST_DIR}/arm-none-eabi.cmake)

@@ -40,7 +40,7 @@ std::string processor() {
 }
 
 TEST(Context, SaysWhatWasRunWhereAndOfWhichBuild) {
-    const bench::Json context = bench::make_context({}, small(), nullptr);
+    const bench::Json context = bench::make_context({}, small(), {});
     const auto text = [&](const char* field) { return context.at(field).get<std::string>(); };
     EXPECT_EQ(text("schema"), "glsum-results-1");
     EXPECT_TRUE(std::regex_match(text("date"), std::regex("20\\d\\d-\\d\\d-\\d\\dT\\d\\d:\\d\\d:\\d\\d[+-]\\d{4}")));
@@ -72,14 +72,14 @@ TEST(Context, SaysWhatWasRunWhereAndOfWhichBuild) {
         "signals": ["step", "noise"], "targets": ["host"], "cores": ["count"], "design_errors": [0.001]})"));
     bench::Sweep other = small();
     other.weights = bench::Discretisation::bdf2;
-    EXPECT_EQ(bench::make_context({}, other, nullptr).at("weights"), "bdf2");
-    EXPECT_NEAR(bench::make_context({}, other, nullptr).at("first_weights").at("0.5").get<double>(), std::sqrt(1.5),
+    EXPECT_EQ(bench::make_context({}, other, {}).at("weights"), "bdf2");
+    EXPECT_NEAR(bench::make_context({}, other, {}).at("first_weights").at("0.5").get<double>(), std::sqrt(1.5),
                 1e-12);
 }
 
 // What Google Benchmark says of the machine stays.
 TEST(Context, OfATimingIsAddedTo) {
-    const bench::Json context = bench::make_context({{"date", "then"}, {"caches", {1, 2}}}, small(), nullptr);
+    const bench::Json context = bench::make_context({{"date", "then"}, {"caches", {1, 2}}}, small(), {});
     EXPECT_EQ(context.at("date"), "then");
     EXPECT_EQ(context.at("caches"), bench::Json({1, 2}));
     EXPECT_FALSE(context.contains("host_name"));

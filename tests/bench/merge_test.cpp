@@ -246,12 +246,12 @@ TEST(Run, ShardsAreTheWhole) {
     small.samples = 60;
     small.targets = {"host"};
     const std::vector<std::string> quick = {"--benchmark_min_time=0.0001"};
-    const bench::Results whole = bench::measure(small, std::nullopt, nullptr, quick);
+    const bench::Results whole = bench::measure(small, std::nullopt, {}, quick);
     EXPECT_FALSE(whole.context.contains("shard"));
     ASSERT_EQ(whole.rows.size(), 4U * 4U + 4U);
     std::vector<bench::NamedResults> shards;
     for (const std::size_t index : {1U, 2U}) {
-        shards.push_back({"shard", bench::measure(small, bench::Shard{index, 2}, nullptr, quick)});
+        shards.push_back({"shard", bench::measure(small, bench::Shard{index, 2}, {}, quick)});
         const bench::Json& shard = shards.back().results.context.at("shard");
         EXPECT_EQ(shard.at("index"), index);
         EXPECT_EQ(shard.at("count"), 2);

@@ -83,6 +83,12 @@ TEST(Results, EveryKindOfNameIsReadAsItIsWritten) {
     EXPECT_EQ(model.kernel, "ringdelta_plain_f32");
     EXPECT_TRUE(model.is_target());
     EXPECT_EQ(model.core(), bench::count_only);
+    EXPECT_EQ(model.machine(), base::machine_called("m7"));
+    const auto other = bench::parse_any_key("gl/a/order:1/taps:50/m4:cortex-m4-zerowait").value();
+    EXPECT_EQ(other.machine(), base::machine_called("m4"));
+    EXPECT_EQ(other.core(), "cortex-m4-zerowait");
+    EXPECT_EQ(other.aspect, bench::on_target(*other.machine(), other.core()));
+    EXPECT_FALSE(bench::parse_any_key("gl/a/order:1/taps:50/m5:core").value().is_target());
     const auto filter = bench::parse_any_key("filter/oustaloup_f64/order:0.5/poles:7/accuracy/signal:step").value();
     EXPECT_EQ(filter.poles, "7");
     EXPECT_EQ(filter.signal, "step");
@@ -323,6 +329,39 @@ TEST(Results, EachCounterHasItsPlace) {
         EXPECT_EQ(group.taps, "50");
     }
     EXPECT_EQ(groups[0].entries[0].error_max, 1e-3);
+}
+
+// Of two emulated machines the first one counts, whichever row comes first; cycles of cores are told apart by machine.
+TEST(Results, TheFirstMachineCountsBesideAnother) {
+    const auto row = [](const std::string& aspect, double instructions, double cycles, double bytes) {
+        bench::Json one = timing("a", aspect, instructions);
+        one["worst_instructions"] = instructions + 1.0;
+        one["model_cycles_per_sample"] = cycles;
+        one["state_bytes"] = bytes;
+        one["coefficient_bytes"] = 0.0;
+        return one;
+    };
+    const bench::Json m4 = row("m4:another", 110.0, 150.0, 12.0);
+    const bench::Json m7 = row("m7:core", 100.0, 60.0, 8.0);
+    for (const auto& rows : {std::vector{m4, m7, accuracy("a", 1e-3)}, std::vector{m7, m4, accuracy("a", 1e-3)}}) {
+        const auto groups = bench::group(rows);
+        const bench::Entry& found = entry(groups, "a");
+        EXPECT_EQ(found.counted_on, base::machine_called("m7"));
+        EXPECT_EQ(found.target_instructions, 100.0);
+        EXPECT_EQ(found.target_worst, 101.0);
+        EXPECT_EQ(found.bytes, 8.0);
+        EXPECT_EQ(found.model_cycles.at("another").machine, base::machine_called("m4"));
+        EXPECT_EQ(found.model_cycles.at("core").machine, base::machine_called("m7"));
+        const auto cores = bench::modelled_cores(groups);
+        ASSERT_EQ(cores.size(), 2U);
+        EXPECT_EQ(cores[0].name, "core");  // "another" would be the first by name
+        EXPECT_EQ(bench::counted_on(groups), base::machine_called("m7"));
+    }
+    const auto alone = bench::group({m4});
+    EXPECT_EQ(entry(alone, "a").counted_on, base::machine_called("m4"));
+    EXPECT_EQ(entry(alone, "a").target_instructions, 110.0);
+    EXPECT_EQ(entry(alone, "a").bytes, 12.0);
+    EXPECT_EQ(bench::counted_on(bench::group({accuracy("a", 1e-3)})), nullptr);
 }
 
 TEST(Results, WithinOnePercentItIsTheSameError) {

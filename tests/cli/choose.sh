@@ -12,7 +12,7 @@ expect 2 "found 3" choose --order 3 --step-s 0.001 --max-error 0.1 --target m7
 expect 0 "choice     " choose --order 0 --step-s 0.001 --max-error 0.1 --target host --samples 40
 expect 2 "--max-error: expected a number above 0, found 0" choose --order 0.5 --step-s 0.001 --max-error 0 --target m7
 expect 2 "--rate-hz: expected 1 / --step-s, 1000, found 500" choose --order 0.5 --step-s 0.001 --max-error 0.1 --target m7 --clock-hz 216e6 --rate-hz 500
-expect 2 "--target: expected host or m7, found gpu" choose --order 0.5 --step-s 0.001 --max-error 0.1 --target gpu
+expect 2 "--target: expected host, m7 or m4, found gpu" choose --order 0.5 --step-s 0.001 --max-error 0.1 --target gpu
 expect 2 "expected both or none" choose $m7 --max-error 0.1 --clock-hz 216e6
 expect 2 "needs more than two samples a period" choose --order 0.5 --step-s 0.02 --max-error 0.1 --target m7 --signal sine50
 expect 2 "only with --target m7" choose --order 0.5 --step-s 0.001 --max-error 0.1 --target host --max-instructions 9

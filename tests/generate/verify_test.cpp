@@ -84,7 +84,7 @@ TEST(Verified, ATableSaysWhichFailed) {
     wrong.first_wrong = 7;
     wrong.header_instructions = 1100.0;
     wrong.header_cycles = 540.0;
-    const std::string table = generate::to_table({passed("ring_plain_f32"), wrong}, "a-core");
+    const std::string table = generate::to_table({passed("ring_plain_f32"), wrong}, "a-core", {});
     EXPECT_THAT(
         table, HasSubstr("ring_plain_f32                50  the kernel's        1000.0      1000.0   1.0000       600.0"
                          "      600.0   1.0000\n"));

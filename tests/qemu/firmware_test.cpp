@@ -1,4 +1,4 @@
-// The emulated Cortex-M7: its counts, and the same bits as this machine.
+// The emulated Cortex-M7: its counts, and the same bits as this machine. And the Cortex-M4's bits.
 #include "qemu/emulate/firmware.hpp"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@ class FirmwareTest : public testing::Test {
 protected:
     void SetUp() override {
         try {
-            board_ = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
+            board_ = qemu::find_board(firmware_build(), TEST_PLUGIN, emulate_script());
             (void)qemu::emulator_version();
         } catch (const glsum::Failure& failure) {
             if (std::getenv("GLSUM_REQUIRE_FIRMWARE") != nullptr) {
@@ -30,8 +30,16 @@ protected:
             signals_.push_back(bench::make_signal(name, 400, 11));
         }
     }
+    [[nodiscard]] virtual const char* firmware_build() const { return TEST_FIRMWARE_BUILD; }
+    [[nodiscard]] virtual const char* emulate_script() const { return TEST_EMULATE; }
+    void expect_the_bits_of_this_machine();
     qemu::Board board_;
     qemu::Signals signals_;
+};
+class CortexM4FirmwareTest : public FirmwareTest {
+protected:
+    [[nodiscard]] const char* firmware_build() const override { return TEST_M4_FIRMWARE_BUILD; }
+    [[nodiscard]] const char* emulate_script() const override { return TEST_M4_EMULATE; }
 };
 
 template <class Visit>
@@ -43,7 +51,7 @@ void for_each_target_kernel(Visit visit) {
     });
 }
 
-TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) {
+void FirmwareTest::expect_the_bits_of_this_machine() {
     std::vector<qemu::PlannedRow> plan;
     for_each_target_kernel([&](const std::string& kernel) {
         for (const double order : {0.5, 0.98319, 1.9909, 2.0, -0.5, -1.3}) {
@@ -96,6 +104,9 @@ TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) {
                                            << ", signal " << bench::signal_names[plan[i].signal];
     }
 }
+
+TEST_F(FirmwareTest, ComputesTheBitsOfThisMachine) { expect_the_bits_of_this_machine(); }
+TEST_F(CortexM4FirmwareTest, ComputesTheBitsOfThisMachine) { expect_the_bits_of_this_machine(); }
 
 TEST_F(FirmwareTest, CountsAreThoseOfTheLoopsAndDoNotDependOnTheRunner) {
     std::vector<qemu::PlannedRow> plan;

@@ -167,7 +167,7 @@ TEST(MadeElf, RunsOnTheCoreByItsAttributesOrItsVectors) {
     const auto checked = [&]() -> std::string {
         made.write(folder.file("a.elf"));
         try {
-            qemu::Elf(folder.file("a.elf")).check_runs_on_cortex_m7();
+            qemu::Elf(folder.file("a.elf")).check_runs_on("Cortex-M7");
         } catch (const glsum::Failure& failure) {
             EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
             const std::string what = failure.what();

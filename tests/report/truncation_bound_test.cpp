@@ -64,7 +64,7 @@ protected:
 TEST_F(MeasuredTruncation, NeverExceedsTheBoundAndAStepReachesIt) {
     bench::Sweep accuracy_alone = sweep();
     accuracy_alone.targets.clear();
-    const auto rows = bench::measure(accuracy_alone, std::nullopt, nullptr, {}).rows;
+    const auto rows = bench::measure(accuracy_alone, std::nullopt, {}, {}).rows;
     const auto bounds = bench::truncation_bounds(context(), rows, 1);
     EXPECT_EQ(bounds.missing, "");
     std::size_t held = 0;

@@ -74,9 +74,9 @@ std::vector<OnTarget> check_on_target(const std::vector<WrittenStepper>& stepper
                                  step.first_instructions, steppers[i].prefix)
                 .at(0);
         const std::uint32_t* const answers = &run.answers[answers_a_stepper * i];
-        all.push_back({{"on the emulated Cortex-M7", steppers[i].expected.size(), answers[0]},
+        all.push_back({{"on the " + board.name(), steppers[i].expected.size(), answers[0]},
                        {call.cycles, call.low, call.high, step.instructions,
-                        elf.end_of_function(run.entries[i]) - run.entries[i], answers[2], answers[1]}});
+                        elf.end_of_function(run.entries[i]) - run.entries[i], answers[2], answers[1], board.name()}});
     }
     return all;
 }
@@ -98,9 +98,9 @@ std::string cost_table(const std::vector<std::pair<std::string, StepCost>>& rows
                             cost.table_bytes, cost.code_bytes);
     }
     return text + fmt::format(
-                      "\n  a step on the emulated Cortex-M7; cycles of the timing model for {}; bytes of an instance,\n"
+                      "\n  a step on the {}; cycles of the timing model for {}; bytes of an instance,\n"
                       "  of the tables and of the step's code\n",
-                      core);
+                      rows.empty() ? "" : rows.front().second.where, core);
 }
 
 }  // namespace generate

@@ -33,6 +33,7 @@ struct StepCost {
     std::size_t code_bytes = 0;   ///< of the step, its sums in it
     std::size_t table_bytes = 0;  ///< constant
     std::size_t state_bytes = 0;  ///< of an instance
+    std::string where = "emulated Cortex-M7";
 };
 
 struct OnTarget {

@@ -17,10 +17,10 @@ const std::filesystem::path cores(TEST_CORES);
 
 TEST(CoreFile, TheNamedCoresAreThere) {
     EXPECT_EQ(timing::core_names(cores),
-              (std::vector<std::string>{"m7-ideal", "stm32f746-flash", "stm32f746-flash-art", "stm32f746-flash-nocache",
-                                        "stm32f746-itcm", "stm32f767-axi", "stm32f767-flash", "stm32f767-itcm",
-                                        "stm32h743-axi", "stm32h743-dtcm", "stm32h743-itcm", "stm32h747-axi",
-                                        "stm32h747-dtcm"}));
+              (std::vector<std::string>{"cortex-m4-zerowait", "m7-ideal", "stm32f746-flash", "stm32f746-flash-art",
+                                        "stm32f746-flash-nocache", "stm32f746-itcm", "stm32f767-axi", "stm32f767-flash",
+                                        "stm32f767-itcm", "stm32h743-axi", "stm32h743-dtcm", "stm32h743-itcm",
+                                        "stm32h747-axi", "stm32h747-dtcm", "stm32h747-m4"}));
     for (const std::string& name : timing::core_names(cores)) {
         const timing::CoreFile core = timing::read_core(cores, name);
         EXPECT_GE(core.sets.size(), 2U) << name;
@@ -120,7 +120,8 @@ TEST(CoreFile, OneThatCannotBeReadIsNamed) {
         (void)timing::read_core(scratch.file(""), "folder");
         FAIL();
     } catch (const glsum::Failure& failure) {
-        EXPECT_NE(std::string(failure.what()).find("folder.toml: no such core file"), std::string::npos) << failure.what();
+        EXPECT_NE(std::string(failure.what()).find("folder.toml: no such core file"), std::string::npos)
+            << failure.what();
     }
 }
 

@@ -4,6 +4,7 @@
 #include <regex>
 #include <stdexcept>
 
+#include "qemu/timing/cortex_m4/pipeline.hpp"
 #include "qemu/timing/decode.hpp"
 
 namespace probe {
@@ -75,7 +76,9 @@ std::int32_t branch_offset(std::uint32_t e, std::uint8_t bytes) {
     return 4 + 2 * sign(s << 23 | i1 << 22 | i2 << 21 | (e >> 16 & 0x3FF) << 11 | (e & 0x7FF), 24);
 }
 
-bool accesses_data(const Decoded& d) { return d.registers > 0 && d.branch == timing::Branch::none; }
+bool accesses_data(const Decoded& d) {
+    return d.registers > 0 && (d.branch == timing::Branch::none || d.branch == timing::Branch::back);
+}
 
 struct Text {
     std::vector<listing::Line> lines;
@@ -113,12 +116,13 @@ Setting core(const std::string& name) {
     const auto [at, is_new] = settings.try_emplace(name);
     if (is_new) {
         const timing::CoreFile file = timing::read_core(TEST_CORES, name);
-        at->second = {file.sets[0].figures, file.placement, file.off};
+        at->second = {file.sets[0].figures, file.placement, file.off, {}, 1, file.core};
     }
     return at->second;
 }
 
-Outcome run(const std::string& assembly, const Setting& setting) {
+template <class Model>
+Outcome walk(const std::string& assembly, const Setting& setting) {
     const auto& [lines, prepared, places] = text_of(assembly);
     std::map<unsigned, std::uint32_t> registers;
     for (unsigned reg = 0; reg < 13; ++reg) {
@@ -129,7 +133,7 @@ Outcome run(const std::string& assembly, const Setting& setting) {
     for (const auto& [reg, address] : setting.registers) {
         registers[reg] = address;
     }
-    timing::Model model(setting.figures, setting.placement, setting.off);
+    Model model(setting.figures, setting.placement, setting.off);
     Outcome outcome;
     std::map<std::size_t, unsigned> turns;
     std::vector<std::size_t> returns;
@@ -172,6 +176,12 @@ Outcome run(const std::string& assembly, const Setting& setting) {
     }
     outcome.losses = model.losses();
     return outcome;
+}
+
+Outcome run(const std::string& assembly, const Setting& setting) {
+    return setting.core == timing::Core::cortex_m4
+               ? walk<timing::ModelOf<timing::cortex_m4::Pipeline>>(assembly, setting)
+               : walk<timing::Model>(assembly, setting);
 }
 
 double steady_cycles(const std::string& assembly, const Setting& setting) {

@@ -28,6 +28,7 @@ struct Setting {
     timing::Effects off;
     std::map<unsigned, std::uint32_t> registers = {};  ///< addresses other than the usual ones
     unsigned turns = 1;                                ///< of a backward branch
+    timing::Core core = timing::Core::cortex_m7;
 };
 
 /// The nominal set of a core of qemu/cores.

@@ -307,6 +307,7 @@ struct Row {
 };
 constexpr Row figures[] = {
 #define ROW(section, name) {#section "." #name, &timing::Figures::section##_##name},
+#include "qemu/timing/m7_rows.def"
 #include "qemu/timing/rows.def"
 #undef ROW
 };
