@@ -13,7 +13,8 @@
 namespace gap {
 namespace {
 
-// A base with what was found beside it, and what that is worth: the logarithm of the gap, and a price for each number.
+// A base with what was found beside it, and what that is worth: the logarithm of the gap, and a price for each number,
+// of an event in each record that judges.
 struct Tried {
     std::string name;
     Answer answer;
@@ -22,9 +23,8 @@ struct Tried {
 
 double price_of(const Answer& answer, int base_numbers, double floor) {
     constexpr double each = 0.08;
-    const Candidate& named = answer.chosen().trained;
     return std::log(std::max(answer.chosen().gap_after, floor)) +
-           each * (base_numbers + static_cast<double>(named.effect_parameters()));
+           each * (base_numbers + static_cast<double>(answer.chosen().candidate.effect_parameters_in_all()));
 }
 
 std::vector<const Effect*> causes_of(const Answer& answer) {

@@ -51,7 +51,12 @@ bool Candidate::has_events() const {
 }
 
 std::size_t Candidate::effect_parameters() const {
-    std::size_t count = own.empty() ? 0 : event_parameters() / own.size();
+    const std::size_t of_events = event_parameters();
+    return effect_parameters_in_all() - of_events + (own.empty() ? 0 : of_events / own.size());
+}
+
+std::size_t Candidate::effect_parameters_in_all() const {
+    std::size_t count = event_parameters();
     for (const auto& list : lasting) {
         count += free_count(list);
     }

@@ -36,6 +36,8 @@ struct Candidate {
     [[nodiscard]] bool has_events() const;
     [[nodiscard]] std::size_t effect_parameters() const;  ///< free ones of effects, those of events in one record
     [[nodiscard]] std::size_t event_parameters() const;   ///< free ones, in all records
+    /// Free ones of effects, those of events in each record: what events explain is fitted wherever it is judged.
+    [[nodiscard]] std::size_t effect_parameters_in_all() const;
 };
 
 /// The base's free numbers at their starts; none unless it is refitted.

@@ -12,6 +12,7 @@
 #include "gap/drive/base/filtered.hpp"
 #include "gap/drive/base/find.hpp"
 #include "gap/drive/base/leftover.hpp"
+#include "gap/drive/base/modes.hpp"
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/base/structure.hpp"
 #include "gap/drive/start.hpp"
@@ -294,7 +295,7 @@ TEST(NamedForms, AreRefusedByName) {
         return "";
     };
     EXPECT_THAT(refusal("fopd"), testing::AllOf(testing::HasSubstr("fit:fopd: expected one of fopdt, sopdt, niopdt"),
-                                                testing::HasSubstr("third_order_zero; the nearest is fopdt")));
+                                                testing::HasSubstr("two_modes; the nearest is fopdt")));
     gap::Record nothing = record;
     nothing.output.assign(240, std::nan(""));
     EXPECT_THROW((void)gap::search_form("sopdt", {nothing}), glsum::Failure);
@@ -424,6 +425,44 @@ TEST(FilteredEstimates, AreTheCoefficientsOfTheEquation) {
     EXPECT_EQ(near, 3U);  // under the slowest three; what a quick filter passes between samples is no straight line
 }
 
+// --- Two modes.
+
+// Of 1 s decay and 2 rad/s; and a second one.
+gap::Described modes(double aside, double validation, double decay_s) {
+    const auto times = [](double decay, double rad_per_s) {
+        const double squared = rad_per_s * rad_per_s + 1.0 / (decay * decay);
+        return std::pair{2.0 / decay / squared, 1.0 / squared};  // a1 and a2
+    };
+    const auto [b1, b2] = times(1.0, 2.0);
+    const auto [c1, c2] = times(decay_s, 9.0);
+    const gap::Structure& structure = *gap::structure_named("two_modes");
+    const gap::Coefficients at{.denominator = {b1 + c1, b2 + c2 + b1 * c1, b1 * c2 + b2 * c1, b2 * c2},
+                               .numerator = {0.0, 0.0}};
+    return {structure.name,
+            structure.meaning,
+            gap::form_of(structure, at, true),
+            aside,
+            validation,
+            structure.numbers(),
+            0};
+}
+
+TEST(TwoModes, AreThePlantsOwnOrNone) {
+    const gap::Structure& one = *gap::structure_named("second_order");
+    const gap::Described other{one.name, one.meaning, gap::form_to_find(), 0.2, 0.3, one.numbers(), 0};
+    const auto left = [&](const gap::Described& two) {
+        std::vector<gap::Described> found = {other, two};
+        gap::keep_own_modes(found, 30.0);
+        return found.size();
+    };
+    EXPECT_EQ(left(modes(0.099, 0.149, 3.0)), 2U);
+    EXPECT_EQ(left(modes(0.101, 0.149, 3.0)), 1U);  // half of what one leaves
+    EXPECT_EQ(left(modes(0.099, 0.151, 3.0)), 1U);
+    EXPECT_EQ(left(modes(0.099, 0.149, 9.9)), 2U);  // a third of the record
+    EXPECT_EQ(left(modes(0.099, 0.149, 10.1)), 1U);
+    EXPECT_EQ(left(modes(0.099, 0.149, -3.0)), 1U);  // it grows
+}
+
 // --- Structures.
 
 TEST(Structures, HaveTheirNumbers) {
@@ -439,7 +478,8 @@ TEST(Structures, HaveTheirNumbers) {
     EXPECT_EQ(numbers("third_order"), 4);
     EXPECT_EQ(numbers("integrator_second_order"), 3);
     EXPECT_EQ(numbers("third_order_zero"), 5);
-    EXPECT_EQ(gap::structures().size(), 11U);
+    EXPECT_EQ(numbers("two_modes"), 7);
+    EXPECT_EQ(gap::structures().size(), 12U);
 }
 
 // gain (1 + 5 s) / (s (1 + 2 s)): whole orders stay, and what stands before the lowest power.

@@ -143,6 +143,26 @@ TEST(Base, OfAnOscillatorIsFound) {
     EXPECT_NEAR(value_of(all.front().form, "a1"), 0.025, 2e-3);
 }
 
+// 1 / (1 + 0.05 s + 0.25 s^2) and a quarter of 1 / (1 + 0.02 s + 0.02 s^2) beside it: an arm that bends.
+TEST(Base, OfTwoModesIsFound) {
+    const auto both = [](const std::function<double(double)>& input, unsigned seed) {
+        gap::Record sum = run([](double u, double y, double speed) { return (u - y - 0.05 * speed) / 0.25; },
+                              {.input = input, .seed = seed});
+        const gap::Record second = run([](double u, double y, double speed) { return (u - y - 0.02 * speed) / 0.02; },
+                                       {.input = input, .noise = 0.0});
+        for (std::size_t i = 0; i < sum.size(); ++i) {
+            sum.output[i] += 0.25 * second.output[i];
+        }
+        return sum;
+    };
+    const auto all = gap::find_base(question_of(both(levels, 1), both(other_levels, 2)), [](const std::string&) {});
+    ASSERT_EQ(all.front().name, "two_modes");
+    EXPECT_NEAR(value_of(all.front().form, "gain"), 1.25, 0.01);
+    EXPECT_NEAR(value_of(all.front().form, "a4"), 0.25 * 0.02, 1e-4);
+    EXPECT_LT(all.front().validation, 0.01);
+    EXPECT_LT(20.0 * all.front().validation, all[1].validation);  // which has one mode
+}
+
 TEST(Base, ThatIntegratesIsToldFromOneThatRests) {
     const auto plant = [](double u, double, double speed) { return (0.5 * u - speed) / 0.8; };
     const auto all = found(plant, {}, {});

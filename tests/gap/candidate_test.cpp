@@ -182,6 +182,7 @@ TEST(Candidate, CountsItsNumbers) {
     EXPECT_FALSE(candidate.has("backlash"));
     EXPECT_EQ(candidate.event_parameters(), 6U);   // three in each record
     EXPECT_EQ(candidate.effect_parameters(), 5U);  // three, and two of the curve
+    EXPECT_EQ(candidate.effect_parameters_in_all(), 8U);
     EXPECT_EQ(gap::Candidate{}.effect_parameters(), 0U);
     // The base's three, two of the curve, offset and output and event of each record.
     EXPECT_EQ(gap::free_numbers(candidate, false).size(), 3U + 2U + 2U * 5U);

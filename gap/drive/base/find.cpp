@@ -12,6 +12,7 @@
 #include "base/parallel.hpp"
 #include "gap/drive/base/filtered.hpp"
 #include "gap/drive/base/leftover.hpp"
+#include "gap/drive/base/modes.hpp"
 #include "gap/drive/base/structure.hpp"
 #include "gap/drive/fit.hpp"
 
@@ -265,6 +266,7 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     if (!std::all_of(all.begin(), all.end(), [&](const Described& one) { return outlasts(one, question.train); })) {
         std::erase_if(all, [&](const Described& one) { return outlasts(one, question.train); });
     }
+    keep_own_modes(all, longest_s(question.train));
     if (all.empty()) {
         throw glsum::Failure(
             glsum::Exit::bad_input,

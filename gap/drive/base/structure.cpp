@@ -20,6 +20,7 @@ const std::vector<Structure>& structures() {
         {"third_order", 3, 0, 0, "three lags, or a lag and an oscillator"},
         {"integrator_second_order", 3, 1, 0, "an integrator behind two lags or an oscillator"},
         {"third_order_zero", 3, 0, 1, "three lags with a zero"},
+        {"two_modes", 4, 0, 2, "two oscillators side by side: an arm that bends, a mass on a spring"},
     };
     return all;
 }
