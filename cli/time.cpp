@@ -1,4 +1,4 @@
-// glsum time: what a function of anybody's firmware takes on a modelled Cortex-M7.
+// glsum time: what a function of anybody's firmware takes on a modelled core.
 #include <fmt/format.h>
 
 #include <memory>

@@ -1,5 +1,5 @@
-# glsum_flavour(VARIABLE): which build of the library a project's compiler and flags ask for: `host`, or `cortex-m7-` and the
-# floating-point unit whose registers pass arguments: `none`, `single`, `double`.
+# glsum_flavour(VARIABLE): which build of the library a project's compiler and flags ask for: `host`, or `cortex-m7-` or
+# `cortex-m4-` and the floating-point unit whose registers pass arguments: `none`, `single`, `double`.
 # Asked of the compiler, as only it knows what all its flags come to.
 function(glsum_flavour variable)
     set(flavour host)
@@ -14,13 +14,18 @@ function(glsum_flavour variable)
         execute_process(COMMAND ${compiler} -dM -E /dev/null OUTPUT_VARIABLE macros ERROR_QUIET)
         set(flavour "")
         if(macros MATCHES "__ARM_ARCH_7EM__")
-            set(flavour cortex-m7-none)
+            # The compiler defines nothing that tells the two cores apart.
+            set(core cortex-m7)
+            if("${CMAKE_CXX_FLAGS} ${CMAKE_C_FLAGS}" MATCHES "-mcpu=cortex-m4")
+                set(core cortex-m4)
+            endif()
+            set(flavour ${core}-none)
             if(macros MATCHES "__ARM_PCS_VFP" AND macros MATCHES "__ARM_FP (0x[0-9a-fA-F]+|[0-9]+)")
                 math(EXPR double "${CMAKE_MATCH_1} & 8")
                 if(double)
-                    set(flavour cortex-m7-double)
+                    set(flavour ${core}-double)
                 else()
-                    set(flavour cortex-m7-single)
+                    set(flavour ${core}-single)
                 endif()
             endif()
         endif()

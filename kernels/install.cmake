@@ -1,5 +1,5 @@
 # What other projects use: headers, library and the ways to find them. One prefix holds the host's library and, for each floating-point
-# unit that a Cortex-M7 may have, the target's: a build installs the one that it is of.
+# unit that a Cortex-M7 or M4 may have, the target's: a build installs the one that it is of.
 include(CMakePackageConfigHelpers)
 include(GNUInstallDirs)
 include(${CMAKE_CURRENT_SOURCE_DIR}/glsum-flavour.cmake)

@@ -73,8 +73,7 @@ TEST(Context, SaysWhatWasRunWhereAndOfWhichBuild) {
     bench::Sweep other = small();
     other.weights = bench::Discretisation::bdf2;
     EXPECT_EQ(bench::make_context({}, other, {}).at("weights"), "bdf2");
-    EXPECT_NEAR(bench::make_context({}, other, {}).at("first_weights").at("0.5").get<double>(), std::sqrt(1.5),
-                1e-12);
+    EXPECT_NEAR(bench::make_context({}, other, {}).at("first_weights").at("0.5").get<double>(), std::sqrt(1.5), 1e-12);
 }
 
 // What Google Benchmark says of the machine stays.

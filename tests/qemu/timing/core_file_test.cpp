@@ -58,7 +58,8 @@ TEST(CoreFile, OnlyTheIdealCoreHasEverythingOff) {
 }
 
 // Changes the text of a copy of the cores and reads one of them.
-std::string message_after(const std::string& file, const std::string& from, const std::string& to) {
+std::string message_after(const std::string& file, const std::string& from, const std::string& to,
+                          const std::string& read = "stm32f746-itcm") {
     const base::Scratch scratch;
     const auto folder = scratch.file("cores");
     std::filesystem::copy(cores, folder);
@@ -70,7 +71,7 @@ std::string message_after(const std::string& file, const std::string& from, cons
     changed.replace(at, from.size(), to);
     std::ofstream(folder / file) << changed;
     try {
-        (void)timing::read_core(folder, "stm32f746-itcm");
+        (void)timing::read_core(folder, read);
     } catch (const glsum::Failure& failure) {
         EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
         return failure.what();
@@ -110,6 +111,29 @@ TEST(CoreFile, DamageIsNamedWithFileAndLine) {
     EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "notes").find("notes: no such key"), std::string::npos);
     EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "effects_off = [\"friction\"]\nnote")
                   .find("no such effect: friction"),
+              std::string::npos);
+}
+
+// A file names its core, and has the rows of that core and no others'.
+TEST(CoreFile, EachCoreHasRowsOfItsOwn) {
+    EXPECT_EQ(timing::read_core(cores, "cortex-m4-zerowait").core, timing::Core::cortex_m4);
+    EXPECT_EQ(timing::read_core(cores, "stm32h747-m4").core, timing::Core::cortex_m4);
+    EXPECT_EQ(timing::read_core(cores, "stm32h747-dtcm").core, timing::Core::cortex_m7);
+    const auto m4 = [](const std::string& from, const std::string& to) {
+        return message_after("_cortex-m4.toml", from, to, "cortex-m4-zerowait");
+    };
+    EXPECT_EQ(m4("# ", "# "), "");
+    EXPECT_NE(m4("\"cortex-m4\"", "\"cortex-m5\"").find("core: expected cortex-m7 or cortex-m4, found cortex-m5"),
+              std::string::npos);
+    EXPECT_NE(m4("[rows.use]", "[rows.read]\naddress = { value = 1, mark = \"assumed\", source = \"x\" }\n[rows.use]")
+                  .find("read.address: no row of a cortex-m4"),
+              std::string::npos);
+    EXPECT_NE(m4("use.loaded_address_ahead =", "read.address =").find("read.address: no row of a cortex-m4"),
+              std::string::npos);
+    EXPECT_NE(m4("fp_next = ", "# ").find("expected the row use.fp_next"), std::string::npos);
+    EXPECT_NE(message_after("_cortex-m7.toml", "[rows.read]",
+                            "[rows.use]\nfp_next = { value = 1, mark = \"assumed\", source = \"x\" }\n[rows.read]")
+                  .find("use.fp_next: no row of a cortex-m7"),
               std::string::npos);
 }
 
