@@ -11,6 +11,9 @@
 
 namespace cli {
 
+/// Exact sums of each sample with all before it, in 50 digits: more would take minutes.
+inline constexpr std::size_t most_samples_of_a_sum = 8000;
+
 struct Budget {
     double order = 0.0;
     double step_s = 0.0;
