@@ -22,9 +22,8 @@ std::string why_not_named() {
     if (!refuses_named_weights<K>()) {
         return "";
     }
-    return glsum::guesses_tail<typename K::HistoryPart>
-               ? "the guessed tail's weights have a closed form for gl alone"
-               : "in Horner form and fixed point it takes those of an order alone";
+    return glsum::guesses_tail<typename K::HistoryPart> ? "the guessed tail's weights have a closed form for gl alone"
+                                                        : "in Horner form and fixed point it takes those of an order alone";
 }
 
 }  // namespace

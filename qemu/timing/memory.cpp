@@ -21,7 +21,8 @@ Memory::Memory(const Figures& f, const Placement& placement)
       data_(f.cache_data_bytes, f.cache_data_ways, f.cache_line_bytes),
       accelerator_(accelerator_of(f)),
       wait_states_((f.memory_clock_hz / std::max<std::int64_t>(1, f.memory_bus_clocks) - 1) /
-                   std::max<std::int64_t>(1, f.memory_flash_hz_per_wait_state)) {}
+                   std::max<std::int64_t>(1, f.memory_flash_hz_per_wait_state)),
+      nothing_waits_(wait_states_ == 0 && f.memory_bus_overhead == 0 && f.memory_bus_clocks <= 1) {}
 
 Place Memory::place_among_ranges(std::uint32_t address) const {
     const auto found = std::find_if(ranges_.rbegin(), ranges_.rend(), [&](const PlacedRange& range) {
@@ -99,7 +100,7 @@ Delay Memory::load_from_afar(std::uint32_t address) {
 }
 
 Delay Memory::store(std::uint32_t address) {
-    if (place_of(address) != Place::axi) {  // a flash is not written by stores
+    if (nothing_waits_ || place_of(address) != Place::axi) {  // a flash is not written by stores
         return {};
     }
     if (data_.on() && data_.touch(address, true).hit) {

@@ -41,7 +41,10 @@ public:
     [[nodiscard]] std::int64_t flash_wait_states() const { return wait_states_; }
 
 private:
-    [[nodiscard]] bool in_tcm(std::uint32_t address) const { return place_of(address) <= Place::dtcm; }
+    /// Or as good as: where nothing waits, whatever the memory is called.
+    [[nodiscard]] bool in_tcm(std::uint32_t address) const {
+        return nothing_waits_ || place_of(address) <= Place::dtcm;
+    }
     [[nodiscard]] Place place_of(std::uint32_t address) const {
         return ranges_.empty() ? (is_data(address) ? data_place_ : code_place_) : place_among_ranges(address);
     }
@@ -59,6 +62,7 @@ private:
     Cache data_;
     Cache accelerator_;
     std::int64_t wait_states_;
+    bool nothing_waits_;                           // no wait state, and no bus between
     std::uint32_t open_fetch_line_ = 0xFFFFFFFFU;  // what the flash read last
     std::uint32_t open_data_line_ = 0xFFFFFFFFU;
     std::uint32_t prefetched_line_ = 0xFFFFFFFFU;

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <map>
 
-#include "base/scratch.hpp"
 #include "bench/sweep/signals.hpp"
 #include "bench/target/target_plan.hpp"
+#include "base/scratch.hpp"
 #include "tests/qemu/made_program.hpp"
 
 namespace {

@@ -123,6 +123,21 @@ TEST(CortexM4, TakesTheCyclesDerivedByHand) {
     }
 }
 
+// Flash without wait states is as fast as any memory: where code lies there is no other figure.
+TEST(CortexM4, WithoutWaitStatesNoMemoryIsSlower) {
+    for (const Probe& probe : probes) {
+        probe::Setting setting = probe::core("cortex-m4-zerowait");
+        const double cycles = cycles_of(probe, setting);
+        setting.placement.code = timing::CodePlace::flash;
+        EXPECT_EQ(cycles_of(probe, setting), cycles) << probe.text;
+    }
+    // At 60 MHz there is one: two words of a line come with a cycle more.
+    probe::Setting setting = probe::core("cortex-m4-zerowait");
+    setting.placement.code = timing::CodePlace::flash;
+    setting.figures.memory_clock_hz = 60'000'000;
+    EXPECT_GT(cycles_of({"", "nop.w; nop.w; nop.w; nop.w", 4}, setting), 4.0);
+}
+
 TEST(CortexM4, LossesSumExactlyToWhatIsAboveHalfACycleAnInstruction) {
     for (const Probe& probe : probes) {
         for (const char* core : {"cortex-m4-zerowait", "stm32h747-m4"}) {
