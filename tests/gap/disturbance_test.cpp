@@ -99,6 +99,11 @@ TEST(Disturbance, HasNoWaveAndNoBurst) {
         wave.residuals[i] += 2.0 * std::sin(2.0 * std::numbers::pi * 0.21 * record.time_s[i]);
         burst.residuals[i] *= i >= 900 && i < 1000 ? 10.0 : 1.0;
     }
+    gap::Remainder few = noise(record, 8);  // waves in a record
+    for (std::size_t i = 0; i < samples; ++i) {
+        few.residuals[i] += 4.0 * std::sin(2.0 * std::numbers::pi * 4.5 / 200.0 * record.time_s[i]);
+    }
+    EXPECT_FALSE(gap::disturbance_of({few}, 1e-6).even);
     const gap::Disturbance plain = gap::disturbance_of({noise(record, 6)}, 1e-6);
     EXPECT_FALSE(gap::disturbance_of({wave}, 1e-6).even);
     EXPECT_FALSE(gap::disturbance_of({burst}, 1e-6).even);

@@ -12,6 +12,9 @@ namespace {
 // Stationary noise of any colour stays below these: in stretches that are not one swing of it, and by lines.
 constexpr double loud = 20.0;
 constexpr double stands_out = 50.0;
+// Of a wave, of which a record may hold too few for a line. What a plant with a damping ratio of 0.17 makes of noise
+// stays above.
+constexpr double turns_over = -0.6;
 
 double mean_of(const Remainder& one) {
     double sum = 0.0;
@@ -21,6 +24,27 @@ double mean_of(const Remainder& one) {
         count += one.counts[i] != 0 ? 1.0 : 0.0;
     }
     return count > 0.0 ? sum / count : 0.0;
+}
+
+// The lowest correlation of values some way apart. A wave turns over half a wave on, which is 1.6 times what lies
+// between values that tell anything new.
+double lowest_correlation(const std::vector<std::vector<double>>& records, double apart) {
+    const auto step = std::max<std::size_t>(1, static_cast<std::size_t>(apart / 16.0));
+    const auto covariance = [&](std::size_t lag) {
+        double sum = 0.0;
+        for (const std::vector<double>& record : records) {
+            for (std::size_t k = lag; k < record.size(); ++k) {
+                sum += record[k] * record[k - lag];
+            }
+        }
+        return sum;
+    };
+    const double whole = covariance(0);
+    double lowest = whole;
+    for (std::size_t lag = step; static_cast<double>(lag) <= 4.0 * apart; lag += step) {
+        lowest = std::min(lowest, covariance(lag));
+    }
+    return whole > 0.0 ? lowest / whole : 1.0;
 }
 
 }  // namespace
@@ -60,7 +84,7 @@ Disturbance disturbance_of(const std::vector<Remainder>& records, double least_s
     found.rms = std::sqrt(squares / samples);
     const double apart = fit_whitener(counted, 0, std::sqrt(least_square)).samples_apart;
     found.times_anew = samples / apart;
-    found.even = true;
+    found.even = lowest_correlation(counted, apart) > turns_over;
     for (const Remainder& one : about) {
         const double stretch_s = 2.0 * apart * one.record->usual_interval_s;
         found.even = found.even &&
