@@ -39,7 +39,8 @@ void run(const Options& options) {
     const char* const python = std::filesystem::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
     const std::string program = (source / "docs" / "site" / "build.py").string();
     const std::string out = std::filesystem::absolute(options.out).string();
-    execlp(python, python, program.c_str(), source.c_str(), facts.c_str(), out.c_str(), nullptr);
+    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+    execlp(python, python, program.c_str(), source.c_str(), facts.c_str(), out.c_str(), self.c_str(), nullptr);
     throw Failure(Exit::missing, std::string(python) + ": not found (Debian package python3-sphinx brings it)");
 }
 

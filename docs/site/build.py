@@ -1,6 +1,6 @@
-"""build.py SOURCE FACTS OUT: puts the sources of the pages together and has Sphinx make pages of them.
+"""build.py SOURCE FACTS OUT PROGRAM: puts the sources of the pages together and has Sphinx make pages of them.
 
-SOURCE is the project, FACTS what `glsum docs` wrote of kernels, cores and effects, OUT the folder of the pages.
+SOURCE is the project, FACTS what `glsum docs` wrote of kernels, cores and effects, OUT the folder of the pages, PROGRAM itself.
 Exit status: 0 made, 1 a page could not be made, 3 a program is missing.
 """
 import importlib.util
@@ -23,18 +23,18 @@ def missing():
             [package for module, package in MODULES.items() if not importlib.util.find_spec(module)])
 
 
-def measure(source, facts):
+def measure(source, facts, program):
     """The run that the families' costs are of: made once, and again where the program that writes the facts is newer."""
     run = facts / "run.json"
-    if run.exists() and run.stat().st_mtime > (source / "build/host/cli/glsum-docs").stat().st_mtime:
+    if run.exists() and run.stat().st_mtime > program.stat().st_mtime:
         return 0
     line = [str(source / "glsum"), "bench", "--quick", "--orders", str(families.ORDER), "--targets", "m7", "--out", str(run)]
     print(" ".join(line), flush=True)
     return subprocess.run(line, stdout=subprocess.DEVNULL, check=False).returncode
 
 
-def make(source, facts, out):
-    status = measure(source, facts)
+def make(source, facts, out, program):
+    status = measure(source, facts, program)
     if status:
         return status
     work = facts.parent
@@ -65,4 +65,4 @@ if __name__ == "__main__":
     if missing():
         print(f"glsum: docs: not found: {' '.join(missing())} (Debian packages)", file=sys.stderr)
         sys.exit(3)
-    sys.exit(make(*(pathlib.Path(word) for word in sys.argv[1:4])))
+    sys.exit(make(*(pathlib.Path(word) for word in sys.argv[1:5])))

@@ -13,7 +13,7 @@ cd "$root"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-find . \( -path ./build -o -path ./tests -o -path ./docs -o -path ./results -o -path './.*' \) -prune -o -type f \
+find . \( -path ./build -o -path ./tests -o -path ./results -o -path './.*' \) -prune -o -type f \
     \( -name '*.cpp' -o -name '*.hpp' -o -name '*.h' -o -name '*.in' -o -name '*.def' -o -name '*.S' \) -print | sed 's|^\./||' | LC_ALL=C sort >"$work/files"
 while read -r file; do
     grep -Hn '^ *# *include "[^{"]*"' "$file" || true

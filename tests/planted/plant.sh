@@ -54,6 +54,7 @@ library_of() {
         bench/generate/controller/* | bench/generate/model/* | bench/generate/stepper/*) echo bench/libglsum_generate_steppers.a ;;
         bench/generate/*) echo bench/libglsum_generate.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
+        docs/site/*) echo docs/site/libglsum_docs_facts.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
         drive/tune/*) echo drive/tune/libglsum_tune.a ;;
         drive/*) echo drive/libglsum_drive.a ;;
@@ -82,6 +83,7 @@ tests_of() {
         bench/report/*) echo bench_tests browser_tests ;;
         bench/studies/horizon* | bench/studies/model* | bench/studies/record*) echo studies_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
+        docs/site/*) echo docs_tests ;;
         drive/tune/*) echo tune_tests ;;
         drive/*) echo drive_tests ;;
         gap/cycles/*) echo gap_cycles_tests ;;

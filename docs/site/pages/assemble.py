@@ -45,7 +45,7 @@ def _below(page, all_pages):
         listed = [one for one in all_pages if one != page and one.parts[0] != "docs"]
     elif name == "docs/README.md":
         listed = [one for one in all_pages
-                  if one.parts[0] == "docs" and one != page and one.parts[1] not in ("site", "tutorials")]
+                  if one.parts[0] == "docs" and one != page and one.parts[1] != "tutorials"]
     else:
         return ""
     names = [os.path.relpath(one.with_suffix(""), page.parent) for one in listed]
@@ -65,4 +65,4 @@ def copy(source, tree):
     static.mkdir()
     shutil.copy(source / "docs/site/glsum.css", static)
     shutil.copy(source / "docs/site/conf.py", tree)
-    shutil.move(tree / "docs/site/index.md", tree / "index.md")
+    shutil.copy(source / "docs/site/index.myst", tree / "index.md")  # no .md here: its links are the site's

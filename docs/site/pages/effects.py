@@ -123,7 +123,7 @@ def write(source, facts, tree):
         _picture(effect, folder / f"{effect['name']}.svg")
         (folder / f"{effect['name']}.md").write_text(_page(effect, source))
     parts = ["# Effects\n\nWhat a simulation may lack, and `./glsum diagnose` looks for. "
-             "[A first diagnosis](../docs/first-diagnosis.md) walks through one; [the method](../docs/diagnosis.md) says how it decides.\n"]
+             "[A walk](../docs/tutorials/rig.md) walks through one; [the method](../docs/diagnosis.md) says how it decides.\n"]
     for place, words in PLACES.items():
         rows = [(f"[`{one['name']}`]({one['name']}.md)", ", ".join(f"`{name}`" for name in one["parameters"]),
                  ", ".join(f"`{name}`" for name, _ in one["alike"][:3]))

@@ -9,7 +9,7 @@ CORE = "stm32f746-itcm"
 # Of a family the kernel that the C example is made of, and the options that say its length.
 IN_C = {
     "window": "--kernel ring_plain_f32 --taps 400",
-    "exponentials": "--kernel modes_plain_f32 --max-error 1e-4",
+    "exponentials": "--kernel modes_plain_f32 --taps 2+9",
     "logmemory": "--kernel nested_plain_f32 --taps 32",
     "lookahead": "--kernel block_oldestfma_f32 --taps 400",
     "transposed": "--kernel transposed_oldest_f32 --taps 400",
@@ -96,7 +96,7 @@ def _page(family, source, all_points):
         "It prints:\n",
         text.code(said),
         "## In C99\n",
-        text.code(f"./glsum generate --order {ORDER} --step-s 0.001 {IN_C[word]} --out half_derivative.h\ncc -O2 -I. half_derivative.c"),
+        text.code(f"./glsum generate --order {ORDER} --step-s 0.001 {IN_C[word]} --out half_derivative.h\ncc -O2 -I. half_derivative.c -lm"),
         text.code(in_c, "c"),
         "It prints:\n",
         text.code(said_by_c),
