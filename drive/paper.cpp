@@ -183,7 +183,7 @@ base::Picture picture_of_step_responses(const PaperModels& models) {
     return picture_of_curves({{"(10) " + to_text(models.fopdt), stamps(), step_response(models.fopdt)},
                               {"(11) " + to_text(models.sopdt), stamps(), step_response(models.sopdt)},
                               {"(12) " + to_text(models.niopdt), stamps(), step_response(models.niopdt)}},
-                             "Step responses of the proposed models", "output");
+                             "The three proposed models rise alike: step responses of (10) to (12)", "output");
 }
 
 std::vector<Precision> compare_precisions(const Model& niopdt) {
@@ -200,16 +200,20 @@ std::vector<Precision> compare_precisions(const Model& niopdt) {
 
 base::Picture picture_of_precisions(const Model& niopdt) {
     const Model plant = undelayed(niopdt);
+    const std::vector<double> exact = step_response(plant);
+    constexpr double smallest_drawn = 1e-6;
     std::vector<Curve> curves;
     for (const Scene& scene : scenes()) {
-        if (scene.scheme.kernel.empty() && !scene.scheme.taps) {
-            continue;
+        const auto output = simulate(plant, scene.scheme, std::vector<double>(exact.size(), 1.0)).output;
+        std::vector<double> apart(exact.size());
+        for (std::size_t i = 0; i < exact.size(); ++i) {
+            apart[i] = std::max(smallest_drawn, std::fabs(output[i] - exact[i]));
         }
-        curves.push_back(
-            {scene.how, stamps(), simulate(plant, scene.scheme, std::vector<double>(stamps().size(), 1.0)).output});
+        curves.push_back({scene.how, stamps(), apart});
     }
-    curves.push_back({"exact", stamps(), step_response(plant)});
-    return picture_of_curves(curves, "Plant (12) without its dead time, stepped at h = 1 ms", "output");
+    return picture_of_curves(
+        curves, "Plant (12) at h = 1 ms: newest first, single precision drifts off; oldest first it does not",
+        "distance from the exact response", Axis::logarithmic);
 }
 
 }  // namespace drive

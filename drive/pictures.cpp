@@ -24,9 +24,29 @@ std::string data_block(std::size_t index, const Curve& curve) {
     return block + "EOD\n";
 }
 
+// Titles of curves side by side below the picture, as many as have room there.
+struct Key {
+    std::size_t columns;
+    std::size_t rows;
+};
+
+Key key_of(const std::vector<Curve>& curves) {
+    constexpr double width = 850.0;
+    constexpr double letter = 7.5;
+    constexpr double sample = 70.0;
+    std::size_t longest = 0;
+    for (const Curve& curve : curves) {
+        longest = std::max(longest, curve.title.size());
+    }
+    const double room = width / (letter * static_cast<double>(longest) + sample);
+    const std::size_t columns = std::clamp<std::size_t>(static_cast<std::size_t>(room), 1, 3);
+    return {columns, (curves.size() + columns - 1) / columns};
+}
+
 }  // namespace
 
-base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title, const std::string& unit) {
+base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title, const std::string& unit,
+                                Axis axis) {
     std::string script;
     std::vector<std::string> plots;
     for (std::size_t i = 0; i < curves.size(); ++i) {
@@ -37,20 +57,21 @@ base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::str
                                     curves[i].points ? "points pt 7 ps 0.5" : fmt::format("lines lw 2 dt {}", dash),
                                     curves[i].points ? "#AAAAAA" : palette[i % std::size(palette)], curves[i].title));
     }
-    const std::size_t key_rows = (plots.size() + 2) / 3;
+    const Key key = key_of(curves);
     script += fmt::format(
         "set title \"{}\" noenhanced\n"
         "set xlabel \"t [s]\" offset 0,0.6\n"
         "set ylabel \"{}\"\n"
         "set grid lc rgb \"#dddddd\"\n"
-        "set key outside below horizontal maxcols 3 width 2\n"
+        "set key outside below horizontal maxcols {} width 2\n"
         "set bmargin {}\n"
         "set border 3\n"
         "set tics nomirror\n"
         "set xrange [*:*] noextend\n"
-        "plot {}\n",
-        title, unit, 4 + key_rows, fmt::join(plots, ", \\\n  "));
-    return {script, 900, 520};
+        "{}plot {}\n",
+        title, unit, key.columns, 4 + key.rows,
+        axis == Axis::logarithmic ? "set logscale y\nset format y \"10^{%L}\"\n" : "", fmt::join(plots, ", \\\n  "));
+    return {script, 900, 460 + 20 * key.rows};
 }
 
 std::string short_text(Model model) {

@@ -16,9 +16,11 @@ struct Curve {
     bool points = false;  ///< measured samples
 };
 
-/// Curves over time, each with its title in the key.
+enum class Axis { linear, logarithmic };
+
+/// Curves over time, each with its title in the key below. On a logarithmic axis values are above 0.
 [[nodiscard]] base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title,
-                                              const std::string& unit);
+                                              const std::string& unit, Axis axis = Axis::linear);
 
 /// The transfer function with 4 digits, as a title has room for.
 [[nodiscard]] std::string short_text(Model model);

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <map>
 
 #include "base/gnuplot.hpp"
 #include "bench/studies/equal_cost.hpp"
@@ -19,6 +21,37 @@ std::vector<EqualCostWay> drawn_ways() {
     return drawn;
 }
 
+// What the picture shows, in a sentence: which ways err least at the highest cost, in how many panels.
+std::string message(const EqualCost& wanted, const EqualCostErrors& found, const std::vector<EqualCostWay>& ways) {
+    std::map<std::string, std::size_t> least;
+    std::size_t panels = 0;
+    for (const double order : wanted.orders) {
+        for (const std::string& signal : wanted.signals) {
+            const EqualCostWay* best = nullptr;
+            double smallest = 1e300;
+            for (const EqualCostWay& way : ways) {
+                const auto error = found.find(key_of(way.name, wanted.costs.back(), fmt::format("{}", order), signal));
+                if (error != found.end() && error->second < smallest) {
+                    smallest = error->second;
+                    best = &way;
+                }
+            }
+            if (best != nullptr) {
+                ++panels;
+                ++least[std::string(best->label)];
+            }
+        }
+    }
+    std::vector<std::pair<std::string, std::size_t>> ranked(least.begin(), least.end());
+    std::ranges::stable_sort(ranked, std::greater(), &std::pair<std::string, std::size_t>::second);
+    std::string text = fmt::format("Of {} panels, at {} multiplications a sample, the least error is that of", panels,
+                                   wanted.costs.back());
+    for (std::size_t i = 0; i < std::min<std::size_t>(3, ranked.size()); ++i) {
+        text += fmt::format("{} {} in {}", i > 0 ? "," : "", ranked[i].first, ranked[i].second);
+    }
+    return text;
+}
+
 }  // namespace
 
 void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, const std::filesystem::path& stem) {
@@ -30,12 +63,13 @@ void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, con
     const auto tall = static_cast<double>(height);
     const auto wide = static_cast<double>(width);
     std::string script = fmt::format(
-        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title \"Error of the "
-        "sum at equal cost, relative to the largest exact sum (below 10^{{-10}}: drawn there)\"\nset logscale y\nset "
+        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title "
+        "\"{}\\nError of the sum at equal cost, relative to the largest exact sum (below 10^{{-10}}: drawn "
+        "there)\"\nset logscale y\nset "
         "format y \"10^{{%L}}\"\n"
         "set xrange [{}:{}]\nset ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xtics nomirror ({})\n",
         wanted.orders.size(), wanted.signals.size(), 70.0 / wide, 1.0 - 220.0 / wide, 60.0 / tall, 1.0 - 75.0 / tall,
-        50.0 / wide, 50.0 / tall, static_cast<double>(wanted.costs.front()) - 3.0,
+        50.0 / wide, 50.0 / tall, message(wanted, found, drawn_here), static_cast<double>(wanted.costs.front()) - 3.0,
         static_cast<double>(wanted.costs.back()) + 3.0, fmt::join(wanted.costs, ", "));
     bool key = true;
     for (std::size_t row = 0; row < wanted.orders.size(); ++row) {

@@ -1,12 +1,31 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string_view>
 
 #include "bench/studies/horizon_case.hpp"
 
 namespace bench {
+namespace {
+
+// What the picture shows, in a sentence.
+std::string message(const std::vector<HorizonCase>& cases) {
+    std::size_t window = 0;
+    std::size_t modes = 0;
+    for (const HorizonCase& one : cases) {
+        if (one.samples == cases.back().samples) {
+            window = std::max(window, one.window_macs());
+            modes = std::max(modes, one.modes ? one.modes->multiplications() : 0);
+        }
+    }
+    return fmt::format(
+        "Over {} samples a window takes up to {} multiplications a sample, near taps and modes at most {}",
+        cases.back().samples, window, modes);
+}
+
+}  // namespace
 
 base::Picture picture_of(const std::vector<double>& orders, const std::vector<HorizonCase>& cases) {
     const std::size_t width = 280 + 260 * orders.size();
@@ -16,14 +35,13 @@ base::Picture picture_of(const std::vector<double>& orders, const std::vector<Ho
     const auto shortest = static_cast<double>(cases.front().samples);
     const auto longest = static_cast<double>(cases.back().samples);
     std::string script = fmt::format(
-        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title \"Multiplications "
-        "a "
-        "sample for an error of the sum, over the samples that the past may hold\"\n"
+        "set multiplot layout {},{} margins {:.4f},{:.4f},{:.4f},{:.4f} spacing {:.4f},{:.4f} title "
+        "\"{}\\nMultiplications a sample for an error of the sum, over the samples that the past may hold\"\n"
         "set logscale xy\nset format \"10^{{%L}}\"\nset xtics nomirror\nset ytics nomirror\nset mxtics 1\nset mytics "
         "1\n"
         "set grid lc rgb \"#dddddd\"\nset xrange [{}:{}]\nset yrange [3:{}]\n",
         horizon_errors.size(), orders.size(), 65.0 / wide, 1.0 - 235.0 / wide, 60.0 / tall, 1.0 - 70.0 / tall,
-        50.0 / wide, 60.0 / tall, shortest / 2.0, longest * 2.0, longest * 2.0);
+        50.0 / wide, 60.0 / tall, message(cases), shortest / 2.0, longest * 2.0, longest * 2.0);
     const auto data_of = [&](std::size_t way, double order, double error) {
         std::string data;
         for (const HorizonCase& one : cases) {

@@ -183,11 +183,11 @@ TEST(Paper, PicturesShowTheThreeModelsAndEveryPrecision) {
     }
     EXPECT_THAT(steps, HasSubstr(fmt::format("\n5 {:.7g}\n", drive::StepResponse(models.sopdt)(5.0))));
     const auto precisions = drive::picture_of_precisions(models.niopdt).script;
-    // All but double with full memory, which lies on the exact one.
     EXPECT_EQ(count_of(precisions, "<< EOD"), 7U);
+    EXPECT_EQ(count_of(precisions, "set logscale y"), 1U) << "most lie within a line's width of the exact response";
     for (const auto& precision : drive::compare_precisions(models.niopdt)) {
         const std::string title = "title \"" + precision.how + "\"";
-        EXPECT_EQ(count_of(precisions, title), precision.how == "double" ? 0U : 1U) << title;
+        EXPECT_EQ(count_of(precisions, title), precision.how == "exact" ? 0U : 1U) << title;
     }
 }
 
@@ -208,6 +208,13 @@ TEST(Pictures, CurvesHoldTheirPoints) {
     EXPECT_TRUE(std::regex_search(
         script, solid, std::regex("\\$d2 using 1:2 with lines lw 2 dt 1 lc rgb \"([^\"]*)\" title \"best\"")));
     EXPECT_NE(dash[2], solid[1]);
+    // Long titles stand below one another, with room for each.
+    EXPECT_THAT(script, HasSubstr("maxcols 3 width 2\nset bmargin 5\n"));
+    const std::string wide(70, 'x');
+    const auto tall =
+        drive::picture_of_curves({{wide, {0.0, 1.0}, {1.0, 2.0}}, {wide, {0.0, 1.0}, {2.0, 1.0}}}, "t", "u");
+    EXPECT_THAT(tall.script, HasSubstr("maxcols 1 width 2\nset bmargin 6\n"));
+    EXPECT_EQ(tall.height, 500U);
     // Of a long record at most some thousand points.
     drive::Curve longer{"long", {}, {}};
     for (int k = 0; k < 20000; ++k) {
