@@ -181,8 +181,8 @@ void add_options(Command& command, const Words& words) {
         .between(1, 10000);
     command.add_option("--jobs", options->jobs, "Threads and emulators at once").between(1, 1024);
     command.add_option("--out", options->out,
-                       "Result file (default: results/latest.json); .csv (a row each), -tidy.csv (a number each), .svg "
-                       "and .png are written beside it");
+                       "Result file (default: results/latest.json); -times.json (rows with a time), .csv (a row each), "
+                       "-tidy.csv (a number each), .svg and .png are written beside it");
     add_table_option(command, options->table);
     command.callback([options, &words] { run(*options, words.passed_on); });
 }

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
 #include <vector>
 
 #include "base/failure.hpp"
@@ -52,11 +53,16 @@ void finish_run(const std::filesystem::path& out, const bench::Results& results,
     std::filesystem::path stem = out;
     stem.replace_extension();
     const auto beside = [&](const char* end) { return std::filesystem::path(stem) += end; };
+    // Dashboards of Google Benchmark's files draw every row's time: a row of accuracy would be a line at 0.
+    std::vector<bench::Json> timed;
+    std::ranges::copy_if(results.rows, std::back_inserter(timed), bench::is_timed);
+    bench::write_results(beside("-times.json"), results.context, timed);
     bench::write_csv(beside(".csv"), results.rows);
     bench::write_tidy_csv(beside("-tidy.csv"), results.rows);
     bench::plot_error(groups, worst_of_signals(bench::truncation_bounds(results.context, results.rows, jobs)), stem);
-    fmt::print("{}\n{} rows in {}; beside it .csv, -tidy.csv, .svg and .png; glsum report makes a page of it\n",
-               tables(groups, results, table), results.rows.size(), out.string());
+    fmt::print(
+        "{}\n{} rows in {}\nbeside it: -times.json, .csv, -tidy.csv, .svg and .png; glsum report makes a page of it\n",
+        tables(groups, results, table), results.rows.size(), out.string());
     check_rows(results);
 }
 

@@ -28,6 +28,8 @@ void mark_error(Json& row, const std::string& message) {
 
 bool is_wrong(const Json& row) { return row.value("error_occurred", false); }
 
+bool is_timed(const Json& row) { return value_of(row, Counter::real_time).value_or(0.0) > 0.0; }
+
 std::optional<double> value_of(const Json& row, Counter counter) {
     const auto found = row.find(name_of(counter));
     return found != row.end() && found->is_number() ? std::optional(found->get<double>()) : std::nullopt;

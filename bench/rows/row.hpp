@@ -22,6 +22,8 @@ using Json = nlohmann::ordered_json;
 /// Marks a row as wrong or impossible: such rows are never ranked.
 void mark_error(Json& row, const std::string& message);
 [[nodiscard]] bool is_wrong(const Json& row);
+/// Whether it has a time: measured on the host, or modelled. Rows of accuracy and of instructions alone have none.
+[[nodiscard]] bool is_timed(const Json& row);
 
 /// A counter of a row; nothing where it has none.
 [[nodiscard]] std::optional<double> value_of(const Json& row, Counter counter);

@@ -17,8 +17,14 @@ bench() {
 
 bench first --taps 50,120 --table all || fail "first run: $(tail -n 3 "$folder/first.err")"
 bench second --taps 50,full --kernels 'ring_*_f32,ring_*_q31,modes_*,null,peer_std_f32' || fail "second run failed: $(tail -n 3 "$folder/second.err")"
-for file in first.json first.csv first-tidy.csv first.svg first.png; do
+for file in first.json first-times.json first.csv first-tidy.csv first.svg first.png; do
     [ -s "$folder/$file" ] || fail "expected the file $file"
+done
+# What dashboards draw: every row of it has a time, and there are rows of the host and of the modelled core.
+grep -q '"real_time": 0.0,' "$folder/first.json" || fail "expected rows without a time in the whole file"
+grep -q '"real_time": 0.0,' "$folder/first-times.json" && fail "expected rows with a time alone in first-times.json"
+for target in host m7:stm32f746-itcm; do
+    grep -q "\"name\": \"gl/.*/$target\"" "$folder/first-times.json" || fail "expected times of $target"
 done
 # Windows are marked by their lengths, however long the designs beside them are.
 for length in 50 120; do
