@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
+#include <functional>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -28,11 +29,12 @@ inline std::size_t letters_between(const std::string& from, const std::string& t
     return steps[from.size()][to.size()];
 }
 
-/// Of `names`, not empty, the one at the least distance; the first of equals.
-[[nodiscard]] inline std::string nearest_name(const std::string& word, std::span<const std::string> names) {
-    return *std::min_element(names.begin(), names.end(), [&](const std::string& a, const std::string& b) {
-        return letters_between(word, a) < letters_between(word, b);
-    });
+/// Of `names`, not empty, the one at the least distance; the first of equals. \param name_in  where each has its name
+template <std::ranges::input_range Names, class NameIn = std::identity>
+[[nodiscard]] std::string nearest_name(const std::string& word, const Names& names, NameIn name_in = {}) {
+    return std::string(std::invoke(name_in, *std::ranges::min_element(names, {}, [&](const auto& one) {
+                                       return letters_between(word, std::string(std::invoke(name_in, one)));
+                                   })));
 }
 
 }  // namespace base

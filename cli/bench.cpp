@@ -8,6 +8,7 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "base/nearest_name.hpp"
 #include "bench/run/run.hpp"
 #include "bench/run/usual_sweep.hpp"
 #include "bench/target/target_rows.hpp"
@@ -15,6 +16,7 @@
 #include "cli/checks.hpp"
 #include "cli/command.hpp"
 #include "cli/finish_run.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace cli {
 namespace {
@@ -101,8 +103,10 @@ bench::Sweep to_sweep(const Options& options) {
     take_cores(sweep, options.cores);
     bench::take_kernels(sweep, options.kernels);
     if (sweep.kernels.empty() && sweep.peers.empty()) {
-        throw Failure(Exit::bad_input,
-                      fmt::format("--kernels: no kernel is called {}", fmt::join(options.kernels, ", ")));
+        throw Failure(
+            Exit::bad_input,
+            fmt::format("--kernels: no kernel is called {}; the nearest is {}", fmt::join(options.kernels, ", "),
+                        base::nearest_name(options.kernels.front(), glsum::catalogue, &glsum::CatalogueEntry::name)));
     }
     leave_out(sweep);
     return sweep;

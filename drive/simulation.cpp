@@ -9,8 +9,10 @@
 #include <type_traits>
 
 #include "base/failure.hpp"
+#include "base/nearest_name.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/kernel_sum.hpp"
+#include "glsum/catalogue.hpp"
 #include "glsum/design/merged.hpp"
 #include "glsum/design/modes.hpp"
 #include "glsum/gain.hpp"
@@ -287,7 +289,8 @@ Simulated simulate(const Model& model, const Scheme& scheme, std::span<const dou
         }
     });
     if (!simulated) {
-        refuse(fmt::format("no kernel is called {}; kernels/README.md lists them", scheme.kernel));
+        refuse(fmt::format("no kernel is called {}; the nearest is {}", scheme.kernel,
+                           base::nearest_name(scheme.kernel, glsum::catalogue, &glsum::CatalogueEntry::name)));
     }
     return *simulated;
 }

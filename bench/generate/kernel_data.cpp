@@ -8,12 +8,14 @@
 #include <type_traits>
 
 #include "base/failure.hpp"
+#include "base/nearest_name.hpp"
 #include "bench/choose/counted_order.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/rows/row.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
+#include "glsum/catalogue.hpp"
 #include "glsum/design/blocks.hpp"
 #include "glsum/design/modes.hpp"
 #include "glsum/registry.hpp"
@@ -275,7 +277,8 @@ std::vector<std::string> generatable() {
 KernelData describe(const std::string& kernel, double order, std::size_t taps, std::size_t horizon,
                     const glsum::design::FittedFilter* fitted, const std::vector<double>& inputs, std::size_t calls) {
     KernelData data;
-    std::string why = "no kernel is called " + kernel;
+    std::string why = "no kernel is called " + kernel + "; the nearest is " +
+                      base::nearest_name(kernel, glsum::catalogue, &glsum::CatalogueEntry::name);
     glsum::Registry::with(kernel, [&]<class K>() {
         if constexpr (can_generate<K>) {
             data = describe<K>(order, taps, horizon, fitted, inputs, calls);
