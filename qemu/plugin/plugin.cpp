@@ -41,7 +41,8 @@ struct Timing {
     Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path),
-          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.fault_handlers) {}
+          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.fault_handlers,
+                request.stretches) {}
 };
 
 struct Options {
@@ -204,16 +205,19 @@ void counts_by_blocks(qemu_plugin_tb* block) {
     }
 }
 
-// Cut where a watched function or a mark begins. What is counted without a call tells how far a block came that a fault
-// ended.
+// Cut where a watched function or a mark begins, and around the mark of a stretch. What is counted without a call tells
+// how far a block came that a fault ended.
 void times_blocks(qemu_plugin_tb* block) {
     const std::size_t count = qemu_plugin_tb_n_insns(block);
     const auto address = [&](std::size_t i) { return instruction_at(qemu_plugin_tb_get_insn(block, i))->address; };
     Timing& timing = *session->timing;
+    const auto alone = [&](std::size_t i) {
+        return timing.timer.stands_alone(*instruction_at(qemu_plugin_tb_get_insn(block, i)));
+    };
     for (std::size_t from = 0, to = 0; from < count; from = to) {
         const bool mark = timing.timer.is_mark(address(from));
         to = from + 1;
-        while (!mark && to < count && !timing.timer.is_mark(address(to)) &&
+        while (!mark && !alone(from) && to < count && !alone(to) && !timing.timer.is_mark(address(to)) &&
                !session->options.entries.contains(address(to))) {
             ++to;
         }
@@ -293,11 +297,12 @@ bool read_options(int argc, char** argv, Options& options) {
             return false;
         }
     }
-    if (options.entries.empty() || (options.out_path.empty() && options.times_path.empty()) ||
+    if ((options.entries.empty() && options.request_path.empty()) ||
+        (options.out_path.empty() && options.times_path.empty()) ||
         options.times_path.empty() != options.request_path.empty()) {
-        std::fprintf(
-            stderr,
-            "plugin: expected watch=FILE with at least one address, and out=FILE, timing= and times=, or all\n");
+        std::fprintf(stderr,
+                     "plugin: expected watch=FILE with at least one address, unless stretches are timed, and out=FILE, "
+                     "timing= and times=, or all\n");
         return false;
     }
     return true;
