@@ -14,11 +14,12 @@
 namespace qemu {
 namespace {
 
-// What the vector table says of HardFault, MemManage, BusFault and UsageFault. [ARMv7-M B1.5.2]
+// What the vector table says of HardFault, MemManage, BusFault and UsageFault. Where it has none the core locks up there.
+// [ARMv7-M B1.5.2]
 std::set<std::uint32_t> fault_handlers(const Elf& program) {
     std::set<std::uint32_t> handlers;
     for (const std::uint32_t vector : {0x0CU, 0x10U, 0x14U, 0x18U}) {
-        if (program.has_word(vector) && (program.word(vector) & 1U) != 0) {
+        if (program.has_word(vector)) {
             handlers.insert(program.word(vector) & ~1U);
         }
     }

@@ -7,7 +7,13 @@
 //   timing=FILE  a timing request: the stream goes to the timing model too, and
 //   times=FILE   the timing logs go there
 //   marks=FILE   addresses of the program's marks (row, on, off), decimal: only what lies between on and off is timed
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -38,6 +44,10 @@ struct Timing {
     qemu::MarkedTimer timer;
     qemu::Tally executed;      // instructions, but for the first of each block
     std::uint64_t before = 0;  // the present block
+    const qemu::TranslationBlock* block = nullptr;
+    int log_descriptor = -1;
+    // Of the instructions of the present block.
+    [[nodiscard]] std::uint64_t done() const { return 1 + executed.value() - before; }
     Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path),
@@ -147,9 +157,9 @@ void counts_pair(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address
 void times_block(unsigned int, void* block) {
     Timing& timing = *session->timing;
     if (timing.timer.on()) {
-        const std::uint64_t executed = timing.executed.value();
-        timing.timer.executes_block(*static_cast<qemu::TranslationBlock*>(block), 1 + executed - timing.before);
-        timing.before = executed;
+        timing.timer.executes_block(*static_cast<qemu::TranslationBlock*>(block), timing.done());
+        timing.before = timing.executed.value();
+        timing.block = static_cast<qemu::TranslationBlock*>(block);
     }
 }
 void times_word(qemu::Access access, void* nth) {
@@ -245,6 +255,26 @@ void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
     }
 }
 
+// The emulator dies of a core that locks up without telling its plugins: a log of where it faulted, or else was, by
+// what a signal allows.
+void aborts(int) {
+    const Timing& timing = *session->timing;
+    std::optional<std::uint32_t> address = timing.timer.fault();
+    std::array<char, 32> text{};
+    char* end = text.data();
+    const auto add = [&end](std::string_view words) { end = std::copy(words.begin(), words.end(), end); };
+    add(address ? "fault " : "at ");
+    if (!address && timing.block != nullptr) {
+        const std::vector<qemu::Instruction>& instructions = timing.block->instructions;
+        address = instructions[std::min<std::uint64_t>(timing.done(), instructions.size()) - 1].address;
+    }
+    if (address) {
+        end = std::to_chars(end, text.data() + text.size(), *address).ptr;
+        add("\nend\n");
+        static_cast<void>(!write(timing.log_descriptor, text.data(), static_cast<std::size_t>(end - text.data())));
+    }
+}
+
 void ends(qemu_plugin_id_t, void*) {
     if (session->timing) {
         Timing& timing = *session->timing;
@@ -332,6 +362,10 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
     }
     qemu::CallCounter counter(options.entries);
     session = new Session{std::move(options), info->version.cur, std::move(counter), std::move(timing)};
+    if (session->timing) {
+        session->timing->log_descriptor = open(session->options.times_path.c_str(), O_WRONLY | O_APPEND);
+        std::signal(SIGABRT, aborts);
+    }
     qemu_plugin_register_vcpu_tb_trans_cb(id, translates);
     qemu_plugin_register_atexit_cb(id, ends, nullptr);
     return 0;

@@ -50,6 +50,10 @@ public:
     [[nodiscard]] bool stands_alone(const Instruction& instruction) const {
         return !stretches_.empty() && is_stretch_mark(instruction);
     }
+    /// Address of the instruction that first led to a fault handler.
+    [[nodiscard]] std::optional<std::uint32_t> fault() const {
+        return parts_.empty() ? std::nullopt : parts_.front()->timer.fault();
+    }
     /// Whether the model is to see what is executed.
     [[nodiscard]] bool on() const { return on_; }
     void executes(const Instruction& instruction) override;

@@ -65,6 +65,18 @@ held 1 "no longer called" uncalled.elf
 held 4 "cannot be compared" app.elf --core m7-ideal
 held 4 "cannot be compared" app.elf --place data=axi
 expect 2 "no function's name matches nothing_*" gate --elf "$folder/app.elf" --functions 'nothing_*' --baseline "$folder/app.json"
+# Another architecture, no symbols, no end, a fault where no handler is: each in a sentence, the last two with the place.
+expect 2 "expected a 32-bit Arm executable" gate --elf /bin/true --functions 'ctrl_*' --baseline "$folder/app.json"
+cp "$folder/app.elf" "$folder/stripped.elf" && arm-none-eabi-strip "$folder/stripped.elf"
+held 2 "found one without symbols" stripped.elf
+sed 's/movs r0, #0x20/b ./' "$foreign/app.S" >"$folder/endless.S"
+link_foreign endless.elf "$folder/endless.S"
+held 1 "was silent for 2 s and was ended; the last instruction that it executed was at 0x" endless.elf --timeout 2
+told ' in start$'
+sed 's/movs r0, #0x20/udf #0/' "$foreign/app.S" >"$folder/faulty.S"
+link_foreign faulty.elf "$folder/faulty.S"
+held 1 "Lockup: " faulty.elf
+told '; it faulted at 0x000000[0-9a-f]* in start$'
 # The outputs of a gate of rows, of functions: a worse one fails in each of them, one that cannot be judged says why.
 cp "$folder/first.json" "$folder/app.json"
 held 1 "gate: worse: ctrl_speed" more.elf --json "$folder/g.json" --junit "$folder/g.xml" --markdown "$folder/g.md" --annotations

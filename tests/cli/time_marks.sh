@@ -103,5 +103,7 @@ grep -q 'began never met glsum_mark_end; .* in poke' "$folder/said" || fail "fau
 # None at all, and nothing asked for.
 link_foreign app.elf "$foreign/app.S"
 wrong 2 "no glsum_mark_begin (mov r10, r10) in its code" app.elf
+cp "$folder/marked.elf" "$folder/stripped.elf" && arm-none-eabi-strip "$folder/stripped.elf"
+wrong 2 "found one without symbols" stripped.elf
 expect 2 "expected --function NAME or --marks" time --elf "$folder/app.elf"
 [ "$failures" -eq 0 ]
