@@ -99,7 +99,7 @@ TEST(Thumb, KnowsCalls) {
     EXPECT_FALSE(qemu::is_call(narrow(0xE7FE)));    // b
 }
 
-TEST(StretchMarks, PairAndDoNotNest) {
+TEST(Thumb, MarksOfStretchesPairAndDoNotNest) {
     EXPECT_TRUE(qemu::is_stretch_mark(narrow(0x46D2)));   // mov r10, r10
     EXPECT_TRUE(qemu::is_stretch_mark(narrow(0x46DB)));   // mov r11, r11
     EXPECT_FALSE(qemu::is_stretch_mark(narrow(0x46C0)));  // mov r8, r8, a NOP of Thumb-1
