@@ -37,12 +37,12 @@ int main(void) {
 C
 build() { out=$1; shift; link_foreign "$out" -I "$source/targets" "$foreign/start.c" "$folder/marked.c" "$@"; }
 place_of() {  # FUNCTION MARK ELF: where the mark stands in it: $address, and as $place
-    at=$(arm-none-eabi-objdump -d --no-show-raw-insn --disassemble="$1" "$folder/$3" | tr '\t' ' ' | sed -n "s/^ *\([0-9a-f]*\): *mov $2\$/\1/p")
+    at=$(arm-none-eabi-objdump -d -M reg-names-raw --no-show-raw-insn --disassemble="$1" "$folder/$3" | tr '\t' ' ' | sed -n "s/^ *\([0-9a-f]*\): *mov $2\$/\1/p")
     begins=$(arm-none-eabi-nm "$folder/$3" | sed -n "s/^\([0-9a-f]*\) . $1\$/\1/p")
     address=$(printf '0x%08x' "0x$at") place=$1+$(printf '0x%x' $((0x$at - 0x$begins)))
 }
-begin_of() { place_of "$1" 'sl, sl' "$2"; }
-end_of() { place_of "$1" 'fp, fp' "$2"; }
+begin_of() { place_of "$1" 'r10, r10' "$2"; }
+end_of() { place_of "$1" 'r11, r11' "$2"; }
 of() { sed -n "/\"function\": \"$1\"/,/\"hot\"/p" "$folder/marks.json" | tr -d ' \n'; }
 
 build marked.elf -DMARKED='filter(3); filter(8); outer(); by_hand(); empty(); opens(); sink = 7; closes(); filter(8);'
