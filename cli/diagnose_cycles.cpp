@@ -99,7 +99,8 @@ void add_diagnose_cycles(Command& diagnose) {
         "Example: glsum diagnose cycles --measured results/silicon/h747_per_sample_fir.csv --json verdict.json");
     command.add_option("--measured", options->measured,
                        "CSV: kernel,code,data,maintenance,taps,cycles, and instructions if they were counted");
-    command.add_option("--core", options->core, "The prediction that is judged, a core file").capture_default_str();
+    command.add_option("--core", options->core, "The prediction that is judged: a core file, by name or path")
+        .capture_default_str();
     options->json.add_to(command, "--json", "The verdict, schema glsum-gap-1");
     Option blind = command.add_option(
         "--blind", options->blind,

@@ -63,8 +63,9 @@ void print_sets(const timing::CoreFile& core, const std::vector<qemu::MeasuredCy
 
 void run(const Options& options) {
     const std::vector<qemu::MeasuredCycles> rows = read_measured_cycles(options.file);
-    const qemu::SiliconProgram program = built_silicon(qemu::machine_of({options.core, "", ""}, cores_folder()));
-    const timing::CoreFile core = timing::read_core(program.cores_folder, options.core);
+    const qemu::SiliconProgram program =
+        built_silicon(qemu::machine_of(timing::core_asked_for(options.core), cores_folder()));
+    const timing::CoreFile core = timing::read_named_core(program.cores_folder, options.core);
     std::vector<qemu::CoreVariant> variants{{options.core, "", options.without}};
     for (const timing::RuleSet& set : core.sets) {
         variants.push_back({options.core, set.name, options.without});
@@ -154,7 +155,8 @@ void add_options(Command& command, const Words&) {
         "Examples: glsum silicon results/silicon/h747_per_sample_fir.csv\n"
         "          glsum silicon --rows mine.csv --json fit.json");
     Option file = command.add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
-    Option core = command.add_option("--core", options->core, "Core file; each row's placement beats its own");
+    Option core =
+        command.add_option("--core", options->core, "Core file, a name or a path; each row's placement beats its own");
     core.capture_default_str();
     command.add_option("--without", options->without, "Effects that cost nothing: single_issue, load_use, ...")
         .delimiter(',');

@@ -92,13 +92,15 @@ std::vector<timing::TimingLog> time_functions(const TimedElf& options, const std
     const base::Machine& machine = qemu::machine_of(request.cores.front(), request.cores_folder);
     const qemu::Emulator emulator{emulate_script(machine), std::chrono::seconds(options.timeout),
                                   std::chrono::seconds(10)};
-    const std::vector<timing::TimingLog> sorted = qemu::time_program(
-        emulator, plugin(), options.elf, {functions.front().name}, entries, request, {}, {}, uncalled);
+    const std::vector<timing::TimingLog> sorted =
+        qemu::time_program(emulator, plugin(), options.elf, {functions.empty() ? "marks" : functions.front().name},
+                           entries, request, {}, {}, uncalled);
     std::vector<timing::TimingLog> logs;
     for (const qemu::Function& function : functions) {
         const auto at = std::lower_bound(entries.begin(), entries.end(), function.address) - entries.begin();
         logs.push_back(sorted.at(static_cast<std::size_t>(at)));
     }
+    logs.insert(logs.end(), sorted.begin() + static_cast<std::ptrdiff_t>(entries.size()), sorted.end());
     return logs;
 }
 

@@ -27,7 +27,8 @@ void add_timing_options(Command& command, TimedElf& options);
 /// \throws glsum::Failure (bad input) for places, cores and effects that do not exist
 [[nodiscard]] timing::TimingRequest to_request(const TimedElf& options, const qemu::Elf& elf);
 
-/// One run of the emulator. \return the log of each function, in their order
+/// One run of the emulator. \return the log of each function, in their order, and behind them of each stretch of the
+///         request, by address
 /// \throws glsum::Failure as qemu::time_program; \param uncalled  whether a function may be one that is never called:
 /// its log
 ///         has no runs then

@@ -32,6 +32,7 @@ std::string target_flags(const qemu::Board& board) {
     std::string flags;
     for (std::string word; words >> word;) {
         flags += word.starts_with("-m") || word.starts_with("-O") || word.starts_with("-falign") ? " " + word : "";
+        flags += word == "-mcpu=cortex-m4" ? " -DGLSUM_CORTEX_M4" : "";  // as its user says
     }
     return flags;
 }

@@ -94,11 +94,11 @@ Question question_about(std::vector<qemu::MeasuredCycles> rows, const std::strin
     Question question;
     question.rows = std::move(rows);
     question.base = core;
-    question.base_off = names_of(timing::read_core(cores_folder, core).off);
+    question.base_off = names_of(timing::read_named_core(cores_folder, core).off);
     question.references = question.base_off.empty() ? std::vector<std::string>{core}
                                                     : std::vector<std::string>{"stm32h747-dtcm", "stm32f746-itcm"};
     for (const std::string& name : question.references) {
-        for (const timing::RuleSet& set : timing::read_core(cores_folder, name).sets) {
+        for (const timing::RuleSet& set : timing::read_named_core(cores_folder, name).sets) {
             question.sets[name].push_back(set.name);
             if (set.fits) {
                 question.fitting[name].push_back(set.name);

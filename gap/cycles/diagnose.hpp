@@ -14,7 +14,7 @@ using PredictRows = std::function<std::vector<std::vector<qemu::PredictedCycles>
     const std::vector<qemu::MeasuredCycles>& rows, const std::vector<qemu::CoreVariant>& variants)>;
 
 /// \param core  the core file that is judged; of one that pays for every effect the references are itself alone
-/// \throws glsum::Failure as timing::read_core
+/// \throws glsum::Failure as timing::read_named_core
 [[nodiscard]] Question question_about(std::vector<qemu::MeasuredCycles> rows, const std::string& core,
                                       const std::filesystem::path& cores_folder);
 

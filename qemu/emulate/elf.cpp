@@ -144,7 +144,9 @@ Elf::Elf(const std::filesystem::path& path) : path_(path) {
             }
             bytes_left -= data->d_size;
             const auto* bytes = static_cast<const unsigned char*>(data->d_buf);
-            sections_.push_back({static_cast<std::uint32_t>(info.sh_addr), {bytes, bytes + data->d_size}});
+            sections_.push_back({static_cast<std::uint32_t>(info.sh_addr),
+                                 (info.sh_flags & SHF_EXECINSTR) != 0,
+                                 {bytes, bytes + data->d_size}});
         }
         if (info.sh_type == SHT_ARM_ATTRIBUTES && data->d_buf != nullptr) {
             const auto* bytes = static_cast<const unsigned char*>(data->d_buf);
@@ -348,6 +350,18 @@ const unsigned char* Elf::at(std::uint32_t address, std::size_t length) const {
         }
     }
     throw Failure(Exit::bad_input, fmt::format("{}: no section holds address {:#x}", path_.string(), address));
+}
+
+std::set<std::uint32_t> Elf::halfwords_in_code(std::uint16_t value) const {
+    std::set<std::uint32_t> addresses;
+    for (const Section& section : sections_) {
+        for (std::size_t i = 0; section.code && i + 1 < section.bytes.size(); i += 2) {
+            if ((section.bytes[i] | section.bytes[i + 1] << 8) == value) {
+                addresses.insert(section.address + static_cast<std::uint32_t>(i));
+            }
+        }
+    }
+    return addresses;
 }
 
 bool Elf::has_word(std::uint32_t address) const {

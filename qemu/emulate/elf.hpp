@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,8 @@ public:
     [[nodiscard]] Extent section(const std::string& name) const;
     /// Addresses by name; of functions without the Thumb bit.
     [[nodiscard]] const std::map<std::string, std::uint32_t>& symbols() const { return symbols_; }
+    /// Addresses in its code of halfwords that have a value, whatever they are part of.
+    [[nodiscard]] std::set<std::uint32_t> halfwords_in_code(std::uint16_t value) const;
     [[nodiscard]] bool has_word(std::uint32_t address) const;
     /// The word at an address of a loaded section. \throws glsum::Failure when there is none.
     [[nodiscard]] std::uint32_t word(std::uint32_t address) const;
@@ -60,6 +63,7 @@ public:
 private:
     struct Section {
         std::uint32_t address;
+        bool code;
         std::vector<unsigned char> bytes;
     };
     [[nodiscard]] const unsigned char* at(std::uint32_t address, std::size_t length) const;

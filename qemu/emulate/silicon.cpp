@@ -66,8 +66,13 @@ std::vector<std::vector<PredictedCycles>> predict(const SiliconProgram& program,
     request.cores_folder = program.cores_folder.string();
     for (const CoreVariant& variant : variants) {
         for (const auto& [code, data] : placements) {
-            request.cores.push_back(
-                {variant.core, code == "itcm" ? "itcm" : "flash", data, code != "flash", variant.set, variant.without});
+            timing::TimingRequest::Core core = timing::core_asked_for(variant.core);
+            core.code = code == "itcm" ? "itcm" : "flash";
+            core.data = data;
+            core.instruction_cache = code != "flash";
+            core.set = variant.set;
+            core.without = variant.without;
+            request.cores.push_back(core);
         }
     }
     const std::vector<timing::CoreFile> cores = timing::cores_of(request);

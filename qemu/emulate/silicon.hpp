@@ -14,7 +14,7 @@ namespace qemu {
 
 /// A core file, with its placement replaced by each row's.
 struct CoreVariant {
-    std::string core;
+    std::string core;                       ///< a name, or a path (`timing::names_core_file`)
     std::string set = {};                   ///< one of its rule sets alone; empty: all of them
     std::vector<std::string> without = {};  ///< effects that cost nothing
 };

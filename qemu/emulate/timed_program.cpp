@@ -14,11 +14,12 @@
 namespace qemu {
 namespace {
 
-// What the vector table says of HardFault, MemManage, BusFault and UsageFault. [ARMv7-M B1.5.2]
+// What the vector table says of HardFault, MemManage, BusFault and UsageFault. Where it has none the core locks up there.
+// [ARMv7-M B1.5.2]
 std::set<std::uint32_t> fault_handlers(const Elf& program) {
     std::set<std::uint32_t> handlers;
     for (const std::uint32_t vector : {0x0CU, 0x10U, 0x14U, 0x18U}) {
-        if (program.has_word(vector) && (program.word(vector) & 1U) != 0) {
+        if (program.has_word(vector)) {
             handlers.insert(program.word(vector) & ~1U);
         }
     }
@@ -28,6 +29,31 @@ std::set<std::uint32_t> fault_handlers(const Elf& program) {
 std::string place_of(std::uint32_t address, const Elf& program) {
     const Function* const function = program.function_at(address);
     return fmt::format("{:#010x}{}", address, function != nullptr ? " in " + function->name : "");
+}
+
+std::string beginning(std::uint32_t address, const Elf& program) {
+    return "the stretch that glsum_mark_begin at " + place_of(address, program) + " began";
+}
+
+// Marks of stretches that do not pair. \param failure  of the program, which then is why one is open
+void check_marks(const timing::TimingLog& log, const Elf& program, glsum::Exit status, const std::string& failure) {
+    const auto refuse = [&](glsum::Exit exit, const std::string& text) {
+        throw glsum::Failure(exit, program.path().string() + ": " + text);
+    };
+    if (log.misused_mark && log.misused_mark->open) {
+        refuse(glsum::Exit::bad_input,
+               fmt::format("glsum_mark_begin at {} stands within {}: stretches do not nest",
+                           place_of(log.misused_mark->address, program), beginning(*log.misused_mark->open, program)));
+    }
+    if (log.misused_mark) {
+        refuse(glsum::Exit::bad_input,
+               fmt::format("glsum_mark_end at {} ends no stretch", place_of(log.misused_mark->address, program)));
+    }
+    if (log.open_stretch) {
+        refuse(failure.empty() ? glsum::Exit::bad_input : status,
+               fmt::format("{} never met glsum_mark_end{}", beginning(*log.open_stretch, program),
+                           failure.empty() ? " before the program ended" : "; " + failure));
+    }
 }
 
 // For the message of a program that failed.
@@ -101,12 +127,13 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
     // Which one, where each has a log of its own.
     const std::set<std::uint32_t> sorted(entries.begin(), entries.end());
     const auto timed = [&](const timing::TimingLog& log) {
-        if (marks || sorted.size() < 2 || logs.size() != sorted.size()) {
+        if (marks || sorted.size() < 2 || logs.size() != sorted.size() + request.stretches.size()) {
             return std::string("the timed function");
         }
         const Function* const function = program.function_at(*std::next(sorted.begin(), &log - logs.data()));
         return function != nullptr ? function->name : std::string("a timed function");
     };
+    check_marks(logs.back(), program, status, failure);
     const auto unfinished = std::find_if(logs.begin(), logs.end(), [](const auto& log) { return log.unfinished; });
     if (unfinished != logs.end() && (!marks || logs.back().unfinished)) {
         throw glsum::Failure(glsum::Exit::check_failed,
@@ -116,8 +143,15 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
     if (!failure.empty()) {
         throw glsum::Failure(status, failure);
     }
-    const auto none = std::find_if(logs.begin(), logs.end(), [](const auto& log) { return log.runs.empty(); });
-    if (none != logs.end() && !uncalled) {
+    // Of stretches only those that were met are asked for.
+    const auto stretches = logs.end() - static_cast<std::ptrdiff_t>(std::min(request.stretches.size(), logs.size()));
+    const auto uncalled_one = [](const timing::TimingLog& log) { return log.runs.empty(); };
+    if (!request.stretches.empty() && std::all_of(stretches, logs.end(), uncalled_one)) {
+        throw glsum::Failure(glsum::Exit::check_failed, fmt::format("{}: none of its {} glsum_mark_begin was executed",
+                                                                    elf.string(), request.stretches.size()));
+    }
+    const auto none = std::find_if(logs.begin(), stretches, uncalled_one);
+    if (none != stretches && !uncalled) {
         throw glsum::Failure(glsum::Exit::check_failed,
                              fmt::format("{}: {} was never called", elf.string(), timed(*none)));
     }

@@ -7,7 +7,13 @@
 //   timing=FILE  a timing request: the stream goes to the timing model too, and
 //   times=FILE   the timing logs go there
 //   marks=FILE   addresses of the program's marks (row, on, off), decimal: only what lies between on and off is timed
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <array>
+#include <charconv>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
@@ -38,10 +44,15 @@ struct Timing {
     qemu::MarkedTimer timer;
     qemu::Tally executed;      // instructions, but for the first of each block
     std::uint64_t before = 0;  // the present block
+    const qemu::TranslationBlock* block = nullptr;
+    int log_descriptor = -1;
+    // Of the instructions of the present block.
+    [[nodiscard]] std::uint64_t done() const { return 1 + executed.value() - before; }
     Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path),
-          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.fault_handlers) {}
+          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.fault_handlers,
+                request.stretches) {}
 };
 
 struct Options {
@@ -146,9 +157,9 @@ void counts_pair(unsigned int, qemu_plugin_meminfo_t info, std::uint64_t address
 void times_block(unsigned int, void* block) {
     Timing& timing = *session->timing;
     if (timing.timer.on()) {
-        const std::uint64_t executed = timing.executed.value();
-        timing.timer.executes_block(*static_cast<qemu::TranslationBlock*>(block), 1 + executed - timing.before);
-        timing.before = executed;
+        timing.timer.executes_block(*static_cast<qemu::TranslationBlock*>(block), timing.done());
+        timing.before = timing.executed.value();
+        timing.block = static_cast<qemu::TranslationBlock*>(block);
     }
 }
 void times_word(qemu::Access access, void* nth) {
@@ -204,16 +215,19 @@ void counts_by_blocks(qemu_plugin_tb* block) {
     }
 }
 
-// Cut where a watched function or a mark begins. What is counted without a call tells how far a block came that a fault
-// ended.
+// Cut where a watched function or a mark begins, and around the mark of a stretch. What is counted without a call tells
+// how far a block came that a fault ended.
 void times_blocks(qemu_plugin_tb* block) {
     const std::size_t count = qemu_plugin_tb_n_insns(block);
     const auto address = [&](std::size_t i) { return instruction_at(qemu_plugin_tb_get_insn(block, i))->address; };
     Timing& timing = *session->timing;
+    const auto alone = [&](std::size_t i) {
+        return timing.timer.stands_alone(*instruction_at(qemu_plugin_tb_get_insn(block, i)));
+    };
     for (std::size_t from = 0, to = 0; from < count; from = to) {
         const bool mark = timing.timer.is_mark(address(from));
         to = from + 1;
-        while (!mark && to < count && !timing.timer.is_mark(address(to)) &&
+        while (!mark && !alone(from) && to < count && !alone(to) && !timing.timer.is_mark(address(to)) &&
                !session->options.entries.contains(address(to))) {
             ++to;
         }
@@ -238,6 +252,26 @@ void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
     }
     if (session->timing) {
         times_blocks(block);
+    }
+}
+
+// The emulator dies of a core that locks up without telling its plugins: a log of where it faulted, or else was, by
+// what a signal allows.
+void aborts(int) {
+    const Timing& timing = *session->timing;
+    std::optional<std::uint32_t> address = timing.timer.fault();
+    std::array<char, 32> text{};
+    char* end = text.data();
+    const auto add = [&end](std::string_view words) { end = std::copy(words.begin(), words.end(), end); };
+    add(address ? "fault " : "at ");
+    if (!address && timing.block != nullptr) {
+        const std::vector<qemu::Instruction>& instructions = timing.block->instructions;
+        address = instructions[std::min<std::uint64_t>(timing.done(), instructions.size()) - 1].address;
+    }
+    if (address) {
+        end = std::to_chars(end, text.data() + text.size(), *address).ptr;
+        add("\nend\n");
+        static_cast<void>(!write(timing.log_descriptor, text.data(), static_cast<std::size_t>(end - text.data())));
     }
 }
 
@@ -293,11 +327,12 @@ bool read_options(int argc, char** argv, Options& options) {
             return false;
         }
     }
-    if (options.entries.empty() || (options.out_path.empty() && options.times_path.empty()) ||
+    if ((options.entries.empty() && options.request_path.empty()) ||
+        (options.out_path.empty() && options.times_path.empty()) ||
         options.times_path.empty() != options.request_path.empty()) {
-        std::fprintf(
-            stderr,
-            "plugin: expected watch=FILE with at least one address, and out=FILE, timing= and times=, or all\n");
+        std::fprintf(stderr,
+                     "plugin: expected watch=FILE with at least one address, unless stretches are timed, and out=FILE, "
+                     "timing= and times=, or all\n");
         return false;
     }
     return true;
@@ -327,6 +362,10 @@ int qemu_plugin_install(qemu_plugin_id_t id, const qemu_info_t* info, int argc, 
     }
     qemu::CallCounter counter(options.entries);
     session = new Session{std::move(options), info->version.cur, std::move(counter), std::move(timing)};
+    if (session->timing) {
+        session->timing->log_descriptor = open(session->options.times_path.c_str(), O_WRONLY | O_APPEND);
+        std::signal(SIGABRT, aborts);
+    }
     qemu_plugin_register_vcpu_tb_trans_cb(id, translates);
     qemu_plugin_register_atexit_cb(id, ends, nullptr);
     return 0;

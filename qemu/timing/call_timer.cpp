@@ -52,6 +52,9 @@ CallTimer::Piece& CallTimer::piece_of(std::vector<std::unique_ptr<Piece>>& piece
     piece = std::make_unique<Piece>();
     piece->code.index = index;
     piece->entry = entries_.contains(instructions.front().address);
+    if (stretch_ && qemu::is_stretch_mark(instructions.front())) {
+        piece->mark = instructions.front();
+    }
     piece->in_double_routine =
         std::any_of(double_routines_.begin(), double_routines_.end(), [&](const AddressRange& range) {
             return range.begin <= instructions.front().address && instructions.front().address < range.end;
@@ -114,8 +117,8 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
     const std::vector<CodeBlock::Instruction>& lines = piece.code.lines;
     done = std::clamp<std::size_t>(done, 1, lines.size());
     follow_calls(lines.front().address);
-    const bool ends = inside_ && returns_.size() < depth_;
-    const bool begins = piece.entry && (!inside_ || ends);
+    const bool ends = inside_ && (stretch_ ? ends_stretch(piece) : returns_.size() < depth_);
+    const bool begins = stretch_ ? std::exchange(stretch_begins_, false) : piece.entry && (!inside_ || ends);
     recursive_ = recursive_ || (piece.entry && inside_ && !ends && last_called_);
     for (const std::uint32_t address : piece.unknown) {
         if (address <= lines[done - 1].address) {
@@ -146,6 +149,10 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
     if (piece.in_double_routine && inside_) {
         leave_double_routine();
     }
+    if (piece.mark) {
+        stretch_marks_.meet(*piece.mark);
+        stretch_begins_ = stretch_marks_.open() == stretch_;
+    }
     const CodeBlock::Instruction& last = lines[done - 1];
     const Decoded& d = last.instruction->decoded;
     last_site_ = last.site;
@@ -173,7 +180,10 @@ void CallTimer::time_by_steps(const Piece& piece, std::size_t done, bool ends, b
             end_call();
         }
         if (begins && nth == 0) {
-            begin_call(line.address);
+            begin_call(stretch_.value_or(line.address));
+            if (ends_stretch(piece)) {  // an empty one
+                end_call();
+            }
         }
         call_.instructions += inside_ ? 1 : 0;
         follow_stack(piece, nth, nth + 1);

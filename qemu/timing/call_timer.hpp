@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "qemu/stream/stream.hpp"
+#include "qemu/stream/stretch_marks.hpp"
 #include "qemu/timing/block_replay.hpp"
 #include "qemu/timing/decode.hpp"
 #include "qemu/timing/stack_depth.hpp"
@@ -59,6 +60,8 @@ public:
     CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
               std::function<void(const TimedCall&)> done, std::vector<AddressRange> double_routines = {});
 
+    /// In place of functions: the stretches whose begin mark stands there, each as if it were a call.
+    void watch_stretch(std::uint32_t begin) { stretch_ = begin; }
     /// \param handlers  entry addresses of the program's fault handlers
     void watch_faults(std::set<std::uint32_t> handlers) { fault_handlers_ = std::move(handlers); }
 
@@ -84,12 +87,15 @@ public:
     [[nodiscard]] std::optional<std::uint32_t> fault() const { return fault_; }
     /// A watched call has not returned.
     [[nodiscard]] bool inside() const { return inside_; }
+    /// Of a watched stretch: the marks that were met, of whatever stretch.
+    [[nodiscard]] const qemu::StretchMarks& stretch_marks() const { return stretch_marks_; }
 
 private:
     // A block, decoded once.
     struct Piece {
         CodeBlock code;
         bool entry = false;
+        std::optional<qemu::Instruction> mark;  // where stretches are watched: a block by itself
         bool in_double_routine = false;
         ItBlock it_block_behind;
         std::vector<std::uint32_t> unknown;                            // addresses
@@ -114,6 +120,9 @@ private:
                     std::span<const qemu::Instruction> instructions);
     void flush(std::size_t done, std::uint32_t next);
     void follow_calls(std::uint32_t address);
+    [[nodiscard]] static bool ends_stretch(const Piece& piece) {
+        return piece.mark && piece.mark->encoding == qemu::stretch_ends;
+    }
     void time_by_steps(const Piece& piece, std::size_t done, bool ends, bool begins);
     void follow_stack(const Piece& piece, std::size_t from, std::size_t done);
     void enter_double_routine();
@@ -122,6 +131,9 @@ private:
     void begin_call(std::uint32_t entry);
 
     std::set<std::uint32_t> entries_;
+    std::optional<std::uint32_t> stretch_;
+    qemu::StretchMarks stretch_marks_;
+    bool stretch_begins_ = false;  // with the next instruction
     std::vector<AddressRange> double_routines_;
     std::vector<std::unique_ptr<Core>> cores_;
     std::function<void(const TimedCall&)> done_;

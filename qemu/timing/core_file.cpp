@@ -329,6 +329,10 @@ CoreFile read_core(const std::filesystem::path& folder, const std::string& name)
 
 bool names_core_file(const std::string& core) { return core.find('/') != std::string::npos || core.ends_with(".toml"); }
 
+CoreFile read_named_core(const std::filesystem::path& folder, const std::string& core) {
+    return names_core_file(core) ? read_core_file(core, folder) : read_core(folder, core);
+}
+
 CoreFile read_core_file(const std::filesystem::path& file, const std::filesystem::path& folder) {
     if (!std::filesystem::is_regular_file(file)) {
         throw Failure(Exit::bad_input, file.string() + ": no such core file");

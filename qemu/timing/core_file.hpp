@@ -101,6 +101,8 @@ struct CoreFile {
 
 /// Whether somebody who is asked for a core has named a file: it has a slash, or ends as core files do.
 [[nodiscard]] bool names_core_file(const std::string& core);
+/// What they mean: one of the folder's, or the file. \throws glsum::Failure as `read_core` and `read_core_file`
+[[nodiscard]] CoreFile read_named_core(const std::filesystem::path& folder, const std::string& core);
 
 /// Makes an effect cost nothing, one of the contract's: of the core, of double precision in software, of the
 /// measurement. \return false when there is none of that name

@@ -14,16 +14,22 @@ MarkedTimer::Part::Part(const MarkedTimer& whole, const std::set<std::uint32_t>&
 
 MarkedTimer::MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores,
                          std::optional<Marks> marks, std::ostream& log,
-                         std::vector<timing::AddressRange> double_routines, std::set<std::uint32_t> fault_handlers)
+                         std::vector<timing::AddressRange> double_routines, std::set<std::uint32_t> fault_handlers,
+                         std::set<std::uint32_t> stretches)
     : entries_(std::move(entries)),
       cores_(std::move(cores)),
       marks_(marks),
       log_(log),
       double_routines_(std::move(double_routines)),
       fault_handlers_(std::move(fault_handlers)),
+      stretches_(std::move(stretches)),
       on_(!marks) {
     for (const std::uint32_t entry : marks_ ? std::set<std::uint32_t>() : entries_) {
         begin_part({entry});
+    }
+    for (const std::uint32_t begin : stretches_) {
+        begin_part({});
+        parts_.back()->timer.watch_stretch(begin);
     }
 }
 

@@ -35,14 +35,25 @@ public:
     ///                 their addresses, so that one that another calls has calls of its own
     /// \param double_routines  see timing::CallTimer
     /// \param fault_handlers   likewise
+    /// \param stretches  addresses of the begin marks of stretches that are to be timed, each in a part of its own
+    /// behind
+    ///                   those of the functions; without \p marks
     /// \param log      receives one timing log a part, each with its end
     MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores, std::optional<Marks> marks,
                 std::ostream& log, std::vector<timing::AddressRange> double_routines = {},
-                std::set<std::uint32_t> fault_handlers = {});
+                std::set<std::uint32_t> fault_handlers = {}, std::set<std::uint32_t> stretches = {});
 
     /// Whether the instruction is a mark's first: `meets_mark` is then to be called in place of `executes`.
     [[nodiscard]] bool is_mark(std::uint32_t address) const;
     void meets_mark(std::uint32_t address);
+    /// Whether the instruction is to be a block by itself.
+    [[nodiscard]] bool stands_alone(const Instruction& instruction) const {
+        return !stretches_.empty() && is_stretch_mark(instruction);
+    }
+    /// Address of the instruction that first led to a fault handler.
+    [[nodiscard]] std::optional<std::uint32_t> fault() const {
+        return parts_.empty() ? std::nullopt : parts_.front()->timer.fault();
+    }
     /// Whether the model is to see what is executed.
     [[nodiscard]] bool on() const { return on_; }
     void executes(const Instruction& instruction) override;
@@ -67,6 +78,7 @@ private:
     std::ostream& log_;
     std::vector<timing::AddressRange> double_routines_;
     std::set<std::uint32_t> fault_handlers_;
+    std::set<std::uint32_t> stretches_;
     std::vector<std::unique_ptr<Part>> parts_;  // that see the same
     bool on_;
 };

@@ -42,7 +42,7 @@ State::State() {
 }
 
 Pipeline::Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects off)
-    : figures_(figures), off_(off), latencies_(figures_) {
+    : PipelineBase(figures, off), latencies_(figures_) {
     const auto& f = figures_;
     fetch_queue_ = static_cast<std::size_t>(std::clamp<std::int64_t>(f.fetch_queue, 1, 8));
     // The next words come a cycle and at most the longest delay apart, as long as none of them is used in cycle 0 or
@@ -52,14 +52,6 @@ Pipeline::Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects o
         2 + std::max({f.fp_bar_after_mac, f.fp_younger_bar_after_mac, f.fp_fma_bar_after_mla, f.fp_load_bar_after_mac,
                       f.fp_overwrite_bar_after_mac, f.fp_mac_bar_after_load, f.fp_mac_bar_after_store,
                       f.fp_chain_across_transfer, f.fp_move_spacing, f.branch_flags_known_after}));
-}
-
-// The only place where time passes for nothing, and where an effect that is off passes none.
-void Pipeline::hold(Effect effect, std::int32_t until) {
-    if (until > state.position && !off_[index(effect)]) {
-        losses[index(effect)] += until - state.position;
-        state.position = until;
-    }
 }
 
 void Pipeline::hold_next(Effect effect, std::int32_t until) {
@@ -287,7 +279,7 @@ Producer Pipeline::producer_of(const Prepared& instruction) const {
 
 void Pipeline::write_results(const Prepared& instruction) {
     const Decoded& d = instruction.decoded;
-    const std::int32_t cycle = state.position / 2;
+    const std::int32_t cycle = now();
     const Producer result = producer_of(instruction);
     const Producer loaded = d.is_fp               ? Producer::fp_load
                             : d.access_bytes == 4 ? Producer::load_word
@@ -323,7 +315,7 @@ void Pipeline::write_results(const Prepared& instruction) {
 
 // Cycles that an instruction issues for.
 void Pipeline::occupy(const Decoded& d, const Event& event) {
-    const std::int32_t cycle = state.position / 2;
+    const std::int32_t cycle = now();
     if ((d.kind == Kind::load_multiple || d.kind == Kind::store_multiple) && figures_.issue_registers_per_cycle > 0) {
         std::int64_t cycles =
             (d.registers + figures_.issue_registers_per_cycle - 1) / figures_.issue_registers_per_cycle;
@@ -341,14 +333,14 @@ void Pipeline::access_memory(const Decoded& d, const Event& event) {
     if (event.accesses == 0) {
         return;
     }
-    const std::int32_t cycle = state.position / 2;
+    const std::int32_t cycle = now();
     if (d.is_store()) {
         const std::int64_t a_cycle = std::max<std::int64_t>(1, figures_.issue_registers_per_cycle);
         for (unsigned n = 0; n < event.accesses; ++n) {
             const std::int32_t at = cycle + static_cast<std::int32_t>(n / a_cycle);
             const unsigned bank = (event.odd_word ? 1U : 0U) ^ (n & 1U);
             // What is lost here shows as a full store buffer.
-            const std::int32_t extra = off_[index(event.store_effect)] ? 0 : event.store_delays[n];
+            const std::int32_t extra = is_off(event.store_effect) ? 0 : event.store_delays[n];
             state.store_buffer.add(figures_, at, bank, event.unaligned, event.access_bytes, extra);
             std::copy_backward(state.stored.begin(), state.stored.end() - 1, state.stored.end());
             state.stored[0] = at;
@@ -359,11 +351,11 @@ void Pipeline::access_memory(const Decoded& d, const Event& event) {
         return;
     }
     std::int32_t delayed = 0;
-    if (event.load_delay > 0 && !off_[index(event.load_effect)]) {
+    if (event.load_delay > 0 && !is_off(event.load_effect)) {
         delayed += static_cast<std::int32_t>(event.load_delay);
         hold_next(event.load_effect, 2 * (cycle + 1 + delayed));
     }
-    if (event.unaligned && !off_[index(Effect::unaligned_access)]) {
+    if (event.unaligned && !is_off(Effect::unaligned_access)) {
         delayed += static_cast<std::int32_t>(state.position % 2 == 0 ? figures_.unaligned_load_in_older_slot
                                                                      : figures_.unaligned_load_in_younger_slot);
         hold_next(Effect::unaligned_access, 2 * (cycle + 1 + delayed));
@@ -372,7 +364,7 @@ void Pipeline::access_memory(const Decoded& d, const Event& event) {
 }
 
 void Pipeline::follow_branch(const Decoded& d, const Event& event) {
-    const std::int32_t cycle = state.position / 2;
+    const std::int32_t cycle = now();
     switch (event.prediction) {
         case Prediction::right:
             break;
@@ -388,7 +380,7 @@ void Pipeline::follow_branch(const Decoded& d, const Event& event) {
             const auto cycles =
                 static_cast<std::int32_t>(known ? figures_.branch_mispredict_flags_known : figures_.branch_mispredict);
             hold_next(Effect::branch_mispredict, 2 * (cycle + cycles));
-            if (!off_[index(Effect::branch_mispredict)]) {
+            if (!is_off(Effect::branch_mispredict)) {
                 state.fetch_ready = std::max(state.fetch_ready, cycle + cycles - 1);
             }
             break;
@@ -400,7 +392,7 @@ void Pipeline::note_fpu(const Decoded& d) {
     if (!d.is_fp) {
         return;
     }
-    const std::int32_t cycle = state.position / 2;
+    const std::int32_t cycle = now();
     if (d.kind == Kind::fp_mac && !d.is_double) {
         state.mac_before = state.last_mac;
         state.last_mac = cycle;

@@ -15,6 +15,7 @@
 #include "qemu/timing/effects.hpp"
 #include "qemu/timing/latency.hpp"
 #include "qemu/timing/model_of.hpp"
+#include "qemu/timing/pipeline_base.hpp"
 #include "qemu/timing/prepared.hpp"
 #include "qemu/timing/store_buffer.hpp"
 #include "qemu/timing/stored_words.hpp"
@@ -78,15 +79,12 @@ struct State {
 [[nodiscard]] std::uint64_t hash_of(const State& state);
 
 /// The core under one rule set.
-class Pipeline {
+class Pipeline : public PipelineBase<State> {
 public:
-    using State = timing::State;
     static constexpr Core core = Core::cortex_m7;
 
     /// \param longest_fetch  the most extra cycles that a word of a fetch will come with (`Memory::longest_fetch`)
     Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects off);
-    Pipeline(const Pipeline&) = delete;
-    Pipeline& operator=(const Pipeline&) = delete;
 
     /// One executed instruction: moves `state` on, and adds to `losses`.
     void execute(const Prepared& instruction, const Event& event);
@@ -95,13 +93,8 @@ public:
     /// states that become equal behave alike for ever. \return cycles that it was set back by
     std::int32_t settle();
 
-    State state;
-    Losses losses{};
-
 private:
-    void hold(Effect effect, std::int32_t until);
     void hold_next(Effect effect, std::int32_t until);
-    void hold_cycle(Effect effect, std::int64_t cycle) { hold(effect, static_cast<std::int32_t>(2 * cycle)); }
 
     void wait_for_bytes(const Event& event);
     void wait_for_operands(const Prepared& instruction);
@@ -118,8 +111,6 @@ private:
     void follow_branch(const Decoded& d, const Event& event);
     void note_fpu(const Decoded& d);
 
-    Figures figures_;
-    Effects off_;
     Latencies latencies_;
     std::size_t fetch_queue_;        // words, 1 to 8
     std::int32_t fetch_memory_;      // cycles behind which the queue does not look back

@@ -87,6 +87,16 @@ void TimingLogWriter::finish(const CallTimer& timer) {
     if (timer.inside()) {
         out_ << "unfinished\n";
     }
+    if (timer.stretch_marks().open()) {
+        out_ << "open " << *timer.stretch_marks().open() << '\n';
+    }
+    if (const auto& misused = timer.stretch_marks().misused()) {
+        out_ << "misused " << misused->address;
+        if (misused->open) {
+            out_ << ' ' << *misused->open;
+        }
+        out_ << '\n';
+    }
     out_ << "end\n";
 }
 
@@ -152,12 +162,21 @@ TimingLog read_timing_log(std::istream& in) {
                 throw std::runtime_error("timing log: damaged line: " + line);
             }
             log.unknown[address] = times;
-        } else if (kind == "at" || kind == "fault") {
+        } else if (kind == "at" || kind == "fault" || kind == "open") {
             std::uint32_t address = 0;
             if (!(words >> address)) {
                 throw std::runtime_error("timing log: damaged line: " + line);
             }
-            (kind == "at" ? log.last_address : log.fault) = address;
+            (kind == "at" ? log.last_address : kind == "fault" ? log.fault : log.open_stretch) = address;
+        } else if (kind == "misused") {
+            qemu::MisusedMark misused;
+            if (!(words >> misused.address)) {
+                throw std::runtime_error("timing log: damaged line: " + line);
+            }
+            if (std::uint32_t open = 0; words >> open) {
+                misused.open = open;
+            }
+            log.misused_mark = misused;
         } else if (kind == "recursive") {
             log.recursive = true;
         } else if (kind == "unfinished") {
@@ -189,6 +208,9 @@ void write_timing_request(std::ostream& out, const TimingRequest& request) {
     for (const std::uint32_t handler : request.fault_handlers) {
         out << "faults " << handler << '\n';
     }
+    for (const std::uint32_t begin : request.stretches) {
+        out << "stretch " << begin << '\n';
+    }
     for (const auto& core : request.cores) {
         out << "core " << core.name << ' ' << word(core.code) << ' ' << word(core.data) << ' ' << core.instruction_cache
             << ' ' << word(core.set);
@@ -217,10 +239,10 @@ TimingRequest read_timing_request(std::istream& in) {
             AddressRange range;
             words >> range.begin >> range.end;
             request.double_routines.push_back(range);
-        } else if (kind == "faults") {
-            std::uint32_t handler = 0;
-            words >> handler;
-            request.fault_handlers.insert(handler);
+        } else if (kind == "faults" || kind == "stretch") {
+            std::uint32_t address = 0;
+            words >> address;
+            (kind == "faults" ? request.fault_handlers : request.stretches).insert(address);
         } else if (kind == "core") {
             TimingRequest::Core core;
             words >> core.name >> core.code >> core.data >> core.instruction_cache >> core.set;

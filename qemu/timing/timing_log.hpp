@@ -26,7 +26,9 @@ struct TimingLog {
     std::optional<std::uint32_t> last_address;          ///< that was executed
     std::optional<std::uint32_t> fault;                 ///< where the program first faulted
     bool recursive = false;
-    bool unfinished = false;  ///< the program ended within a watched call
+    bool unfinished = false;                        ///< the program ended within a watched call
+    std::optional<std::uint32_t> open_stretch;      ///< which is open at the end: where it began
+    std::optional<qemu::MisusedMark> misused_mark;  ///< the first
 };
 
 /// Collects calls and writes them.
@@ -62,6 +64,7 @@ struct TimingRequest {
     std::vector<Core> cores;
     std::vector<AddressRange> double_routines = {};  ///< of the program, see software_double.hpp
     std::set<std::uint32_t> fault_handlers = {};     ///< their entry addresses
+    std::set<std::uint32_t> stretches = {};          ///< addresses of the marks that begin what is to be timed, too
 };
 /// What somebody means who names a core: one of the folder's, or a file by its path (`names_core_file`).
 [[nodiscard]] TimingRequest::Core core_asked_for(const std::string& core);

@@ -1,97 +1,14 @@
 #!/bin/sh
 # gate --elf: functions of a program that knows nothing of us, held to a baseline; an instruction planted in one of three is found
 # and named, with what its cycles were lost to, and runs of the same program differ in nothing.
-# Argument: the glsum program.
+# Arguments: the glsum program; how often the same program is run again, 3 unless given.
 set -u
-program=$1
+program=$1 reruns=${2:-3}
 . "$(dirname "$0")/expect.sh"
-need() {
-    command -v "$1" >/dev/null 2>&1 && return
-    echo "no $1"
-    [ -n "${GLSUM_REQUIRE_FIRMWARE:-}" ] && exit 1
-    exit 77
-}
-need arm-none-eabi-gcc
-need qemu-system-arm
+. "$(dirname "$0")/../foreign/foreign.sh"
 fail() { echo "$*"; failures=$((failures + 1)); }
 
-cat >"$folder/map.ld" <<'LD'
-MEMORY { CODE (rx) : ORIGIN = 0, LENGTH = 4M  DATA (rwx) : ORIGIN = 0x20000000, LENGTH = 4M }
-SECTIONS {
-    .text : { KEEP(*(.vectors)) *(.text*) *(.rodata*) } > CODE
-    .data : { *(.data*) } > DATA
-    .bss (NOLOAD) : { *(.bss*) *(COMMON) } > DATA
-}
-LD
-# Three functions that call no other, with a place for a load and its use in each; one that none calls.
-cat >"$folder/app.S" <<'S'
-    .syntax unified
-    .cpu cortex-m7
-    .thumb
-    .section .vectors, "a"
-    .word 0x20010000, start + 1, 0, 0
-    .text
-    .macro function name
-    .balign 16
-    .thumb_func
-    .global \name
-    .type \name, %function
-\name:
-    .endm
-    .macro ends name
-    bx lr
-    .size \name, . - \name
-    .balign 64
-    .endm
-    function start
-    ldr r4, =0x20000100
-    movs r5, #50
-1:  bl ctrl_current
-    bl ctrl_speed
-    bl ctrl_position
-    subs r5, r5, #1
-    bne 1b
-    movs r0, #0x20
-    ldr r1, =leave
-    bkpt 0xab
-    .balign 4
-leave: .word 0x20026, 0
-    .ltorg
-    .size start, . - start
-    function ctrl_current
-    push {r4-r7}
-    ldr r0, [r4]
-    ldr r1, [r4, #8]
-    adds r2, r0, r1
-#ifdef CURRENT
-    CURRENT
-#endif
-    pop {r4-r7}
-    ends ctrl_current
-    function ctrl_speed
-    ldr r0, [r4]
-    movs r1, #1
-    adds r2, r0, r1
-#ifdef SPEED
-    SPEED
-#endif
-    str r2, [r4, #4]
-    ends ctrl_speed
-    function ctrl_position
-    movs r1, #10
-2:  subs r1, r1, #1
-    bne 2b
-    ends ctrl_position
-    function ctrl_unused
-    nop
-    ends ctrl_unused
-S
-build() {  # OUT OPTION...
-    out=$1
-    shift
-    arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -nostdlib "$@" -T "$folder/map.ld" "$folder/app.S" -o "$folder/$out" 2>"$folder/said" ||
-        { cat "$folder/said"; exit 1; }
-}
+build() { out=$1; shift; link_foreign "$out" "$@" "$foreign/app.S"; }
 build app.elf
 held() {  # STATUS TEXT ELF OPTION...
     status=$1 text=$2 elf=$3
@@ -107,9 +24,13 @@ grep -q '"reason": "first"' "$folder/app.json" || fail "expected the reason in t
 grep -A 1 '"function": "ctrl_unused"' "$folder/app.json" | grep -q '"calls": 0' || fail "expected no call of ctrl_unused"
 cp "$folder/app.json" "$folder/first.json"
 # The same program, again and again.
-for run in 1 2 3; do
+alarms=0 run=0
+while [ "$run" -lt "$reruns" ]; do
+    before=$failures run=$((run + 1))
     held 0 "4 functions on stm32f746-itcm, 0 changed" app.elf
+    alarms=$((alarms + failures - before))
 done
+echo "$run reruns of one ELF, $alarms raised anything"
 held 0 "recorded" app.elf --update-baseline --reason "first"
 cmp -s "$folder/app.json" "$folder/first.json" || fail "expected the same baseline of the same program"
 # Its figures are those of time, and the stack is what is pushed: four words.
@@ -133,17 +54,29 @@ held 0 "1 changed" app.elf
 told '^passes ctrl_speed: cycles .*instructions 6 -> 5 \(-1\)'
 # Gone, or no longer called.
 held 0 "recorded" app.elf --update-baseline --reason "first"
-sed 's/ctrl_position/ctrl_place/' "$folder/app.S" >"$folder/renamed.S"
-arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -nostdlib -T "$folder/map.ld" "$folder/renamed.S" -o "$folder/renamed.elf"
+sed 's/ctrl_position/ctrl_place/' "$foreign/app.S" >"$folder/renamed.S"
+link_foreign renamed.elf "$folder/renamed.S"
 held 1 "gate: worse: ctrl_position" renamed.elf
 told '^passes ctrl_place: new'
-sed 's/bl ctrl_speed/nop.w/' "$folder/app.S" >"$folder/app2.S" && mv "$folder/app2.S" "$folder/uncalled.S"
-arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -nostdlib -T "$folder/map.ld" -x assembler-with-cpp "$folder/uncalled.S" -o "$folder/uncalled.elf"
+sed 's/bl ctrl_speed/nop.w/' "$foreign/app.S" >"$folder/uncalled.S"
+link_foreign uncalled.elf "$folder/uncalled.S"
 held 1 "no longer called" uncalled.elf
 # What cannot be compared, and what is broken.
 held 4 "cannot be compared" app.elf --core m7-ideal
 held 4 "cannot be compared" app.elf --place data=axi
 expect 2 "no function's name matches nothing_*" gate --elf "$folder/app.elf" --functions 'nothing_*' --baseline "$folder/app.json"
+# Another architecture, no symbols, no end, a fault where no handler is: each in a sentence, the last two with the place.
+expect 2 "expected a 32-bit Arm executable" gate --elf /bin/true --functions 'ctrl_*' --baseline "$folder/app.json"
+cp "$folder/app.elf" "$folder/stripped.elf" && arm-none-eabi-strip "$folder/stripped.elf"
+held 2 "found one without symbols" stripped.elf
+sed 's/movs r0, #0x20/b ./' "$foreign/app.S" >"$folder/endless.S"
+link_foreign endless.elf "$folder/endless.S"
+held 1 "was silent for 2 s and was ended; the last instruction that it executed was at 0x" endless.elf --timeout 2
+told ' in start$'
+sed 's/movs r0, #0x20/udf #0/' "$foreign/app.S" >"$folder/faulty.S"
+link_foreign faulty.elf "$folder/faulty.S"
+held 1 "Lockup: " faulty.elf
+told '; it faulted at 0x000000[0-9a-f]* in start$'
 # The outputs of a gate of rows, of functions: a worse one fails in each of them, one that cannot be judged says why.
 cp "$folder/first.json" "$folder/app.json"
 held 1 "gate: worse: ctrl_speed" more.elf --json "$folder/g.json" --junit "$folder/g.xml" --markdown "$folder/g.md" --annotations

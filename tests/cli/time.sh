@@ -4,46 +4,10 @@
 set -u
 program=$1 source=$2 firmware=$3
 . "$(dirname "$0")/expect.sh"
-need() {
-    command -v "$1" >/dev/null 2>&1 && return
-    echo "no $1"
-    [ -n "${GLSUM_REQUIRE_FIRMWARE:-}" ] && exit 1
-    exit 77
-}
-need arm-none-eabi-gcc
-need qemu-system-arm
+. "$(dirname "$0")/../foreign/foreign.sh"
 fail() { echo "$*"; failures=$((failures + 1)); }
 
-# A start-up file and a linker script as a user has them, and functions of every kind of ending.
-cat >"$folder/map.ld" <<'LD'
-MEMORY { CODE (rx) : ORIGIN = 0, LENGTH = 4M  DATA (rwx) : ORIGIN = 0x20000000, LENGTH = 4M }
-SECTIONS {
-    .text : { KEEP(*(.vectors)) *(.text*) *(.rodata*) } > CODE
-    .data : { *(.data*) } > DATA AT > CODE
-    .bss (NOLOAD) : { *(.bss*) *(COMMON) } > DATA
-    stack_top = ORIGIN(DATA) + LENGTH(DATA);
-}
-LD
-cat >"$folder/start.c" <<'C'
-extern char stack_top[];
-int main(void);
-static void leave(int status) {
-    unsigned arguments[2] = {0x20026, (unsigned)status};
-    register unsigned r0 __asm__("r0") = 0x20;
-    register void *r1 __asm__("r1") = arguments;
-    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
-    for (;;) {}
-}
-void reset(void) {
-    *(volatile unsigned *)0xE000ED88 |= 0xFu << 20; /* FPU on */
-    leave(main());
-}
-void fault(void) { leave(70); }
-extern void tick(void) __attribute__((weak, alias("fault")));
-__attribute__((section(".vectors"), used)) void *const vectors[16] = {
-    stack_top, (void *)reset, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault,
-    (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)fault, (void *)tick};
-C
+# Functions of every kind of ending.
 cat >"$folder/main.c" <<'C'
 #define KEEP __attribute__((noinline, noclone))
 volatile int sink;
@@ -79,13 +43,7 @@ int main(int argc, char **argv) {
     return STATUS;
 }
 C
-core="-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"
-build() {  # OUT OPTION...
-    out=$1
-    shift
-    arm-none-eabi-gcc $core -O2 -g0 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/map.ld" "$folder/start.c" \
-        "$@" -lgcc -o "$folder/$out" 2>"$folder/said" || { cat "$folder/said"; exit 1; }
-}
+build() { out=$1; shift; link_foreign "$out" -DMANY=1 -DSTATUS=0 "$foreign/start.c" "$@"; }  # OUT OPTION...
 build own.elf "$folder/main.c"
 
 # What a word of the JSON is: field FILE PATH, by the compiler of JSON that every Debian with the build has: none. The form
@@ -153,14 +111,14 @@ rest=$(median_of "$folder/power.json")
 [ "$(share_of "$folder/power.json")" = 0.0 ] && echo "$whole $in_double $rest" | awk '{exit !($1 == $2 + $3 && $2 > $1 / 2 && $3 > 0)}' ||
     fail "power: expected the share in double precision and the rest to sum to the whole, found $in_double + $rest of $whole"
 # Placed by section and by address: as the whole placed so.
-sed 's/\*(\.text\*) \*(\.rodata\*)/*(.text*) } > CODE .rodata : { *(.rodata*)/' "$folder/map.ld" >"$folder/sections.ld"
+sed 's/\*(\.text\*) \*(\.rodata\*)/*(.text*) } > CODE .rodata : { *(.rodata*)/' "$foreign/map.ld" >"$folder/sections.ld"
 cat >"$folder/table.c" <<'C'
 static const int table[256] = {1, 2, 3};
 volatile int sink;
 __attribute__((noinline, noclone)) int look(const int *t) { int s = 0; for (int i = 0; i < 256; i++) s += t[i]; return s; }
 int main(void) { sink = look(table); return 0; }
 C
-arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -T "$folder/sections.ld" "$folder/start.c" "$folder/table.c" \
+arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -T "$folder/sections.ld" "$foreign/start.c" "$folder/table.c" \
     -o "$folder/table.elf" 2>"$folder/said" || cat "$folder/said"
 look() {  # TEXT OPTION...: the median into $cycles
     text=$1
@@ -204,7 +162,7 @@ expect 2 "code" time --elf "$folder/own.elf" --function dot --place code=sram
 expect 2 "no such effect" time --elf "$folder/own.elf" --function dot --without magic
 expect 2 "no such core" time --elf "$folder/own.elf" --function dot --core no-such-core
 expect 2 "$folder/none.elf" time --elf "$folder/none.elf" --function dot
-expect 2 "$folder/start.c" time --elf "$folder/start.c" --function dot
+expect 2 "$foreign/start.c" time --elf "$foreign/start.c" --function dot
 expect 2 "found" time --elf /bin/true --function main
 build status.elf -UMANY -DMANY=1 -USTATUS -DSTATUS=5 "$folder/main.c"
 expect 1 "5" time --elf "$folder/status.elf" --function dot
@@ -233,10 +191,11 @@ build bad.elf -DBAD="spin()" "$folder/bad.c"
 expect 1 "was silent for 2 s and was ended; the last instruction that it executed was at 0x" time --elf "$folder/bad.elf" --function leaf --timeout 2
 grep -q ' in spin$' "$folder/said" || fail "bad.elf: expected to be told that it was in spin: $(cat "$folder/said")"
 # Without a handler the core locks up, and the emulator dies of it: a sentence, no dump of registers.
-sed 's/(void \*)fault/0/g; s/, (void \*)tick//' "$folder/start.c" >"$folder/bare.c"
-arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -DBAD='poke((int *)0xF0000000)' -T "$folder/map.ld" "$folder/bare.c" "$folder/bad.c" \
-    -o "$folder/bare.elf" 2>"$folder/said" || cat "$folder/said"
-expect 1 "Lockup: " time --elf "$folder/bare.elf" --function leaf
+sed 's/(void \*)fault/0/g; s/, (void \*)tick//' "$foreign/start.c" >"$folder/bare.c"
+link_foreign bare.elf -DBAD='poke((int *)0xF0000000)' "$folder/bare.c" "$folder/bad.c"
+at=$(arm-none-eabi-objdump -d --disassemble=poke "$folder/bare.elf" | sed -n 's/^ *\([0-9a-f]*\):.*ldr.*\[r0.*/\1/p')
+expect 1 "; it faulted at 0x$(printf %08x "0x$at") in poke" time --elf "$folder/bare.elf" --function leaf
+grep -q "Lockup: " "$folder/said" || fail "bare.elf: expected to be told of the lockup: $(cat "$folder/said")"
 [ "$(wc -l <"$folder/said")" = 1 ] || fail "bare.elf: expected one sentence"
 
 # Programs for other cores. The M0's code runs on an M7.
@@ -250,8 +209,8 @@ other() {  # STATUS TEXT FLAG...
 other 2 "ARMv8-M mainline" -mcpu=cortex-m33 -mthumb
 other 2 "profile A" -mcpu=cortex-a9
 sed 's/sum += x\[i\] \* y\[i\]/sum += 2/' "$folder/main.c" >"$folder/m0.c"
-arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -O2 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/map.ld" \
-    "$folder/start.c" "$folder/m0.c" -o "$folder/m0.elf" -lgcc 2>"$folder/said" || cat "$folder/said"
+arm-none-eabi-gcc -mcpu=cortex-m0 -mthumb -O2 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$foreign/map.ld" \
+    "$foreign/start.c" "$folder/m0.c" -o "$folder/m0.elf" -lgcc 2>"$folder/said" || cat "$folder/said"
 expect 0 "1 calls" time --elf "$folder/m0.elf" --function tail
 
 # Called 100 000 times.
@@ -290,7 +249,7 @@ work:
 leave:
     .word 0x20026, 0
 S
-arm-none-eabi-gcc $core -nostdlib -T "$folder/map.ld" "$folder/hand.S" -o "$folder/hand.elf" 2>"$folder/said" || cat "$folder/said"
+link_foreign hand.elf "$folder/hand.S"
 expect 0 "3 calls" time --elf "$folder/hand.elf" --function work --json "$folder/hand.json"
 has "$folder/hand.json" '"median": 42,'
 
@@ -339,8 +298,8 @@ C
 fi
 
 # Linked for a chip's flash: said in a sentence, not by a register dump of the emulator.
-sed 's/ORIGIN = 0,/ORIGIN = 0x08000000,/' "$folder/map.ld" >"$folder/chip.ld"
-arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/chip.ld" "$folder/start.c" "$folder/main.c" \
+sed 's/ORIGIN = 0,/ORIGIN = 0x08000000,/' "$foreign/map.ld" >"$folder/chip.ld"
+arm-none-eabi-gcc $core -O2 -ffreestanding -nostdlib -DMANY=1 -DSTATUS=0 -T "$folder/chip.ld" "$foreign/start.c" "$folder/main.c" \
     -lgcc -o "$folder/chip.elf" 2>"$folder/said" || cat "$folder/said"
 expect 2 "section .text lies at 0x08000000" time --elf "$folder/chip.elf" --function leaf
 [ "$(wc -l <"$folder/said")" = 1 ] || fail "chip.elf: expected one sentence"

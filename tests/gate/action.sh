@@ -9,8 +9,9 @@ folder=$(mktemp -d)
 server=
 trap '[ -z "$server" ] || kill "$server" 2>/dev/null; rm -rf "$folder"' EXIT
 failures=0
+. "$(dirname "$0")/../foreign/foreign.sh"
 fail() { echo "$*"; failures=$((failures + 1)); }
-for needed in curl jq perl arm-none-eabi-gcc qemu-system-arm; do command -v $needed >/dev/null || { echo "no $needed here"; exit 77; }; done
+for needed in curl jq perl; do command -v $needed >/dev/null || { echo "no $needed here"; exit 77; }; done
 perl -MIO::Socket::INET -e 1 2>/dev/null || { echo "no sockets in perl here"; exit 77; }
 # What a service of comments does: lists them, makes one, replaces one. It keeps them in comments.json and each request in requests.
 cat >"$folder/service.pl" <<'PERL'
@@ -43,49 +44,8 @@ service=http://127.0.0.1:$(cat "$folder/port")
 # A foreign project: three functions, one of which grows.
 mkdir "$folder/project"
 cd "$folder/project" || exit 1
-cat >map.ld <<'LD'
-SECTIONS { . = 0; .text : { KEEP(*(.vectors)) *(.text*) } }
-LD
 program_of() {  # a program whose ctrl_speed holds that statement
-    cat >app.S <<S
-    .syntax unified
-    .cpu cortex-m7
-    .thumb
-    .section .vectors, "a"
-    .word 0x20010000, start + 1, 0, 0
-    .text
-    .thumb_func
-    .type start, %function
-start:
-    movs r5, #20
-1:  bl ctrl_speed
-    bl ctrl_current
-    subs r5, r5, #1
-    bne 1b
-    movs r0, #0x20
-    ldr r1, =leave
-    bkpt 0xab
-    .balign 4
-leave: .word 0x20026, 0
-    .ltorg
-    .size start, . - start
-    .balign 64
-    .thumb_func
-    .type ctrl_speed, %function
-ctrl_speed:
-    movs r1, #3
-    $1
-    bx lr
-    .size ctrl_speed, . - ctrl_speed
-    .balign 64
-    .thumb_func
-    .type ctrl_current, %function
-ctrl_current:
-    adds r0, r0, #1
-    bx lr
-    .size ctrl_current, . - ctrl_current
-S
-    arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -nostdlib -T map.ld app.S -o app.elf 2>link.log || { cat link.log; exit 1; }
+    link_foreign project/app.elf -DSPEED="$1" "$foreign/app.S"
 }
 program_of nop
 "$program" gate --elf app.elf --functions 'ctrl_*' --baseline gate.json --update-baseline --reason "first" >/dev/null 2>&1 || fail "no baseline"
@@ -108,7 +68,7 @@ on_github() {
 on_github || fail "an unchanged program: expected status 0, found: $(cat said)"
 grep -qF 'POST /repos/some/project/issues/12/comments' "$folder/requests" || fail "expected a comment to be made, found: $(cat "$folder/requests")"
 grep -qF 'glsum gate: pass' summary.md || fail "expected the gate's words in the summary: $(cat summary.md)"
-program_of 'udiv r1, r1, r1'
+program_of 'udiv r2, r2, r1'
 on_github
 [ $? -eq 1 ] || fail "a worse program: expected status 1, found: $(cat said)"
 grep -qF 'PATCH /repos/some/project/issues/comments/1' "$folder/requests" || fail "expected the comment to be updated in place: $(cat "$folder/requests")"

@@ -8,6 +8,7 @@
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
+#include "made_elf.hpp"
 #include "qemu/emulate/software_double.hpp"
 
 namespace {
@@ -111,6 +112,19 @@ TEST(Elf, FindsSymbolsFunctionsAndWords) {
     EXPECT_FALSE(elf.symbol("nothing_of_this_name"));
     EXPECT_EQ(elf.function_at(0xF0000000), nullptr);
     EXPECT_THROW((void)elf.word(0xF0000000), glsum::Failure);
+}
+
+// At every even address of what is executed, and nowhere else.
+TEST(Elf, FindsHalfwordsInItsCode) {
+    const base::Scratch folder;
+    test::MadeElf made;
+    made.sections = {{0x100, test::bytes_of({0xBF0046D2, 0x46D2BF00, 0xD200BF46}), true},
+                     {0x200, test::bytes_of({0x46D246D2})}};
+    made.symbols = {{"f", 0x101, 12, true}};
+    made.write(folder.file("a.elf"));
+    const qemu::Elf elf(folder.file("a.elf"));
+    EXPECT_EQ(elf.halfwords_in_code(0x46D2), (std::set<std::uint32_t>{0x100, 0x106}));
+    EXPECT_TRUE(elf.halfwords_in_code(0x1234).empty());
 }
 
 TEST(SoftwareDouble, IsToldByTheNamesOfItsRoutines) {

@@ -53,7 +53,7 @@ void MadeElf::write(const std::filesystem::path& path) const {
     };
     for (const MadeSection& section : sections) {
         Elf32_Shdr& header = add(SHT_PROGBITS, {section.bytes.begin(), section.bytes.end()});
-        header.sh_flags = SHF_ALLOC;
+        header.sh_flags = SHF_ALLOC | (section.code ? SHF_EXECINSTR : 0);
         header.sh_addr = section.address;
     }
     if (!attributes.empty()) {

@@ -19,6 +19,7 @@ struct MadeSymbol {
 struct MadeSection {
     std::uint32_t address;
     std::vector<std::uint8_t> bytes;
+    bool code = false;
 };
 
 struct MadeElf {

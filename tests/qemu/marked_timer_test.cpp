@@ -51,6 +51,16 @@ TEST(MarkedTimer, WithoutMarksEachFunctionHasALogOfItsOwn) {
     EXPECT_NE(inner.find("calls"), std::string::npos);
 }
 
+TEST(MarkedTimer, KnowsWhereTheProgramFaulted) {
+    std::stringstream log;
+    qemu::MarkedTimer timer({0x100}, cores(), {}, log, {}, {0x140});
+    EXPECT_FALSE(timer.fault());
+    call(timer);
+    EXPECT_EQ(timer.fault(), 0x102U);
+    qemu::MarkedTimer none({0x100}, cores(), marks, log, {}, {0x140});
+    EXPECT_FALSE(none.fault());  // before the first row there is no part
+}
+
 TEST(MarkedTimer, EachRowStartsColdAndHasALogOfItsOwn) {
     std::stringstream log;
     qemu::MarkedTimer timer({0x100}, cores(), marks, log);

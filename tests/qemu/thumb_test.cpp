@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "qemu/stream/stretch_marks.hpp"
+
 namespace {
 
 qemu::Instruction narrow(std::uint32_t encoding) { return {0, encoding, 2, 0}; }
@@ -95,6 +97,27 @@ TEST(Thumb, KnowsCalls) {
     EXPECT_FALSE(qemu::is_call(narrow(0x4770)));    // bx lr
     EXPECT_FALSE(qemu::is_call(wide(0xF000B800)));  // b.w
     EXPECT_FALSE(qemu::is_call(narrow(0xE7FE)));    // b
+}
+
+TEST(Thumb, MarksOfStretchesPairAndDoNotNest) {
+    EXPECT_TRUE(qemu::is_stretch_mark(narrow(0x46D2)));   // mov r10, r10
+    EXPECT_TRUE(qemu::is_stretch_mark(narrow(0x46DB)));   // mov r11, r11
+    EXPECT_FALSE(qemu::is_stretch_mark(narrow(0x46C0)));  // mov r8, r8, a NOP of Thumb-1
+    EXPECT_FALSE(qemu::is_stretch_mark(wide(0x46D2)));
+    qemu::StretchMarks marks;
+    for (const std::uint32_t address : {0x20U, 0x40U}) {
+        marks.meet({address, qemu::stretch_begins, 2, 0});
+        EXPECT_EQ(marks.open(), address);
+        marks.meet({address + 2, qemu::stretch_ends, 2, 1});
+        EXPECT_FALSE(marks.open() || marks.misused());
+    }
+    qemu::StretchMarks nested = marks;
+    nested.meet({0x20, qemu::stretch_begins, 2, 0});
+    nested.meet({0x22, qemu::stretch_begins, 2, 1});
+    nested.meet({0x24, qemu::stretch_begins, 2, 2});
+    EXPECT_EQ(nested.misused(), (qemu::MisusedMark{0x22, 0x20}));
+    marks.meet({0x30, qemu::stretch_ends, 2, 0});
+    EXPECT_EQ(marks.misused(), (qemu::MisusedMark{0x30, std::nullopt}));
 }
 
 }  // namespace

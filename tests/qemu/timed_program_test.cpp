@@ -53,6 +53,7 @@ protected:
         timing::TimingRequest request;
         request.cores_folder = "cores";
         request.cores = {{"a-core", "", ""}};
+        request.stretches = stretches_;
         return qemu::time_program(emulator_, "x.so", folder_.file("a.elf"), {"one", "2"}, {1024, 1088}, request, marks,
                                   line);
     }
@@ -68,6 +69,7 @@ protected:
 
     base::Scratch folder_;
     qemu::Emulator emulator_;
+    std::set<std::uint32_t> stretches_;
 };
 
 TEST_F(TimedProgram, TellsThePluginAndReadsALogAPart) {
@@ -131,6 +133,40 @@ TEST_F(TimedProgram, AFailureSaysWhereTheProgramWas) {
 TEST_F(TimedProgram, EveryPartCallsTheFunction) {
     log("calls 2 1024 50 core 1 80" + no_losses + "end\nend\nend\n");
     EXPECT_THAT(fault(glsum::Exit::check_failed), EndsWith("a.elf: the timed function was never called"));
+}
+
+// Stretches have their logs behind those of the functions; only one that was met has calls.
+TEST_F(TimedProgram, AStretchNeedNotBeMet) {
+    stretches_ = {1026, 1090};
+    const std::string call = "calls 2 1024 50 core 1 80" + no_losses + "end\n";
+    log(call + call + call + "end\n");
+    const auto logs = time();
+    ASSERT_EQ(logs.size(), 4U);
+    EXPECT_TRUE(logs[3].runs.empty());
+    EXPECT_THAT(text_of("request"), HasSubstr("\nstretch 1026\nstretch 1090\n"));
+    log(call + call + "end\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::check_failed), EndsWith("a.elf: none of its 2 glsum_mark_begin was executed"));
+    log(call + "end\n" + call + "end\n");
+    EXPECT_THAT(fault(glsum::Exit::check_failed), EndsWith("a.elf: step_of_block was never called"));
+}
+
+TEST_F(TimedProgram, MarksThatDoNotPairAreBadInputUnlessTheProgramFailed) {
+    stretches_ = {1026};
+    const std::string call = "calls 2 1024 50 core 1 80" + no_losses + "end\n";
+    log(call + call + "misused 1090 1026\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::bad_input),
+                EndsWith("a.elf: glsum_mark_begin at 0x00000442 in step_of_block stands within the stretch that "
+                         "glsum_mark_begin at 0x00000402 in step_of_ring began: stretches do not nest"));
+    log(call + call + "misused 1090\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::bad_input),
+                EndsWith("a.elf: glsum_mark_end at 0x00000442 in step_of_block ends no stretch"));
+    log(call + call + "open 1026\nend\n");
+    EXPECT_THAT(fault(glsum::Exit::bad_input),
+                EndsWith("a.elf: the stretch that glsum_mark_begin at 0x00000402 in step_of_ring began never met "
+                         "glsum_mark_end before the program ended"));
+    ends_with(7);
+    EXPECT_THAT(fault(glsum::Exit::check_failed),
+                HasSubstr("never met glsum_mark_end; a.elf under the emulator exited with 7"));
 }
 
 }  // namespace

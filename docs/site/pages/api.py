@@ -92,7 +92,7 @@ def write(source, facts, tree):
     folder.mkdir()
     for library, headers in GROUPS.items():
         (folder / f"{_page_of(library)}.rst").write_text(_page(library, headers, declared, source))
-    rows = [(f"[{library}]({_page_of(library)}.md)", ", ".join(f"`{header}`" for header in headers)) for library, headers in GROUPS.items()]
+    rows = [(f"[{library}]({_page_of(library)}.rst)", ", ".join(f"`{header}`" for header in headers)) for library, headers in GROUPS.items()]
     (folder / "index.md").write_text(
         "# The library's headers\n\n[Use the kernels in your project](../docs/firmware.md) says how they are installed and found. "
         "Names of kernels, as `glsum::ring_plain_f32`, come with `<glsum/registry.hpp>`.\n\n" +

@@ -42,20 +42,11 @@ std::uint64_t hash_of(const State& state) {
 }
 
 Pipeline::Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects off)
-    : figures_(figures),
-      off_(off),
+    : PipelineBase(figures, off),
       words_(static_cast<std::size_t>(std::clamp<std::int64_t>(figures.fetch_queue, 1, State::most_words))),
       fetch_memory_(
           static_cast<std::int32_t>(8 + figures.prefetch_latency + figures.prefetch_restart + longest_fetch)) {
     state.freed.fill(-fetch_memory_);
-}
-
-void Pipeline::hold(Effect effect, std::int64_t cycle) {
-    const auto until = static_cast<std::int32_t>(2 * cycle);
-    if (until > state.position && !is_off(effect)) {
-        losses[index(effect)] += until - state.position;
-        state.position = until;
-    }
 }
 
 // The order of attribution: that an instruction has a cycle of its own, what the one before left behind, then its
@@ -69,19 +60,19 @@ void Pipeline::execute(const Prepared& instruction, const Event& event) {
         wait_for_bytes(d, event);
         return;
     }
-    hold(Effect::single_issue, (state.position + 1) / 2);
+    hold_cycle(Effect::single_issue, (state.position + 1) / 2);
     wait_for_the_one_before(d, event);
     wait_for_bytes(d, event);
     wait_for_operands(d);
     if (d.is_fp) {
-        hold(Effect::fpu_latency, state.fpu_free);
+        hold_cycle(Effect::fpu_latency, state.fpu_free);
     }
     leave_behind(d, event);
 }
 
 void Pipeline::wait_for_the_one_before(const Decoded& d, const Event& event) {
     for (State::Hold& one : state.holds) {
-        hold(one.effect, one.until);
+        hold_cycle(one.effect, one.until);
         one = {};
     }
     const bool loads = d.is_load() && event.accesses > 0;
@@ -94,23 +85,23 @@ void Pipeline::wait_for_the_one_before(const Decoded& d, const Event& event) {
             const bool pipelines = single && same_block && figures_.access_load_pipelines != 0;
             const bool hides = is_no_operation(d) && figures_.access_load_hides_nop != 0;
             if (!pipelines && !hides) {
-                hold(Effect::load_use, state.access_ends);
+                hold_cycle(Effect::load_use, state.access_ends);
             }
             break;
         }
         case Access::indexed_store:
             if (!is_no_operation(d)) {
-                hold(Effect::store_buffer, state.access_ends);
+                hold_cycle(Effect::store_buffer, state.access_ends);
             }
             [[fallthrough]];
         case Access::store:
             if (loads) {
-                hold(Effect::store_buffer, state.access_ends + figures_.access_load_behind_store);
+                hold_cycle(Effect::store_buffer, state.access_ends + figures_.access_load_behind_store);
             }
             break;
     }
     if (event.accesses > 0) {
-        hold(state.store_effect, state.store_done);
+        hold_cycle(state.store_effect, state.store_done);
     }
 }
 
@@ -127,16 +118,16 @@ void Pipeline::wait_for_bytes(const Decoded& d, const Event& event) {
         const bool stopped = place >= state.fetched;
         const std::int64_t asked = place + figures_.prefetch_latency + (stopped ? figures_.prefetch_restart : 0);
         const std::int64_t on_time = std::max<std::int64_t>(state.fetched + 1, asked);
-        hold(Effect::fetch_alignment, on_time);
+        hold_cycle(Effect::fetch_alignment, on_time);
         state.fetched = static_cast<std::int32_t>(on_time);
         if (event.fetch_delays[n] > 0) {
-            hold(event.fetch_effect, on_time + event.fetch_delays[n]);
+            hold_cycle(event.fetch_effect, on_time + event.fetch_delays[n]);
             state.fetched += is_off(event.fetch_effect) ? 0 : event.fetch_delays[n];
         }
     }
     if (ends_word) {
         std::copy_backward(state.freed.begin(), state.freed.end() - 1, state.freed.end());
-        state.freed[0] = cycle();
+        state.freed[0] = now();
     }
 }
 
@@ -145,12 +136,12 @@ void Pipeline::wait_for_operands(const Decoded& d) {
         const auto [reg, role] = d.reads[i];
         if (reg < registers::pc && (role == Role::address || role == Role::index) && d.registers > 0) {
             const State::Value& value = state.values[reg];
-            hold(value.loaded ? Effect::load_use : Effect::result_latency, value.address_from);
+            hold_cycle(value.loaded ? Effect::load_use : Effect::result_latency, value.address_from);
         } else if (reg >= registers::s0 && reg < registers::flags) {
             const std::size_t single = reg - registers::s0;
             const bool addend = role == Role::accumulator && (state.fp_computed >> single & 1U) != 0;
-            hold(Effect::fpu_latency,
-                 state.fp_from[single] - (addend ? figures_.use_fp_next - figures_.use_fp_next_addend : 0));
+            hold_cycle(Effect::fpu_latency,
+                       state.fp_from[single] - (addend ? figures_.use_fp_next - figures_.use_fp_next_addend : 0));
         }
     }
 }
@@ -185,7 +176,7 @@ std::int64_t Pipeline::cycles_of(const Decoded& d, const Event& event) const {
 }
 
 void Pipeline::leave_behind(const Decoded& d, const Event& event) {
-    const std::int32_t at = cycle();
+    const std::int32_t at = now();
     const std::int64_t takes = std::max<std::int64_t>(1, cycles_of(d, event));
     const Effect why = d.kind == Kind::divide     ? Effect::result_latency
                        : d.is_fp_arithmetic()     ? Effect::fpu_latency
@@ -215,7 +206,7 @@ void Pipeline::leave_behind(const Decoded& d, const Event& event) {
 }
 
 void Pipeline::access_memory(const Decoded& d, const Event& event) {
-    const std::int32_t at = cycle();
+    const std::int32_t at = now();
     state.last_access = Access::none;
     state.access_ends = 0;
     load_delay_ = 0;
@@ -248,7 +239,7 @@ void Pipeline::access_memory(const Decoded& d, const Event& event) {
 }
 
 void Pipeline::write_results(const Decoded& d, std::int64_t takes, std::int64_t fpu_takes) {
-    const std::int32_t at = cycle();
+    const std::int32_t at = now();
     std::int64_t loaded = 0;
     for (std::size_t i = 0; i < d.write_count; ++i) {
         const auto [reg, source] = d.writes[i];

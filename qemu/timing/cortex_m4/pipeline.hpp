@@ -9,6 +9,7 @@
 #include "qemu/timing/block_events.hpp"
 #include "qemu/timing/core_file.hpp"
 #include "qemu/timing/effects.hpp"
+#include "qemu/timing/pipeline_base.hpp"
 #include "qemu/timing/prepared.hpp"
 
 namespace timing::cortex_m4 {
@@ -55,26 +56,19 @@ struct State {
 [[nodiscard]] std::uint64_t hash_of(const State& state);
 
 /// The core under one rule set.
-class Pipeline {
+class Pipeline : public PipelineBase<State> {
 public:
-    using State = cortex_m4::State;
     static constexpr Core core = Core::cortex_m4;
 
     /// \param longest_fetch  the most extra cycles that a word of a fetch will come with (`Memory::longest_fetch`)
     Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects off);
-    Pipeline(const Pipeline&) = delete;
-    Pipeline& operator=(const Pipeline&) = delete;
 
     /// One executed instruction: moves `state` on, and adds to `losses`.
     void execute(const Prepared& instruction, const Event& event);
     /// Sets the clock back, see the Cortex-M7's. \return cycles that it was set back by
     std::int32_t settle();
 
-    State state;
-    Losses losses{};
-
 private:
-    void hold(Effect effect, std::int64_t cycle);
     void wait_for_the_one_before(const Decoded& d, const Event& event);
     void wait_for_bytes(const Decoded& d, const Event& event);
     void wait_for_operands(const Decoded& d);
@@ -84,11 +78,7 @@ private:
     void refill(const Decoded& d, std::int64_t taken);
 
     [[nodiscard]] std::int64_t cycles_of(const Decoded& d, const Event& event) const;
-    [[nodiscard]] bool is_off(Effect effect) const { return off_[index(effect)]; }
-    [[nodiscard]] std::int32_t cycle() const { return state.position / 2; }
 
-    Figures figures_;
-    Effects off_;
     std::size_t words_;            // of the prefetch buffer
     std::int32_t fetch_memory_;    // cycles behind which it does not look back
     std::int64_t load_delay_ = 0;  // of the instruction at work

@@ -28,6 +28,8 @@ public:
     void call(std::uint32_t from) { run(from, 0xF000F876, 4); }
     void add(std::uint32_t address) { run(address, 0x3001, 2); }
     void jump(std::uint32_t address) { run(address, 0xE07E, 2); }
+    void begin_mark(std::uint32_t address) { run(address, qemu::stretch_begins, 2); }
+    void end_mark(std::uint32_t address) { run(address, qemu::stretch_ends, 2); }
     void give_back(std::uint32_t address) { run(address, 0x4770, 2); }
     timing::CallTimer& timer() { return timer_; }
     timing::CallTimer& finish() {
@@ -243,6 +245,73 @@ TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
     }
     EXPECT_GT(hot[0].at(0x102).lost, 0);
     EXPECT_LE(hot[0].at(0x102).lost, lost);
+}
+
+TEST(CallTimer, AStretchLastsFromBehindItsFirstMarkToItsSecond) {
+    Program p("m7-ideal", {});
+    p.timer().watch_stretch(0x20);
+    for (int turn = 0; turn < 2; ++turn) {
+        p.add(0x1E);
+        p.begin_mark(0x20);
+        p.add(0x22);
+        p.call(0x24);
+        p.add(0x100);
+        p.give_back(0x102);
+        p.add(0x28);
+        p.end_mark(0x2A);
+        p.add(0x2C);
+        p.begin_mark(0x2E);  // another's
+        p.add(0x30);
+        p.end_mark(0x32);
+    }
+    const timing::CallTimer& timer = p.finish();
+    ASSERT_EQ(p.calls.size(), 2U);
+    for (const timing::TimedCall& call : p.calls) {
+        EXPECT_EQ(call.entry, 0x20U);
+        EXPECT_EQ(call.instructions, 5U);
+        EXPECT_EQ(call.cores[0].half_cycles[0], 5);
+    }
+    EXPECT_FALSE(timer.stretch_marks().open() || timer.stretch_marks().misused());
+}
+
+TEST(CallTimer, BetweenTwoMarksInARowThereIsNothing) {
+    Program p("m7-ideal", {});
+    p.timer().watch_stretch(0x20);
+    p.begin_mark(0x20);
+    p.end_mark(0x22);
+    p.add(0x24);
+    p.finish();
+    ASSERT_EQ(p.calls.size(), 1U);
+    EXPECT_EQ(p.calls[0].instructions, 0U);
+    EXPECT_EQ(p.calls[0].cores[0].half_cycles[0], 0);
+}
+
+TEST(CallTimer, MarksThatDoNotPairAreToldWithTheirPlaces) {
+    const auto marks_of = [](const std::function<void(Program&)>& runs) {
+        Program p("m7-ideal", {});
+        p.timer().watch_stretch(0x20);
+        runs(p);
+        return p.finish().stretch_marks();
+    };
+    const auto open = marks_of([](Program& p) { p.begin_mark(0x40); });
+    EXPECT_EQ(open.open(), 0x40U);
+    EXPECT_FALSE(open.misused());
+    const auto end = marks_of([](Program& p) {
+        p.end_mark(0x42);
+        p.end_mark(0x44);
+    });
+    EXPECT_FALSE(end.open());
+    EXPECT_EQ(end.misused(), (qemu::MisusedMark{0x42, std::nullopt}));
+    const auto nested = marks_of([](Program& p) {
+        p.begin_mark(0x20);
+        p.begin_mark(0x40);
+        p.end_mark(0x42);
+    });
+    EXPECT_EQ(nested.misused(), (qemu::MisusedMark{0x40, 0x20}));
+    // Where none is watched a mark is an instruction like any other.
+    Program p;
+    p.end_mark(0x42);
+    EXPECT_FALSE(p.finish().stretch_marks().misused());
 }
 
 TEST(CallTimer, KnowsWhereTheProgramFirstFaulted) {

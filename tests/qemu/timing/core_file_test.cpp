@@ -222,6 +222,9 @@ TEST(CoreFile, AFileAnywhereIsBasedOnWhatLiesBesideItOrInTheFolder) {
     EXPECT_EQ(core.placement.code, timing::CodePlace::flash);
     EXPECT_EQ(core.sets[0].figures.memory_clock_hz, 200'000'000);
     EXPECT_EQ(core.sets[0].figures.cache_data_bytes, 4096);
+    // Named by its path, or as one of the folder.
+    EXPECT_EQ(timing::read_named_core(cores, scratch.file("mine.toml").string()).name, "mine");
+    EXPECT_EQ(timing::read_named_core(cores, "stm32f746-itcm").name, "stm32f746-itcm");
     // Beside it comes first.
     write("_stm32f746.toml", "base = \"_stm32h747\"\n");
     EXPECT_EQ(timing::read_core_file(scratch.file("mine.toml"), cores).sets[0].figures.cache_data_bytes, 16384);

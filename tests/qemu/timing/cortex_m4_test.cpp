@@ -2,7 +2,6 @@
 // figures in qemu/cores/_cortex-m4.toml that decide them.
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <set>
 
 #include "probe.hpp"
@@ -10,7 +9,8 @@
 
 namespace {
 
-enum class How { copies, turns };  // of the text one after the other, or of the loop that it is
+using probe::How;
+using probe::lines_of;
 
 struct Probe {
     const char* rule;
@@ -103,17 +103,8 @@ constexpr Probe probes[] = {
     {"memory", "nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w; nop.w", 11, How::copies, "stm32h747-m4"},
 };
 
-std::string lines_of(const char* text) {
-    std::string lines(text);
-    for (char& letter : lines) {
-        letter = letter == ';' ? '\n' : letter;
-    }
-    return lines + "\n";
-}
-
 double cycles_of(const Probe& probe, const probe::Setting& setting) {
-    return probe.how == How::copies ? probe::steady_cycles(lines_of(probe.text), setting)
-                                    : probe::steady_turns(lines_of(probe.text), setting);
+    return probe::steady(probe.text, probe.how, setting);
 }
 
 TEST(CortexM4, TakesTheCyclesDerivedByHand) {
@@ -141,24 +132,14 @@ TEST(CortexM4, WithoutWaitStatesNoMemoryIsSlower) {
 TEST(CortexM4, LossesSumExactlyToWhatIsAboveHalfACycleAnInstruction) {
     for (const Probe& probe : probes) {
         for (const char* core : {"cortex-m4-zerowait", "stm32h747-m4"}) {
-            probe::Setting setting = probe::core(core);
-            setting.turns = 5;
-            const probe::Outcome outcome = probe::run(lines_of(probe.text), setting);
-            EXPECT_EQ(outcome.positions.back() + 1,
-                      static_cast<std::int64_t>(outcome.positions.size()) +
-                          std::accumulate(outcome.losses.begin(), outcome.losses.end(), std::int64_t{0}))
-                << probe.text << " on " << core;
+            probe::expect_losses_to_sum(probe.text, core);
         }
     }
 }
 
 TEST(CortexM4, AnEffectThatIsOffLosesNothing) {
-    for (std::size_t effect = 0; effect < timing::effect_count; ++effect) {
-        for (const Probe& probe : probes) {
-            probe::Setting setting = probe::core(probe.core);
-            setting.off.set(effect);
-            EXPECT_EQ(probe::run(lines_of(probe.text), setting).losses[effect], 0) << probe.text;
-        }
+    for (const Probe& probe : probes) {
+        probe::expect_effects_to_switch_off(probe.text, probe.core);
     }
 }
 

@@ -1,6 +1,9 @@
 #include "probe.hpp"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <numeric>
 #include <regex>
 #include <stdexcept>
 
@@ -184,6 +187,12 @@ Outcome run(const std::string& assembly, const Setting& setting) {
                : walk<timing::Model>(assembly, setting);
 }
 
+std::string lines_of(const char* text) {
+    std::string lines(text);
+    std::replace(lines.begin(), lines.end(), ';', '\n');
+    return lines + "\n";
+}
+
 double steady_cycles(const std::string& assembly, const Setting& setting) {
     const auto position_behind = [&](int copies) {
         std::string text = ".p2align 3\n";
@@ -202,6 +211,28 @@ double steady_turns(const std::string& assembly, Setting setting) {
         return run(".p2align 3\n" + assembly + "\ndsb\n", setting).positions.back();
     };
     return static_cast<double>(position_behind(24) - position_behind(16)) / 2.0 / 8.0;
+}
+
+double steady(const char* text, How how, const Setting& setting) {
+    return how == How::copies ? steady_cycles(lines_of(text), setting) : steady_turns(lines_of(text), setting);
+}
+
+void expect_losses_to_sum(const char* text, const std::string& core_name) {
+    Setting setting = core(core_name);
+    setting.turns = 5;
+    const Outcome outcome = run(lines_of(text), setting);
+    EXPECT_EQ(outcome.positions.back() + 1,
+              static_cast<std::int64_t>(outcome.positions.size()) +
+                  std::accumulate(outcome.losses.begin(), outcome.losses.end(), std::int64_t{0}))
+        << text << " on " << core_name;
+}
+
+void expect_effects_to_switch_off(const char* text, const std::string& core_name) {
+    for (std::size_t effect = 0; effect < timing::effect_count; ++effect) {
+        Setting setting = core(core_name);
+        setting.off.set(effect);
+        EXPECT_EQ(run(lines_of(text), setting).losses[effect], 0) << text;
+    }
 }
 
 }  // namespace probe

@@ -36,11 +36,25 @@ struct Setting {
 
 [[nodiscard]] Outcome run(const std::string& assembly, const Setting& setting);
 
+/// Of a text one after the other, or of the loop that it is.
+enum class How { copies, turns };
+
+/// A text whose lines are parted by ";".
+[[nodiscard]] std::string lines_of(const char* text);
+
 /// Cycles that one more copy of the text takes, in a steady run of copies: 24 against 16 of them. A copy has labels of
 /// its own if it uses local numeric ones.
 [[nodiscard]] double steady_cycles(const std::string& assembly, const Setting& setting);
 
 /// Cycles that one more turn of the loop takes, in a steady run: 24 against 16 turns.
 [[nodiscard]] double steady_turns(const std::string& assembly, Setting setting);
+
+/// Either. \param text  lines parted by ";"
+[[nodiscard]] double steady(const char* text, How how, const Setting& setting);
+
+/// Expects that five turns of a text take half a cycle an instruction and what they lost, exactly.
+void expect_losses_to_sum(const char* text, const std::string& core);
+/// Expects that an effect that is switched off loses nothing, each of them. \param text  likewise
+void expect_effects_to_switch_off(const char* text, const std::string& core);
 
 }  // namespace probe

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <numeric>
 #include <set>
 
 namespace {
 
-enum class How { copies, turns };  // of the text one after the other, or of the loop that it is
+using probe::How;
+using probe::lines_of;
 
 struct Probe {
     const char* rule;
@@ -243,14 +243,6 @@ constexpr Probe probes[] = {
     {"15.2", "vstr s0,[r0]; nop.w; ldr.w r2,[r1,#4]; nop.w", 2},
 };
 
-std::string lines_of(const char* text) {
-    std::string lines(text);
-    for (char& letter : lines) {
-        letter = letter == ';' ? '\n' : letter;
-    }
-    return lines + "\n";
-}
-
 probe::Setting setting_of(const Probe& probe) {
     probe::Setting setting = probe::core(probe.core);
     setting.placement.data = probe.data_in_axi ? timing::DataPlace::axi : setting.placement.data;
@@ -258,8 +250,7 @@ probe::Setting setting_of(const Probe& probe) {
 }
 
 double cycles_of(const Probe& probe, const probe::Setting& setting) {
-    return probe.how == How::copies ? probe::steady_cycles(lines_of(probe.text), setting)
-                                    : probe::steady_turns(lines_of(probe.text), setting);
+    return probe::steady(probe.text, probe.how, setting);
 }
 
 TEST(Probe, TakesTheCyclesDerivedByHand) {
@@ -280,24 +271,14 @@ TEST(Probe, OnTheIdealCoreEverythingTakesHalfACycle) {
 TEST(Probe, LossesSumExactlyToWhatIsAboveHalfACycleAnInstruction) {
     for (const Probe& probe : probes) {
         for (const char* core : {"stm32f746-itcm", "stm32f746-flash", "stm32f746-flash-nocache", "stm32h747-axi"}) {
-            probe::Setting setting = probe::core(core);
-            setting.turns = 5;
-            const probe::Outcome outcome = probe::run(lines_of(probe.text), setting);
-            EXPECT_EQ(outcome.positions.back() + 1,
-                      static_cast<std::int64_t>(outcome.positions.size()) +
-                          std::accumulate(outcome.losses.begin(), outcome.losses.end(), std::int64_t{0}))
-                << probe.text << " on " << core;
+            probe::expect_losses_to_sum(probe.text, core);
         }
     }
 }
 
 TEST(Probe, AnEffectThatIsOffLosesNothing) {
-    for (std::size_t effect = 0; effect < timing::effect_count; ++effect) {
-        for (const Probe& probe : probes) {
-            probe::Setting setting = probe::core(probe.core);
-            setting.off.set(effect);
-            EXPECT_EQ(probe::run(lines_of(probe.text), setting).losses[effect], 0) << probe.text;
-        }
+    for (const Probe& probe : probes) {
+        probe::expect_effects_to_switch_off(probe.text, probe.core);
     }
 }
 

@@ -74,7 +74,7 @@ TEST(TimingLog, HoldsWhatElseWasSeen) {
     std::istringstream in(
         "at 770\nfault 768\nhot 1 256 40 load_use 3\nhot 1 258 2 single_issue 0\nhot 0 256 6 store_buffer 6\nunknown "
         "512 "
-        "9\nrecursive\nunfinished\nend\ncalls x\n");
+        "9\nopen 772\nmisused 774 770\nrecursive\nunfinished\nend\ncalls x\n");
     const timing::TimingLog log = timing::read_timing_log(in);
     ASSERT_EQ(log.hot.size(), 2U);
     EXPECT_EQ(log.hot[0], (std::map<std::uint32_t, timing::HotSpot>{{256, {6, timing::Effect::store_buffer, 6}}}));
@@ -85,6 +85,8 @@ TEST(TimingLog, HoldsWhatElseWasSeen) {
     EXPECT_EQ(log.fault, 768U);
     EXPECT_TRUE(log.recursive);
     EXPECT_TRUE(log.unfinished);
+    EXPECT_EQ(log.open_stretch, 772U);
+    EXPECT_EQ(log.misused_mark, (qemu::MisusedMark{774, 770}));
     EXPECT_TRUE(log.runs.empty());
 }
 
@@ -96,7 +98,8 @@ TEST(TimingLog, RefusesDamagedLines) {
           std::string("hot 0 256"), std::string("hot 1001 256 1 load_use 0"), std::string("hot x 256 1 load_use 0"),
           std::string("hot 0 256 1 no_effect 0"), std::string("hot 0 256 1 load_use"),
           "calls 1 256 7" + core + " sets 2 1", std::string("calls 1 256 7 sets 1 1"), std::string("unknown 512"),
-          std::string("at"), std::string("fault x"), std::string("other 1"), std::string()}) {
+          std::string("at"), std::string("fault x"), std::string("open"), std::string("misused"),
+          std::string("other 1"), std::string()}) {
         std::istringstream in(line + "\nend\n");
         EXPECT_THROW((void)timing::read_timing_log(in), std::runtime_error) << line;
     }
@@ -107,6 +110,27 @@ TEST(TimingLog, RefusesDamagedLines) {
         std::istringstream cut(line + "\n");
         EXPECT_THROW((void)timing::read_timing_log(cut), std::runtime_error) << line;
     }
+}
+
+// What the timer finds amiss with marks, written and read.
+TEST(TimingLog, HoldsMarksThatDoNotPair) {
+    const auto log_of = [](const std::vector<qemu::Instruction>& executed) {
+        timing::CallTimer timer({}, {}, [](const timing::TimedCall&) {});
+        timer.watch_stretch(0x20);
+        for (const qemu::Instruction& instruction : executed) {
+            timer.executes(instruction);
+        }
+        timer.finish();
+        std::stringstream text;
+        timing::TimingLogWriter(text).finish(timer);
+        return timing::read_timing_log(text);
+    };
+    const timing::TimingLog nested = log_of({{0x20, qemu::stretch_begins, 2, 0}, {0x22, qemu::stretch_begins, 2, 1}});
+    EXPECT_EQ(nested.misused_mark, (qemu::MisusedMark{0x22, 0x20}));
+    EXPECT_EQ(nested.open_stretch, 0x22U);
+    const timing::TimingLog end = log_of({{0x22, qemu::stretch_ends, 2, 0}});
+    EXPECT_EQ(end.misused_mark, (qemu::MisusedMark{0x22, std::nullopt}));
+    EXPECT_FALSE(end.open_stretch);
 }
 
 TEST(TimingRequest, ChangesACoreFileAsItSays) {
