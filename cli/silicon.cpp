@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -123,14 +122,9 @@ void run_rows(const Options& options) {
     const std::vector<qemu::MeasuredCall> rows = qemu::parse_measured_calls(
         base::read_file(options.rows, qemu::MeasuredLimits::bytes), name, options.rows.parent_path());
     options.json.check();
-    const qemu::CallsProgram program{[&](const base::Machine& machine) {
-                                         return qemu::Emulator{emulate_script(machine),
-                                                               std::chrono::seconds(options.timeout),
-                                                               std::chrono::seconds(10)};
-                                     },
-                                     plugin(), cores_folder()};
     const std::vector<qemu::PredictedCall> predicted =
-        qemu::predict_calls(program, rows, name, options.without, options.jobs);
+        qemu::predict_calls(calls_program(options.timeout), rows, name, {{"", "", options.without}}, options.jobs)
+            .front();
     const qemu::RowsFit fit = qemu::fit_of(rows, predicted);
     fmt::print("{}", qemu::to_text(options.rows.filename().string(), rows, predicted, fit));
     if (options.json.wanted()) {

@@ -18,9 +18,6 @@ RowFit fit_row(const MeasuredCall& row, const PredictedCall& predicted) {
             (predicted.high - predicted.low + 2.0 / (1.0 - band_coverage) * outside) / row.cycles};
 }
 
-// By what the longest call exceeds the shortest: calls of nearly one length determine no line.
-constexpr double longer = 1.25;
-
 std::vector<RowLine> lines_of(const std::vector<MeasuredCall>& rows, const std::vector<PredictedCall>& predicted) {
     struct Calls {
         std::vector<double> instructions;
@@ -38,7 +35,7 @@ std::vector<RowLine> lines_of(const std::vector<MeasuredCall>& rows, const std::
     std::vector<RowLine> lines;
     for (const auto& [key, calls] : groups) {
         const auto [shortest, longest] = std::minmax_element(calls.instructions.begin(), calls.instructions.end());
-        if (*longest >= longer * *shortest) {
+        if (*longest >= longer_call * *shortest) {
             const auto& [function, core, code, data] = key;
             const FittedLine measured = fit_line(calls.instructions, calls.measured);
             const FittedLine model = fit_line(calls.instructions, calls.predicted);

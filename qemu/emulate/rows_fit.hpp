@@ -17,6 +17,9 @@ inline constexpr double allowed_cycles = 8.0;
 /// \param predicted, measured  cycles of a call
 [[nodiscard]] bool misses(double predicted, double measured);
 
+/// By what the longest call exceeds the shortest: calls of nearly one length determine no line.
+inline constexpr double longer_call = 1.25;
+
 /// The quantile of what a band promises: a band holds 95 % of unseen rows.
 inline constexpr double band_coverage = 0.95;
 

@@ -25,7 +25,7 @@ qemu::MeasuredCycles row(const std::string& kernel, std::uint32_t taps, double c
 }
 
 TEST(CyclesQuestion, ACoreThatPaysForAllIsItsOwnReference) {
-    const Question own = gap::cycles::question_about({row("ring_plain_f32", 10, 1.0)}, "stm32f746-itcm", TEST_CORES);
+    const Question own = gap::cycles::question_about({row("ring_plain_f32", 10, 1.0)}, {"stm32f746-itcm"}, TEST_CORES);
     EXPECT_EQ(own.base, "stm32f746-itcm");
     EXPECT_EQ(own.rows.size(), 1U);
     EXPECT_TRUE(own.base_off.empty());
@@ -37,11 +37,11 @@ TEST(CyclesQuestion, ACoreThatPaysForAllIsItsOwnReference) {
 }
 
 TEST(CyclesQuestion, AnIdealCoreIsAskedAboutBesideThoseThatPay) {
-    const Question ideal = gap::cycles::question_about({}, "m7-ideal", TEST_CORES);
+    const Question ideal = gap::cycles::question_about({}, {"m7-ideal"}, TEST_CORES);
     EXPECT_EQ(ideal.base_off.size(), timing::effect_count);
     EXPECT_THAT(ideal.references, ElementsAre("stm32h747-dtcm", "stm32f746-itcm"));
     EXPECT_EQ(ideal.sets.size(), 2U);
-    EXPECT_THROW((void)gap::cycles::question_about({}, "m8", TEST_CORES), glsum::Failure);
+    EXPECT_THROW((void)gap::cycles::question_about({}, {"m8"}, TEST_CORES), glsum::Failure);
 }
 
 // A tap takes 3 cycles and 5 instructions; of a rival loop a turn takes 4, or 6 of the first where the set is "slow".

@@ -35,6 +35,12 @@ TEST(MeasuredCalls, PathsCountFromTheFilesFolderAndEmptyPlacesAreTheCores) {
     EXPECT_EQ(rows[1].line, 4U);
 }
 
+TEST(MeasuredCalls, AreToldFromRowsOfKernelsByTheirHeader) {
+    EXPECT_TRUE(qemu::names_programs("# elf\n\nfunction, elf ,core\na,b,c\n"));
+    EXPECT_FALSE(qemu::names_programs("# elf\nkernel,code\nelf,elf\n"));
+    EXPECT_FALSE(qemu::names_programs(""));
+}
+
 TEST(RowsFit, ErrorsCoverageWidthAndScore) {
     // Errors +10 %, 0, -20 % and +2 %; half-widths 5, 10, 12.5 and 4.9 %; the third lies outside by 10.
     const std::vector<qemu::MeasuredCall> rows{measured("a", 100), measured("b", 200), measured("c", 100),
