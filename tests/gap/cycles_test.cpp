@@ -264,6 +264,19 @@ TEST(Cycles, AClockThatNobodySetsIsAnotherCore) {
     }
 }
 
+// At the end of what was tried nothing was found.
+TEST(Cycles, ACostAtTheEndOfTheSearchIsNone) {
+    const Explanation found = diagnose("real", {}, [](const auto&, const auto& p) {
+        return p.nominal + 3.5 * static_cast<double>(p.half_cycles[timing::index(timing::Effect::load_bank_conflict)]);
+    });
+    EXPECT_EQ(found.outcome, Outcome::unknown);
+    for (const auto& step : found.steps) {
+        if (step.parameters.contains("factor")) {
+            EXPECT_LT(step.parameters.at("factor"), 3.9) << step.effect;
+        }
+    }
+}
+
 // Two kernels have two constants: an overhead and any effect of a call fit them, whatever they are.
 TEST(Cycles, FewCyclesOfAConstantAreNoEffectBesideTheOverhead) {
     for (const double other : {-6.0, -3.0, 3.0, 6.0}) {
