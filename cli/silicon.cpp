@@ -144,7 +144,9 @@ void add_options(Command& command, const Words&) {
         "Rows of --rows: elf, a path from the CSV's folder; function and core as `glsum time` takes them; code itcm, "
         "flash or\n"
         "axi, data dtcm or axi, or nothing for the core's own; measured, the cycles of a call divided by per. With a\n"
-        "column group, each group is judged by a band that holds 95 % of the others.\n"
+        "column group, each group is judged by the band, and by one as wide as 95 % of the others ask; so is each "
+        "author\n"
+        "of several groups, whose name stands before a \"/\".\n"
         "Examples: glsum silicon results/silicon/h747_per_sample_fir.csv\n"
         "          glsum silicon --rows mine.csv --json fit.json");
     Option file = command.add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");
