@@ -91,6 +91,12 @@ hash=$(sed -n 's/.*sealed: sha256 //p' "$folder/said")
 [ "$(grep -c '^  case-00[1-6].*' "$folder/said")" -eq 6 ] || fail "expected six lines; found $(cat "$folder/said")"
 [ "$(grep -c 'WRONG$' "$folder/said")" -le 1 ] || fail "more than one wrong of six; found $(cat "$folder/said")"
 cp "$folder/said" "$folder/blind.txt"
+# Cycles that other rules made than those that judge: what they do has no wrong name.
+expect 0 "4 cases of stm32f746-itcm, sealed: sha256 " diagnose cycles --blind 4 --other-rules --seed 11 --out "$folder/rules"
+grep -q '"rules": "chain"' "$folder/rules/truth.json" || fail "expected the sets in the truth; found $(cat "$folder/rules/truth.json")"
+grep -q '^  rules  *[1-4] of [1-4]' "$folder/said" && ! grep -q 'WRONG$' "$folder/said" || fail "expected no wrong name; found $(cat "$folder/said")"
+expect 2 "rival rules of a Cortex-M7" diagnose cycles --blind 4 --other-rules --core cortex-m4-zerowait --out "$folder/rules"
+expect 2 "--other-rules" diagnose cycles --measured "$published" --other-rules
 # The same file by itself says the same.
 line=$(sed -n 's/^  case-005  *[a-z]* .*\(attributed\|no_gap\|unknown\|ambiguous\): .*/\1/p' "$folder/blind.txt")
 expect 0 "$line" diagnose cycles --measured "$folder/blind/case-005.csv" --core stm32f746-itcm
