@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 
 #include "base/build_info.hpp"
 #include "base/failure.hpp"
@@ -31,6 +32,14 @@ qemu::Board built_board(const base::Machine& machine) {
 qemu::SiliconProgram built_silicon(const base::Machine& machine) {
     const qemu::Board board = built_board(machine);
     return {board.measure_elf.parent_path() / "silicon.elf", board.plugin, board.cores, board.emulator};
+}
+
+qemu::CallsProgram calls_program(unsigned timeout_s) {
+    return {
+        [timeout_s](const base::Machine& machine) {
+            return qemu::Emulator{emulate_script(machine), std::chrono::seconds(timeout_s), std::chrono::seconds(10)};
+        },
+        plugin(), cores_folder()};
 }
 
 std::vector<std::string> default_cores() {

@@ -9,6 +9,7 @@
 #include "bench/sweep/sweep.hpp"
 #include "qemu/emulate/firmware.hpp"
 #include "qemu/emulate/measured_cycles.hpp"
+#include "qemu/emulate/predicted_calls.hpp"
 #include "qemu/emulate/silicon.hpp"
 
 namespace cli {
@@ -29,6 +30,9 @@ inline constexpr const char* default_core = base::machines.front().default_core.
 
 /// Its program `silicon`. \throws as `built_board`
 [[nodiscard]] qemu::SiliconProgram built_silicon(const base::Machine& machine = base::machines.front());
+
+/// What times functions of anybody's programs. \param timeout_s  that one may stay silent
+[[nodiscard]] qemu::CallsProgram calls_program(unsigned timeout_s);
 
 /// The core files that are modelled where none is asked for: one of each machine.
 [[nodiscard]] std::vector<std::string> default_cores();

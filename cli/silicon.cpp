@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <map>
 #include <memory>
@@ -124,14 +123,9 @@ void run_rows(const Options& options) {
     const std::vector<qemu::MeasuredCall> rows = qemu::parse_measured_calls(
         base::read_file(options.rows, qemu::MeasuredLimits::bytes), name, options.rows.parent_path());
     options.json.check();
-    const qemu::CallsProgram program{[&](const base::Machine& machine) {
-                                         return qemu::Emulator{emulate_script(machine),
-                                                               std::chrono::seconds(options.timeout),
-                                                               std::chrono::seconds(10)};
-                                     },
-                                     plugin(), cores_folder()};
     const std::vector<qemu::PredictedCall> predicted =
-        qemu::predict_calls(program, rows, name, options.without, options.jobs);
+        qemu::predict_calls(calls_program(options.timeout), rows, name, {{"", "", options.without}}, options.jobs)
+            .front();
     const qemu::RowsFit fit = qemu::fit_of(rows, predicted);
     fmt::print("{}", qemu::to_text(options.rows.filename().string(), rows, predicted, fit));
     if (options.json.wanted()) {
@@ -151,7 +145,9 @@ void add_options(Command& command, const Words&) {
         "Rows of --rows: elf, a path from the CSV's folder; function and core as `glsum time` takes them; code itcm, "
         "flash or\n"
         "axi, data dtcm or axi, or nothing for the core's own; measured, the cycles of a call divided by per. With a\n"
-        "column group, each group is judged by a band that holds 95 % of the others.\n"
+        "column group, each group is judged by the band, and by one as wide as 95 % of the others ask; so is each "
+        "author\n"
+        "of several groups, whose name stands before a \"/\".\n"
         "Examples: glsum silicon results/silicon/h747_per_sample_fir.csv\n"
         "          glsum silicon --rows mine.csv --json fit.json");
     Option file = command.add_option("file", options->file, "CSV: kernel,code,data,maintenance,taps,cycles");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -51,6 +52,42 @@ void add_cost(Secret& secret, Draw& draw) {
             secret.contention = draw.between(0.1, 0.4);
             secret.effects.emplace_back("bus_contention");
     }
+}
+
+// Where rules of a set act: those of the floating-point unit, whose stores are late for the next load of a bank; and
+// those of branches and what is fetched behind them.
+const std::map<std::string, std::vector<std::string>> touched_by{
+    {"barred", {"fpu_latency", "load_bank_conflict"}},
+    {"chain", {"fpu_latency", "load_bank_conflict"}},
+    {"unfolded", {"branch_mispredict", "fetch_alignment", "single_issue"}},
+};
+
+std::vector<std::string> effects_of(const std::vector<Step>& steps) {
+    std::vector<std::string> named;
+    for (const Step& step : steps) {
+        named.push_back(step.effect);
+    }
+    return named;
+}
+
+bool is_right_of_other_rules(const Explanation& found, const Secret& secret) {
+    std::vector<std::string> named = effects_of(found.steps);
+    const std::vector<std::string>& touched = touched_by.at(secret.set);
+    std::erase_if(named, [&](const std::string& effect) {
+        return std::find(touched.begin(), touched.end(), effect) != touched.end();
+    });
+    if (secret.effects.empty()) {
+        return found.outcome != Outcome::attributed || named.empty();
+    }
+    const auto is_the_cost = [&](const std::vector<std::string>& all) { return all == secret.effects; };
+    if (found.outcome == Outcome::ambiguous) {
+        return std::any_of(found.alternatives.begin(), found.alternatives.end(), [&](const Step& other) {
+            std::vector<std::string> together = named;
+            together.push_back(other.effect);
+            return is_the_cost(together);
+        });
+    }
+    return found.outcome == Outcome::attributed && is_the_cost(named);
 }
 
 }  // namespace
@@ -105,6 +142,22 @@ std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed, const st
     return secrets;
 }
 
+bool has_place(const std::string& set) { return touched_by.contains(set); }
+
+std::vector<Secret> draw_other_rules(std::size_t cases, std::uint64_t seed, const std::vector<std::string>& sets) {
+    Draw draw(seed);
+    std::vector<Secret> secrets;
+    while (secrets.size() < cases) {
+        Secret secret{.kind = "rules", .set = sets[draw.below(sets.size())]};
+        if (draw.below(2) == 0) {
+            secret.kind = "rules and cost";
+            add_cost(secret, draw);
+        }
+        secrets.push_back(std::move(secret));
+    }
+    return secrets;
+}
+
 std::string name_of_case(std::size_t number) { return fmt::format("case-{:03}", number); }
 
 std::string seal(const std::vector<Secret>& secrets) {
@@ -114,6 +167,7 @@ std::string seal(const std::vector<Secret>& secrets) {
         truths.push_back({{"case", name_of_case(c + 1)},
                           {"kind", secret.kind},
                           {"effects", secret.effects},
+                          {"rules", secret.set.empty() ? "nominal" : secret.set},
                           {"ratio", secret.ratio},
                           {"overhead", secret.overhead},
                           {"maintenance", secret.maintenance},
@@ -157,10 +211,10 @@ bool names(const Explanation& found, const Secret& secret) {
     if (secret.kind == "unlisted") {
         return found.outcome == Outcome::unknown;
     }
-    std::vector<std::string> named;
-    for (const Step& step : found.steps) {
-        named.push_back(step.effect);
+    if (!secret.set.empty()) {
+        return is_right_of_other_rules(found, secret);
     }
+    std::vector<std::string> named = effects_of(found.steps);
     if (found.outcome == Outcome::ambiguous) {
         // What cannot be told apart: one of the alternatives beside the steps.
         return std::any_of(found.alternatives.begin(), found.alternatives.end(), [&](const Step& other) {

@@ -12,9 +12,10 @@ namespace gap::cycles {
 
 /// What was done to a core.
 struct Secret {
-    std::string kind;                       ///< nothing, switch, cost, two, unlisted
+    std::string kind;                       ///< nothing, switch, cost, two, unlisted; rules, rules and cost
     std::vector<std::string> effects = {};  ///< that the diagnosis is to name, sorted; of `unlisted` none
     std::vector<std::string> without = {};  ///< effects of the model that it does not pay
+    std::string set = {};                   ///< rule set of the core file that made the cycles; empty: the nominal one
     double ratio = 1.0;                     ///< of the clocks: all cycles
     double overhead = 0.0;                  ///< cycles a call
     double maintenance = 0.0;               ///< and beside them where caches are maintained
@@ -30,6 +31,14 @@ struct Secret {
 /// \param switches  as `switches_that_show`
 [[nodiscard]] std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed,
                                                const std::vector<std::string>& switches);
+
+/// Whether it is known where the rules of a set act.
+[[nodiscard]] bool has_place(const std::string& set);
+
+/// Cores whose cycles other rules made than those that judge: another mechanism, not other numbers of the same one.
+/// Half of them have a cost beside it. \param sets  of rules that have a place, one at least
+[[nodiscard]] std::vector<Secret> draw_other_rules(std::size_t cases, std::uint64_t seed,
+                                                   const std::vector<std::string>& sets);
 
 /// `case-001`, ...
 [[nodiscard]] std::string name_of_case(std::size_t number);
@@ -47,7 +56,9 @@ void measure(std::vector<qemu::MeasuredCycles>& rows, const std::vector<qemu::Pr
              const Secret& secret, std::uint64_t seed);
 
 /// Whether an explanation says what was done: no gap of nothing, `unknown` of what is not listed, else every effect and
-/// no other; of an ambiguous one with one of its alternatives (a slower clock looks like interrupts).
+/// no other; of an ambiguous one with one of its alternatives (a slower clock looks like interrupts). Other rules are
+/// no effect of the list: of them alone all but a name for what they do not touch is right, and a cost beside them is
+/// to be named, with nothing that they do not touch.
 [[nodiscard]] bool names(const Explanation& found, const Secret& secret);
 
 }  // namespace gap::cycles

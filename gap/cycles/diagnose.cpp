@@ -1,16 +1,18 @@
 #include "gap/cycles/diagnose.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <optional>
 
+#include "base/failure.hpp"
 #include "gap/cycles/evidence.hpp"
 #include "qemu/emulate/silicon_loops.hpp"
-#include "qemu/timing/core_file.hpp"
 
 namespace gap::cycles {
 namespace {
@@ -89,19 +91,46 @@ std::string loops_that_part(const std::string& core, const std::vector<std::stri
 
 }  // namespace
 
-Question question_about(std::vector<qemu::MeasuredCycles> rows, const std::string& core,
+std::string name_of_cores(const std::vector<std::string>& cores) {
+    return fmt::format("{}", fmt::join(cores, " and "));
+}
+
+Question question_about(std::vector<qemu::MeasuredCycles> rows, const std::vector<std::string>& cores,
                         const std::filesystem::path& cores_folder) {
     Question question;
     question.rows = std::move(rows);
-    question.base = core;
-    question.base_off = names_of(timing::read_named_core(cores_folder, core).off);
-    question.references = question.base_off.empty() ? std::vector<std::string>{core}
-                                                    : std::vector<std::string>{"stm32h747-dtcm", "stm32f746-itcm"};
-    for (const std::string& name : question.references) {
-        for (const timing::RuleSet& set : timing::read_named_core(cores_folder, name).sets) {
-            question.sets[name].push_back(set.name);
-            if (set.fits) {
-                question.fitting[name].push_back(set.name);
+    question.base = name_of_cores(cores);
+    question.base_off = names_of(timing::read_named_core(cores_folder, cores.front()).off);
+    for (const std::string& core : cores) {
+        if (names_of(timing::read_named_core(cores_folder, core).off) != question.base_off) {
+            throw glsum::Failure(glsum::Exit::bad_input,
+                                 fmt::format("{}: expected cores that pay for the same effects; --core names one for "
+                                             "all rows",
+                                             question.base));
+        }
+    }
+    std::map<std::string, std::vector<std::string>> references{{question.base, cores}};
+    question.references = {question.base};
+    if (!question.base_off.empty()) {
+        question.references = {"stm32h747-dtcm", "stm32f746-itcm"};
+        references = {{"stm32h747-dtcm", {"stm32h747-dtcm"}}, {"stm32f746-itcm", {"stm32f746-itcm"}}};
+    }
+    // Sets that all cores of a reference have.
+    for (const auto& [name, of] : references) {
+        std::map<std::string, std::size_t> have;
+        std::vector<timing::CoreFile> files;
+        for (const std::string& core : of) {
+            files.push_back(timing::read_named_core(cores_folder, core));
+            for (const timing::RuleSet& set : files.back().sets) {
+                ++have[set.name];
+            }
+        }
+        for (const timing::RuleSet& set : files.front().sets) {
+            if (have[set.name] == of.size()) {
+                question.sets[name].push_back(set.name);
+                if (set.fits) {
+                    question.fitting[name].push_back(set.name);
+                }
             }
         }
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gap/cycles/explain.hpp"
+#include "qemu/timing/core_file.hpp"
 
 namespace gap::cycles {
 
@@ -13,9 +14,13 @@ namespace gap::cycles {
 using PredictRows = std::function<std::vector<std::vector<qemu::PredictedCycles>>(
     const std::vector<qemu::MeasuredCycles>& rows, const std::vector<qemu::CoreVariant>& variants)>;
 
-/// \param core  the core file that is judged; of one that pays for every effect the references are itself alone
-/// \throws glsum::Failure as timing::read_named_core
-[[nodiscard]] Question question_about(std::vector<qemu::MeasuredCycles> rows, const std::string& core,
+/// What a question calls the cores that it judges.
+[[nodiscard]] std::string name_of_cores(const std::vector<std::string>& cores);
+
+/// \param cores  the core files that are judged, one for each row; of such as pay for every effect the references are
+///               themselves alone
+/// \throws glsum::Failure as timing::read_named_core, and (bad input) where they pay for different effects
+[[nodiscard]] Question question_about(std::vector<qemu::MeasuredCycles> rows, const std::vector<std::string>& cores,
                                       const std::filesystem::path& cores_folder);
 
 /// Counts of instructions that differ need no core: another program was measured. Where rival rule sets explain the

@@ -35,7 +35,7 @@ std::string placement_of(const qemu::MeasuredCycles& row) {
     return fmt::format("code={} data={}{}", row.code, row.data, row.maintenance ? " maintenance" : "");
 }
 
-bool on_bus(const qemu::MeasuredCycles& row) { return row.code == "flash" || row.data == "axi"; }
+bool on_bus(const qemu::MeasuredCycles& row) { return row.code == "flash" || row.code == "axi" || row.data == "axi"; }
 
 double gap_of(const std::vector<double>& measured, const std::vector<double>& predicted,
               const std::vector<std::size_t>& rows) {
@@ -66,20 +66,35 @@ Evidence::Evidence(const Question& question, const Predict& predict) : question_
 }
 
 double Evidence::floor() const {
-    std::map<std::tuple<std::string, std::string, std::uint32_t>, std::vector<double>> repeats;
-    for (const auto& row : question_.rows) {
-        repeats[{row.kernel, placement_of(row), row.taps}].push_back(row.cycles);
+    std::map<std::tuple<std::string, std::string, std::string, std::uint32_t>, Rows> repeats;
+    for (std::size_t i = 0; i < question_.rows.size(); ++i) {
+        const auto& row = question_.rows[i];
+        repeats[{row.program, row.kernel, placement_of(row), row.taps}].push_back(i);
     }
     double sum = 0.0;
     double all = 0.0;
-    for (const auto& [key, cycles] : repeats) {
+    for (const auto& [key, rows] : repeats) {
+        std::vector<double> cycles;
+        for (const std::size_t i : rows) {
+            cycles.push_back(measured_[i]);
+        }
         const double middle = median(cycles);
-        for (const double one : cycles) {
-            sum += std::max(0.5, std::fabs(one - middle));
-            all += one;
+        for (const std::size_t i : rows) {
+            sum += std::max(0.5, std::fabs(measured_[i] - middle)) / question_.rows[i].per;
+            all += measured_[i] / question_.rows[i].per;
         }
     }
     return sum / all;
+}
+
+double Evidence::gap(const Cycles& predicted, const Rows& rows) const {
+    Cycles measured = measured_;
+    Cycles compared = predicted;
+    for (const std::size_t i : rows) {
+        measured[i] /= question_.rows[i].per;
+        compared[i] /= question_.rows[i].per;
+    }
+    return gap_of(measured, compared, rows);
 }
 
 void Evidence::simulate(const std::vector<State>& states) {
@@ -148,7 +163,7 @@ void Evidence::fit_beside(State& state, const Rows& rows) {
 
 double Evidence::fitted_gap(State& state) {
     fit_beside(state, fit_);
-    return gap_of(measured_, whole(state), fit_);
+    return gap(whole(state), fit_);
 }
 
 }  // namespace gap::cycles

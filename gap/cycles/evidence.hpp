@@ -42,6 +42,10 @@ public:
     [[nodiscard]] bool judged_by_itself() const { return judged_by_itself_; }
     /// Of the gap: from rows that were measured more than once; half a cycle otherwise, as counters are whole.
     [[nodiscard]] double floor() const;
+    /// Sum of absolute differences over the sum of what was measured, each row divided by its `per`.
+    [[nodiscard]] double gap(const Cycles& predicted, const Rows& rows) const;
+    /// Of the rows that judge.
+    [[nodiscard]] double judged_gap(const Cycles& predicted) const { return gap(predicted, judge_); }
 
     /// Those that are not known yet, all in one emulation.
     void simulate(const std::vector<State>& states);

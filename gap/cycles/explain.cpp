@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "gap/cycles/evidence.hpp"
+#include "gap/cycles/lines.hpp"
 #include "gap/cycles/locate.hpp"
 #include "gap/cycles/search.hpp"
 #include "gap/cycles/steps.hpp"
 #include "glsum/catalogue.hpp"
+#include "qemu/emulate/rows_fit.hpp"
 
 namespace gap::cycles {
 namespace {
@@ -25,14 +28,10 @@ bool is_clock(double ratio) {
     return (ratio >= 0.5 && ratio <= 1.5) || std::fabs(steps - std::round(steps)) <= 0.01 * steps;
 }
 
-// A loop of the program's that is no kernel stands for itself.
+// What is no kernel of ours stands for itself.
 std::string_view format_of(const std::string& name) {
     const glsum::CatalogueEntry* const kernel = glsum::find_kernel(name);
     return kernel != nullptr ? kernel->format : name;
-}
-bool is_floating(const std::string& name) {
-    const glsum::CatalogueEntry* const kernel = glsum::find_kernel(name);
-    return kernel != nullptr && kernel->floating_point;
 }
 
 class Explainer {
@@ -46,7 +45,7 @@ public:
                 "a kernel and placement has one row only: what is fitted is judged on the same rows");
         }
         const Cycles base = predicted_base();
-        result_.base_gap = gap_of(evidence_.measured(), base, evidence_.to_judge());
+        result_.base_gap = evidence_.judged_gap(base);
         result_.where = locate(evidence_, base);
         if (result_.base_gap <= std::max(small_gap, 4.0 * result_.floor)) {
             result_.outcome = Outcome::no_gap;
@@ -88,15 +87,14 @@ private:
         result_.outcome = Outcome::attributed;
         State published = found;
         published.set = "published";
-        const bool rivals = from_nothing && has_set(found.core, "published");
-        if (rivals && better(gap_of(evidence_.measured(), evidence_.whole(found), evidence_.to_judge()),
-                             fitted_gap_of(published, found))) {
+        const bool rivals = from_nothing && has_set(found.core, "published") && any_floating(found);
+        if (rivals && better(evidence_.judged_gap(evidence_.whole(found)), fitted_gap_of(published, found))) {
             base.set = "published";
             result_.steps = steps_to(evidence_, published, base, found, cost_worth);
             part_rules(found, published);
         } else {
             result_.steps = steps_to(evidence_, found, base, found, cost_worth);
-            result_.after_gap = gap_of(evidence_.measured(), evidence_.whole(found), evidence_.to_judge());
+            result_.after_gap = evidence_.judged_gap(evidence_.whole(found));
             if (found.ratio > 1.0 && found.ratio < 1.5) {
                 result_.outcome = Outcome::ambiguous;
                 Step other = *std::find_if(result_.steps.begin(), result_.steps.end(),
@@ -118,24 +116,58 @@ private:
         }
         if (result_.after_gap > std::max(large_rest, 4.0 * result_.floor)) {
             result_.outcome = Outcome::unknown;
-        } else if (!is_clock(found.ratio)) {
-            result_.outcome = Outcome::unknown;
-            result_.notes.push_back(fmt::format(
-                "a clock of {:.3g} times the core's would explain the rows, and no counter runs at such a ratio: "
-                "another core was measured, or another program",
-                found.ratio));
         }
+        if (!is_clock(found.ratio)) {
+            refute(
+                fmt::format("a clock of {:.3g} times the core's would explain the rows, and no counter runs at such "
+                            "a ratio: another core was measured, or another program",
+                            found.ratio));
+        }
+        if (found.overhead < -qemu::allowed_cycles) {
+            refute(fmt::format("a call would cost {:.3g} cycles beside the kernel, and none costs less than nothing",
+                               found.overhead));
+        }
+        if (result_.outcome == Outcome::attributed) {
+            for (const LineLeft& line : lines_left(evidence_, evidence_.whole(found))) {
+                if (!is_met(line)) {
+                    refute(
+                        fmt::format("{} {}: slope off by {:.1f} %, its shortest calls by {:.0f} cycles: a cause "
+                                    "explains every kernel",
+                                    line.kernel, line.placement, 100.0 * line.slope, line.constant));
+                }
+            }
+        }
+    }
+    void refute(std::string why) {
+        result_.outcome = Outcome::unknown;
+        result_.notes.push_back(std::move(why));
     }
     [[nodiscard]] bool has_set(const std::string& core, const std::string& set) const {
         const auto found = question_.sets.find(core);
         return found != question_.sets.end() &&
                std::find(found->second.begin(), found->second.end(), set) != found->second.end();
     }
+    // Of a program of anybody's: whether its call waits for results of the floating-point unit.
+    bool is_floating(State state, std::size_t row) {
+        if (const glsum::CatalogueEntry* const kernel = glsum::find_kernel(evidence_.rows()[row].kernel)) {
+            return kernel->floating_point;
+        }
+        state.off.erase("fpu_latency");
+        return evidence_.predicted(state)[row].half_cycles[timing::index(timing::Effect::fpu_latency)] > 0;
+    }
+    bool any_floating(const State& state) {
+        for (std::size_t i = 0; i < evidence_.rows().size(); ++i) {
+            if (is_floating(state, i)) {
+                return true;
+            }
+        }
+        return false;
+    }
     // With the costs beside the call that another state has.
     double fitted_gap_of(State& state, const State& like) {
         state.overhead = like.overhead;
         state.maintenance = like.maintenance;
-        return gap_of(evidence_.measured(), evidence_.whole(state), evidence_.to_judge());
+        return evidence_.judged_gap(evidence_.whole(state));
     }
 
     // What published rules leave is proportional to the length, in rows of floating-point kernels of one placement: any
@@ -157,7 +189,7 @@ private:
                 rest.push_back(evidence_.measured()[i] - by_rules[i]);
             }
             const double slope = qemu::fit_line(taps, rest).slope;
-            if (!is_floating(evidence_.rows()[rows.front()].kernel) || std::fabs(slope) < 0.2) {
+            if (!is_floating(found, rows.front()) || std::fabs(slope) < 0.2) {
                 continue;
             }
             a_tap["cycles_per_tap " + name] = slope;
@@ -165,8 +197,8 @@ private:
                 after[i] += slope * evidence_.rows()[i].taps;
             }
         }
-        const double before = gap_of(evidence_.measured(), by_rules, evidence_.to_judge());
-        result_.after_gap = gap_of(evidence_.measured(), after, evidence_.to_judge());
+        const double before = evidence_.judged_gap(by_rules);
+        result_.after_gap = evidence_.judged_gap(after);
         for (const char* effect : {"fpu_latency", "load_bank_conflict", "store_buffer", "load_use"}) {
             result_.alternatives.push_back({effect, a_tap, {}, before, result_.after_gap, 0.25});
         }

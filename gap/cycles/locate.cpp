@@ -12,7 +12,7 @@ WhereInRows locate(const Evidence& evidence, const Cycles& base) {
     double sum = 0.0;
     for (const std::size_t i : evidence.to_judge()) {
         const auto& row = evidence.rows()[i];
-        const double off = std::fabs(evidence.measured()[i] - base[i]);
+        const double off = std::fabs(evidence.measured()[i] - base[i]) / row.per;
         sum += off;
         kernels[row.kernel] += off;
         placements[placement_of(row)] += off;

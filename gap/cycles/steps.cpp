@@ -4,7 +4,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <random>
+
+#include "gap/cycles/intervals.hpp"
 
 namespace gap::cycles {
 namespace {
@@ -15,35 +16,11 @@ bool matters(Evidence& evidence, const State& found, const State& base, const st
     with.off.erase(effect);
     const auto index = timing::index(*timing::effect_named(effect));
     const auto& predicted = evidence.predicted(with);
+    // What was taken away since it changes nothing.
+    if (found.off.contains(effect) && evidence.inside(with) == evidence.inside(found)) {
+        return false;
+    }
     return std::any_of(predicted.begin(), predicted.end(), [&](const auto& p) { return p.half_cycles[index] != 0; });
-}
-
-// Of the costs beside the call: rows drawn again and again.
-void add_intervals(Evidence& evidence, const State& found, std::vector<Step>& steps) {
-    std::mt19937_64 random(1);
-    std::vector<double> overhead;
-    std::vector<double> maintenance;
-    for (int n = 0; n < 400; ++n) {
-        Rows drawn;
-        for (std::size_t i = 0; i < evidence.rows().size(); ++i) {
-            drawn.push_back(random() % evidence.rows().size());
-        }
-        State state = found;
-        evidence.fit_beside(state, drawn);
-        overhead.push_back(state.overhead);
-        maintenance.push_back(state.maintenance);
-    }
-    const auto interval = [](std::vector<double>& values) {
-        std::sort(values.begin(), values.end());
-        return Interval{values[values.size() / 40], values[values.size() - 1 - values.size() / 40]};
-    };
-    for (Step& step : steps) {
-        if (step.effect == "call_overhead") {
-            step.interval["cycles"] = interval(overhead);
-        } else if (step.effect == "cache_maintenance") {
-            step.interval["cycles"] = interval(maintenance);
-        }
-    }
 }
 
 }  // namespace
@@ -110,7 +87,7 @@ std::vector<Step> steps_to(Evidence& evidence, const State& found, State now, co
     }
     const double floor = evidence.floor();
     std::vector<Step> steps;
-    double gap = gap_of(evidence.measured(), evidence.whole(now), evidence.to_judge());
+    double gap = evidence.judged_gap(evidence.whole(now));
     while (!moves.empty()) {
         std::vector<State> next;
         for (const Move& move : moves) {
@@ -121,7 +98,7 @@ std::vector<Step> steps_to(Evidence& evidence, const State& found, State now, co
         std::size_t best = 0;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < next.size(); ++i) {
-            const double after = gap_of(evidence.measured(), evidence.whole(next[i]), evidence.to_judge());
+            const double after = evidence.judged_gap(evidence.whole(next[i]));
             if (after < least) {
                 least = after;
                 best = i;

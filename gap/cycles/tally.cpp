@@ -18,7 +18,7 @@ std::string Tally::to_text() const {
     for (const auto& [kind, counts] : of_) {
         const auto n = static_cast<double>(counts.all);
         const auto k = static_cast<double>(counts.named);
-        text += fmt::format("  {:<10} {} of {}, {:.0f} % [{:.0f}, {:.0f}]\n", kind, counts.named, counts.all,
+        text += fmt::format("  {:<14} {} of {}, {:.0f} % [{:.0f}, {:.0f}]\n", kind, counts.named, counts.all,
                             100.0 * k / n, 100.0 * Binomial::find_lower_bound_on_p(n, k, 0.025),
                             100.0 * Binomial::find_upper_bound_on_p(n, k, 0.025));
     }

@@ -7,6 +7,8 @@
 
 namespace qemu {
 
+bool names_programs(const std::string& text) { return MeasuredTable::has_header_with(text, "elf"); }
+
 std::vector<MeasuredCall> parse_measured_calls(const std::string& text, const std::string& name,
                                                const std::filesystem::path& folder) {
     const MeasuredTable table(text, name, {"elf", "function", "core", "code", "data", "measured", "per"});

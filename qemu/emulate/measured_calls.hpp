@@ -22,6 +22,9 @@ struct MeasuredCall {
     std::string group = {};  ///< rows of one author, kernel or commit, where the file has that column
 };
 
+/// Whether a file of measured cycles is one of these, and not of our kernels (`parse_measured_cycles`).
+[[nodiscard]] bool names_programs(const std::string& text);
+
 /// \param name    of the file; begins every message
 /// \param folder  that it lies in
 /// \throws glsum::Failure (bad input) as `MeasuredTable`, and for a word or number that is none

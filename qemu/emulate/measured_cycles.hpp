@@ -14,13 +14,16 @@ namespace qemu {
 /// One row of a measured file: kernel,code,data,maintenance,taps,cycles; further columns are allowed.
 struct MeasuredCycles {
     std::string kernel;
-    std::string code;  ///< flash_cached, flash or itcm
+    std::string code;  ///< flash_cached, flash or itcm; of other programs axi_cached and axi, too
     std::string data;  ///< dtcm or axi
     bool maintenance;  ///< a cache clean and invalidate lies inside the timing
     std::uint32_t taps;
     double cycles;
     unsigned line;
     std::optional<double> instructions = {};  ///< of a call, where the file has that column
+    /// The file of another program than ours, whose function `kernel` is: then `taps` are the call's instructions.
+    std::string program = {};
+    double per = 1.0;  ///< samples or bytes of a call: what its cycles are divided by where rows are compared
 };
 
 /// \param name  begins every message

@@ -28,7 +28,22 @@ std::vector<std::string> cells_of(const std::string& line) {
     return cells;
 }
 
+bool is_comment(const std::string& line) {
+    return line.find_first_not_of(" \t\r") == std::string::npos || line.starts_with('#');
+}
+
 }  // namespace
+
+bool MeasuredTable::has_header_with(const std::string& text, const std::string& column) {
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) {
+        if (!is_comment(line)) {
+            const std::vector<std::string> cells = cells_of(line);
+            return std::find(cells.begin(), cells.end(), column) != cells.end();
+        }
+    }
+    return false;
+}
 
 MeasuredTable::MeasuredTable(const std::string& text, std::string name, const std::vector<std::string>& columns)
     : name_(std::move(name)) {
@@ -36,7 +51,7 @@ MeasuredTable::MeasuredTable(const std::string& text, std::string name, const st
     unsigned number = 0;
     for (std::string line; std::getline(in, line);) {
         ++number;
-        if (line.find_first_not_of(" \t\r") == std::string::npos || line.starts_with('#')) {
+        if (is_comment(line)) {
             continue;
         }
         const std::string place = fmt::format("{}:{}", name_, number);

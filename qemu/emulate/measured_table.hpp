@@ -24,6 +24,9 @@ public:
     ///         too many rows or columns, and a file without rows
     MeasuredTable(const std::string& text, std::string name, const std::vector<std::string>& columns);
 
+    /// Whether a file's first line that is no comment names a column: by it kinds of files are told apart.
+    [[nodiscard]] static bool has_header_with(const std::string& text, const std::string& column);
+
     [[nodiscard]] std::size_t size() const { return rows_.size(); }
     [[nodiscard]] bool has(const std::string& column) const { return columns_.contains(column); }
     /// Of the file, from 1.

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/machines.hpp"
+#include "qemu/emulate/core_variant.hpp"
 #include "qemu/emulate/emulator.hpp"
 #include "qemu/emulate/measured_calls.hpp"
 #include "qemu/timing/effects.hpp"
@@ -29,13 +30,15 @@ struct CallsProgram {
     std::filesystem::path cores_folder;
 };
 
-/// Row by row. Each function of a program runs once on a board, on all the cores and placements that rows ask of it.
-/// \param name     of the file of the rows; with a row's line it begins every message
-/// \param without  effects that cost nothing
-/// \param jobs     emulators at once
+/// Variant by variant and row by row. Each function of a program runs once on a board, on all the cores and placements
+/// that rows and variants ask of it.
+/// \param name  of the file of the rows; with a row's line it begins every message
+/// \param jobs  emulators at once
 /// \throws glsum::Failure as `Elf`, `timing::cores_of` and `time_program` do
-[[nodiscard]] std::vector<PredictedCall> predict_calls(const CallsProgram& program,
-                                                       const std::vector<MeasuredCall>& rows, const std::string& name,
-                                                       const std::vector<std::string>& without, unsigned jobs);
+[[nodiscard]] std::vector<std::vector<PredictedCall>> predict_calls(const CallsProgram& program,
+                                                                    const std::vector<MeasuredCall>& rows,
+                                                                    const std::string& name,
+                                                                    const std::vector<CoreVariant>& variants,
+                                                                    unsigned jobs);
 
 }  // namespace qemu

@@ -4,7 +4,9 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <set>
 #include <tuple>
+#include <utility>
 
 #include "qemu/emulate/silicon.hpp"
 
@@ -17,9 +19,6 @@ RowFit fit_row(const MeasuredCall& row, const PredictedCall& predicted) {
             outside <= 0.0, misses(predicted.cycles * row.per, row.cycles * row.per),
             (predicted.high - predicted.low + 2.0 / (1.0 - band_coverage) * outside) / row.cycles};
 }
-
-// By what the longest call exceeds the shortest: calls of nearly one length determine no line.
-constexpr double longer = 1.25;
 
 std::vector<RowLine> lines_of(const std::vector<MeasuredCall>& rows, const std::vector<PredictedCall>& predicted) {
     struct Calls {
@@ -38,7 +37,7 @@ std::vector<RowLine> lines_of(const std::vector<MeasuredCall>& rows, const std::
     std::vector<RowLine> lines;
     for (const auto& [key, calls] : groups) {
         const auto [shortest, longest] = std::minmax_element(calls.instructions.begin(), calls.instructions.end());
-        if (*longest >= longer * *shortest) {
+        if (*longest >= longer_call * *shortest) {
             const auto& [function, core, code, data] = key;
             const FittedLine measured = fit_line(calls.instructions, calls.measured);
             const FittedLine model = fit_line(calls.instructions, calls.predicted);
@@ -49,42 +48,67 @@ std::vector<RowLine> lines_of(const std::vector<MeasuredCall>& rows, const std::
     return lines;
 }
 
-// The least half-width that holds so many of these: the split-conformal quantile, which counts the row to come.
+// The least scale that holds so many of these: the split-conformal quantile, which counts the row to come.
 double holding(std::vector<double> distances) {
     std::sort(distances.begin(), distances.end());
     const auto nth = static_cast<std::size_t>(std::ceil(band_coverage * static_cast<double>(distances.size() + 1)));
     return distances[std::min(nth, distances.size()) - 1];
 }
 
+// How far off the measured cycles are, in widths of the band to their side. The band is the model's opinion of how sure
+// it is of each figure, so that rows of all kinds are compared.
+double distance(const MeasuredCall& row, const PredictedCall& predicted) {
+    constexpr double narrowest = 1e-6;  // of a core without a band
+    const double off = row.cycles - predicted.cycles;
+    const double side = off > 0.0 ? predicted.high - predicted.cycles : predicted.cycles - predicted.low;
+    return std::abs(off) / std::max(side, narrowest * predicted.cycles);
+}
+
+BandFit band_fit(const std::vector<MeasuredCall>& rows, const std::vector<PredictedCall>& predicted,
+                 const std::vector<std::size_t>& members, double scale) {
+    BandFit band{0.0, 0.0, 0.0};
+    std::vector<double> half_widths;
+    const auto share = 1.0 / static_cast<double>(members.size());
+    for (const std::size_t i : members) {
+        PredictedCall scaled = predicted[i];
+        scaled.low = scaled.cycles - scale * (scaled.cycles - scaled.low);
+        scaled.high = scaled.cycles + scale * (scaled.high - scaled.cycles);
+        const RowFit fit = fit_row(rows[i], scaled);
+        half_widths.push_back(fit.half_width);
+        band.inside += fit.inside ? share : 0.0;
+        band.interval_score += share * fit.interval_score;
+    }
+    band.half_width = median_of(half_widths);
+    return band;
+}
+
 std::vector<GroupLeftOut> leave_out(const std::vector<MeasuredCall>& rows,
                                     const std::vector<PredictedCall>& predicted) {
-    std::map<std::string, std::vector<std::size_t>> groups;
+    std::map<std::pair<bool, std::string>, std::vector<std::size_t>> groups;
+    std::map<std::string, std::set<std::string>> of_author;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-        groups[rows[i].group].push_back(i);
+        groups[{false, rows[i].group}].push_back(i);
+        if (const auto slash = rows[i].group.find('/'); slash != std::string::npos) {
+            groups[{true, rows[i].group.substr(0, slash)}].push_back(i);
+            of_author[rows[i].group.substr(0, slash)].insert(rows[i].group);
+        }
     }
-    if (groups.size() < 2) {
-        return {};
-    }
-    const auto distance = [&](std::size_t i) { return std::abs(rows[i].cycles / predicted[i].cycles - 1.0); };
     std::vector<GroupLeftOut> found;
     for (const auto& [name, members] : groups) {
+        if (members.size() == rows.size() || (name.first && of_author[name.second].size() < 2)) {
+            continue;
+        }
         std::vector<double> others;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            if (rows[i].group != name) {
-                others.push_back(distance(i));
+        for (std::size_t i = 0, next = 0; i < rows.size(); ++i) {
+            if (next < members.size() && members[next] == i) {
+                ++next;
+            } else {
+                others.push_back(distance(rows[i], predicted[i]));
             }
         }
-        GroupLeftOut left_out{name, members.size(), holding(others), 0.0, 0.0};
-        const auto share = 1.0 / static_cast<double>(members.size());
-        for (const std::size_t i : members) {
-            PredictedCall even = predicted[i];
-            even.low = even.cycles * (1.0 - left_out.half_width);
-            even.high = even.cycles * (1.0 + left_out.half_width);
-            const RowFit fit = fit_row(rows[i], even);
-            left_out.inside += fit.inside ? share : 0.0;
-            left_out.interval_score += share * fit.interval_score;
-        }
-        found.push_back(left_out);
+        const double scale = holding(std::move(others));
+        found.push_back({name.second, name.first, members.size(), band_fit(rows, predicted, members, 1.0), scale,
+                         band_fit(rows, predicted, members, scale)});
     }
     return found;
 }

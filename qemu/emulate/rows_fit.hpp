@@ -17,6 +17,9 @@ inline constexpr double allowed_cycles = 8.0;
 /// \param predicted, measured  cycles of a call
 [[nodiscard]] bool misses(double predicted, double measured);
 
+/// By what the longest call exceeds the shortest: calls of nearly one length determine no line.
+inline constexpr double longer_call = 1.25;
+
 /// The quantile of what a band promises: a band holds 95 % of unseen rows.
 inline constexpr double band_coverage = 0.95;
 
@@ -46,14 +49,23 @@ struct RowLine {
     double predicted_constant;
 };
 
-/// A band of one width to either side, wide enough for `band_coverage` of the rows of all other groups: what it does on
-/// this one, which it has not seen.
+/// What a band does on some rows.
+struct BandFit {
+    double half_width;  ///< median, share of the predicted cycles
+    double inside;      ///< share of the rows
+    double interval_score;
+};
+
+/// Rows that a band is judged by as if they were unseen: a group, or an author's groups, which share what comes before
+/// the first "/" of their names.
 struct GroupLeftOut {
     std::string group;
+    bool is_author;
     std::size_t rows;
-    double half_width;  ///< share of the predicted cycles
-    double inside;      ///< share of the group's rows
-    double interval_score;
+    BandFit as_it_is;
+    /// The model's band, widened or narrowed to hold `band_coverage` of the rows of all others.
+    double scale;
+    BandFit from_others;
 };
 
 struct RowsFit {

@@ -31,6 +31,54 @@ std::string losses_of(const PredictedCall& predicted) {
 
 }  // namespace
 
+namespace {
+
+std::string band_of(const BandFit& band) {
+    return fmt::format("{:>9.1f}% {:>7.1f}% {:>6.1f}%", 100 * band.half_width, 100 * band.inside,
+                       100 * band.interval_score);
+}
+
+// The mean over all rows of the groups, or of the authors.
+std::string mean_of(const std::vector<GroupLeftOut>& left_out, bool of_authors) {
+    double rows = 0.0;
+    BandFit as_it_is{};
+    BandFit from_others{};
+    const auto add = [&rows](BandFit& sum, const BandFit& band, double count) {
+        sum.half_width += (band.half_width - sum.half_width) * count / rows;
+        sum.inside += (band.inside - sum.inside) * count / rows;
+        sum.interval_score += (band.interval_score - sum.interval_score) * count / rows;
+    };
+    for (const GroupLeftOut& one : left_out) {
+        if (one.is_author == of_authors) {
+            const auto count = static_cast<double>(one.rows);
+            rows += count;
+            add(as_it_is, one.as_it_is, count);
+            add(from_others, one.from_others, count);
+        }
+    }
+    return fmt::format("{:<28} {:>5} {} {:>7} {}\n", of_authors ? "all, by authors" : "all, each unseen", rows,
+                       band_of(as_it_is), "", band_of(from_others));
+}
+
+std::string left_out_of(const std::vector<GroupLeftOut>& left_out) {
+    std::string text =
+        fmt::format("\n{:<28} {:>5} {:^26} {:^34}\n{:<28} {:>5} {:>10} {:>8} {:>7} {:>7} {:>10} {:>8} {:>7}\n", "", "",
+                    "the band", "as wide as the others ask", "left out", "rows", "half-width", "inside", "score",
+                    "scale", "half-width", "inside", "score");
+    bool authors = false;
+    for (const GroupLeftOut& one : left_out) {
+        if (one.is_author && !authors) {
+            authors = true;
+            text += mean_of(left_out, false);
+        }
+        text += fmt::format("{:<28} {:>5} {} {:>7.2f} {}\n", one.group + (one.is_author ? "/" : ""), one.rows,
+                            band_of(one.as_it_is), one.scale, band_of(one.from_others));
+    }
+    return text + mean_of(left_out, authors);
+}
+
+}  // namespace
+
 std::string to_text(const std::string& name, const std::vector<MeasuredCall>& rows,
                     const std::vector<PredictedCall>& predicted, const RowsFit& fit) {
     std::string text =
@@ -61,18 +109,7 @@ std::string to_text(const std::string& name, const std::vector<MeasuredCall>& ro
                             losses_of(predicted[i]));
     }
     if (!fit.left_out.empty()) {
-        text += fmt::format("\n{:<28} {:>5} {:>10} {:>8} {:>15}\n", "a band that holds the others", "rows",
-                            "half-width", "inside", "interval score");
-        double inside = 0.0;
-        double score = 0.0;
-        for (const GroupLeftOut& one : fit.left_out) {
-            text += fmt::format("{:<28} {:>5} {:>9.1f}% {:>7.1f}% {:>14.1f}%\n", one.group, one.rows,
-                                100 * one.half_width, 100 * one.inside, 100 * one.interval_score);
-            inside += one.inside * static_cast<double>(one.rows) / static_cast<double>(rows.size());
-            score += one.interval_score * static_cast<double>(one.rows) / static_cast<double>(rows.size());
-        }
-        text += fmt::format("{:<28} {:>5} {:>10} {:>7.1f}% {:>14.1f}%\n", "all, each unseen", rows.size(), "",
-                            100 * inside, 100 * score);
+        text += left_out_of(fit.left_out);
     }
     text += fmt::format(
         "\nmedian error {:.2f} %, worst {:+.1f} %; {} of {} rows within {:.0f} % or {:.0f} cycles\n"
@@ -126,9 +163,15 @@ std::string to_json(const std::string& name, const std::vector<MeasuredCall>& ro
     for (const GroupLeftOut& one : fit.left_out) {
         json["left_out"].push_back({{"group", one.group},
                                     {"rows", one.rows},
-                                    {"half_width", one.half_width},
-                                    {"inside", one.inside},
-                                    {"interval_score", one.interval_score}});
+                                    {"author", one.is_author},
+                                    {"half_width", one.from_others.half_width},
+                                    {"inside", one.from_others.inside},
+                                    {"interval_score", one.from_others.interval_score},
+                                    {"scale", one.scale},
+                                    {"band",
+                                     {{"half_width", one.as_it_is.half_width},
+                                      {"inside", one.as_it_is.inside},
+                                      {"interval_score", one.as_it_is.interval_score}}}});
     }
     json["median_error"] = fit.median_error;
     json["worst_error"] = fit.worst_error;

@@ -6,18 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "qemu/emulate/core_variant.hpp"
 #include "qemu/emulate/emulator.hpp"
 #include "qemu/emulate/measured_cycles.hpp"
 #include "qemu/timing/timing_log.hpp"
 
 namespace qemu {
-
-/// A core file, with its placement replaced by each row's.
-struct CoreVariant {
-    std::string core;                       ///< a name, or a path (`timing::names_core_file`)
-    std::string set = {};                   ///< one of its rule sets alone; empty: all of them
-    std::vector<std::string> without = {};  ///< effects that cost nothing
-};
 
 struct PredictedCycles {
     double nominal;

@@ -34,6 +34,47 @@ sed -n '/^shift.*,0,[0-9]*,[0-9]*$/p' "$published" | awk -F, 'BEGIN { OFS = "," 
 expect 0 "attributed" diagnose cycles --measured "$folder/later.csv" --core stm32h747-dtcm --json "$verdict"
 has '"effect": "call_overhead"'
 
+# Two kernels in ITCM, their constants two cycles beside the model's: the overhead alone, and not to no width.
+printf '%s\n' kernel,code,data,maintenance,taps,cycles >"$folder/two.csv"
+sed -n '/^shift.*,dtcm,0,[0-9]*,[0-9]*$/p' "$published" | sed 's/flash_cached/itcm/' | awk -F, 'BEGIN { OFS = "," } { $6 += 13; print }' >>"$folder/two.csv"
+expect 0 "attributed" diagnose cycles --measured "$folder/two.csv" --core stm32f746-itcm --json "$verdict"
+[ "$(grep -c '"gap_before": ' "$verdict")" -eq 1 ] && has '"effect": "call_overhead"' || fail "expected the overhead alone; found $(cat "$folder/said")"
+grep -q '^call_overhead  *24 cycles  *21.5 to 26.5' "$folder/said" || fail "expected an interval; found $(grep '^call' "$folder/said")"
+
+# A Cortex-M4's log, as `silicon --core stm32h747-m4` predicts it: another core, whatever clock would explain it.
+printf '%s\n' kernel,code,data,maintenance,taps,cycles \
+    shift_fir_q31,itcm,dtcm,0,10,131 shift_fir_q31,itcm,dtcm,0,50,571 shift_fir_q31,itcm,dtcm,0,100,1121 \
+    ring_plain_q31,itcm,dtcm,0,10,149 ring_plain_q31,itcm,dtcm,0,20,219 ring_plain_q31,itcm,dtcm,0,100,779 >"$folder/m4.csv"
+for core in m7-ideal stm32f746-itcm; do
+    expect 0 "unknown: the gap to $core" diagnose cycles --measured "$folder/m4.csv" --core "$core"
+done
+
+# Functions of any program: as predicted, with an overhead, and judged by another core than their rows name.
+mkdir "$folder/programs"
+cp "$source/build/mps2-an500/targets/biquad.elf" "$folder/programs/own.elf"
+rows() {  # CYCLES_MORE
+    for of in biquad_step,itcm,dtcm,1 biquad_step,flash,dtcm,1 "firmware_main(),itcm,dtcm,1000"; do
+        echo "programs/own.elf,${of%%,*},stm32f746-itcm,$(echo "$of" | cut -d , -f 2,3),1,${of##*,}"
+    done >"$folder/cells"
+    { echo elf,function,core,code,data,measured,per && cat "$folder/cells"; } >"$folder/rows.csv"
+    "$program" silicon --rows "$folder/rows.csv" --json "$folder/fit.json" >/dev/null 2>&1
+    sed -n 's/.*"predicted": \([0-9.]*\).*/\1/p' "$folder/fit.json" >"$folder/predicted"
+    { echo elf,function,core,code,data,measured,per
+      paste -d , "$folder/cells" "$folder/predicted" | awk -F, -v more="$1" 'BEGIN { OFS = "," } { print $1, $2, $3, $4, $5, $8 + more / $7, $7 }'; } >"$folder/rows.csv"
+}
+rows 0
+expect 0 "no_gap: the gap to stm32f746-itcm is 0.0 %" diagnose cycles --measured "$folder/rows.csv"
+expect 0 "the gap to stm32f746-flash-nocache" diagnose cycles --measured "$folder/rows.csv" --core stm32f746-flash-nocache
+rows 40
+expect 0 "attributed: the gap to stm32f746-itcm" diagnose cycles --measured "$folder/rows.csv" --json "$verdict"
+has '"effect": "call_overhead"'
+grep -q '^call_overhead  *40 cycles' "$folder/said" || fail "expected an overhead of 40 cycles; found $(cat "$folder/said")"
+sed 's/own.elf,biquad_step,stm32f746-itcm,itcm/own.elf,biquad_step,m7-ideal,itcm/' "$folder/rows.csv" >"$folder/mixed.csv"
+expect 2 "expected cores that pay for the same effects" diagnose cycles --measured "$folder/mixed.csv"
+sed 's/programs.own.elf,firmware/programs\/none.elf,firmware/' "$folder/rows.csv" >"$folder/none.csv"
+expect 2 "none.csv:4: " diagnose cycles --measured "$folder/none.csv"
+rm "$folder/none.csv"
+
 # Other instructions than ours: no core is judged.
 printf '%s\n' kernel,code,data,maintenance,taps,cycles,instructions shift_fir_q31,flash_cached,dtcm,0,5,47,9 >"$folder/other.csv"
 expect 0 "different_binary" diagnose cycles --measured "$folder/other.csv" --json "$verdict"
@@ -50,6 +91,12 @@ hash=$(sed -n 's/.*sealed: sha256 //p' "$folder/said")
 [ "$(grep -c '^  case-00[1-6].*' "$folder/said")" -eq 6 ] || fail "expected six lines; found $(cat "$folder/said")"
 [ "$(grep -c 'WRONG$' "$folder/said")" -le 1 ] || fail "more than one wrong of six; found $(cat "$folder/said")"
 cp "$folder/said" "$folder/blind.txt"
+# Cycles that other rules made than those that judge: what they do has no wrong name.
+expect 0 "4 cases of stm32f746-itcm, sealed: sha256 " diagnose cycles --blind 4 --other-rules --seed 11 --out "$folder/rules"
+grep -q '"rules": "chain"' "$folder/rules/truth.json" || fail "expected the sets in the truth; found $(cat "$folder/rules/truth.json")"
+grep -q '^  rules  *[1-4] of [1-4]' "$folder/said" && ! grep -q 'WRONG$' "$folder/said" || fail "expected no wrong name; found $(cat "$folder/said")"
+expect 2 "rival rules of a Cortex-M7" diagnose cycles --blind 4 --other-rules --core cortex-m4-zerowait --out "$folder/rules"
+expect 2 "--other-rules" diagnose cycles --measured "$published" --other-rules
 # The same file by itself says the same.
 line=$(sed -n 's/^  case-005  *[a-z]* .*\(attributed\|no_gap\|unknown\|ambiguous\): .*/\1/p' "$folder/blind.txt")
 expect 0 "$line" diagnose cycles --measured "$folder/blind/case-005.csv" --core stm32f746-itcm

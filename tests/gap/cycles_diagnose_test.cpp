@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/failure.hpp"
@@ -25,7 +26,7 @@ qemu::MeasuredCycles row(const std::string& kernel, std::uint32_t taps, double c
 }
 
 TEST(CyclesQuestion, ACoreThatPaysForAllIsItsOwnReference) {
-    const Question own = gap::cycles::question_about({row("ring_plain_f32", 10, 1.0)}, "stm32f746-itcm", TEST_CORES);
+    const Question own = gap::cycles::question_about({row("ring_plain_f32", 10, 1.0)}, {"stm32f746-itcm"}, TEST_CORES);
     EXPECT_EQ(own.base, "stm32f746-itcm");
     EXPECT_EQ(own.rows.size(), 1U);
     EXPECT_TRUE(own.base_off.empty());
@@ -37,11 +38,11 @@ TEST(CyclesQuestion, ACoreThatPaysForAllIsItsOwnReference) {
 }
 
 TEST(CyclesQuestion, AnIdealCoreIsAskedAboutBesideThoseThatPay) {
-    const Question ideal = gap::cycles::question_about({}, "m7-ideal", TEST_CORES);
+    const Question ideal = gap::cycles::question_about({}, {"m7-ideal"}, TEST_CORES);
     EXPECT_EQ(ideal.base_off.size(), timing::effect_count);
     EXPECT_THAT(ideal.references, ElementsAre("stm32h747-dtcm", "stm32f746-itcm"));
     EXPECT_EQ(ideal.sets.size(), 2U);
-    EXPECT_THROW((void)gap::cycles::question_about({}, "m8", TEST_CORES), glsum::Failure);
+    EXPECT_THROW((void)gap::cycles::question_about({}, {"m8"}, TEST_CORES), glsum::Failure);
 }
 
 // A tap takes 3 cycles and 5 instructions; of a rival loop a turn takes 4, or 6 of the first where the set is "slow".
@@ -138,6 +139,50 @@ TEST(CyclesBlind, SwitchesThatShowChangeMoreThanThreePercent) {
     EXPECT_THAT(found, ElementsAre(std::string(timing::effect_names[1])));
 }
 
+TEST(CyclesBlind, OtherRulesMakeTheCyclesOfEachCase) {
+    const auto secrets = gap::cycles::draw_other_rules(200, 3, {"chain", "unfolded"});
+    std::map<std::string, int> kinds;
+    std::map<std::string, int> sets;
+    for (const auto& secret : secrets) {
+        ++kinds[secret.kind];
+        ++sets[secret.set];
+        EXPECT_EQ(secret.effects.size(), secret.kind == "rules" ? 0U : 1U);
+        EXPECT_TRUE(secret.without.empty());
+    }
+    EXPECT_NEAR(kinds["rules"], 100, 25);
+    EXPECT_NEAR(kinds["rules and cost"], 100, 25);
+    EXPECT_NEAR(sets["chain"], 100, 25);
+    EXPECT_NEAR(sets["unfolded"], 100, 25);
+}
+
+// What other rules do may go by the name of where they act, or by none; a cost beside them has its own.
+TEST(CyclesBlind, OtherRulesAreRightByAllButANameForWhatTheyDoNotTouch) {
+    Explanation found{};
+    const auto is_right = [&](Outcome outcome, const std::vector<std::string>& named, const std::string& set,
+                              const std::vector<std::string>& effects) {
+        found.outcome = outcome;
+        found.steps.clear();
+        for (const std::string& effect : named) {
+            found.steps.push_back({effect, {}, {}, 0, 0, 0});
+        }
+        return names(found, {.kind = "rules", .effects = effects, .set = set});
+    };
+    for (const Outcome outcome : {Outcome::no_gap, Outcome::unknown, Outcome::ambiguous}) {
+        EXPECT_TRUE(is_right(outcome, {}, "chain", {}));
+    }
+    EXPECT_TRUE(is_right(Outcome::attributed, {"fpu_latency"}, "chain", {}));
+    EXPECT_FALSE(is_right(Outcome::attributed, {"fpu_latency"}, "unfolded", {}));
+    EXPECT_TRUE(is_right(Outcome::attributed, {"single_issue"}, "unfolded", {}));
+    EXPECT_FALSE(is_right(Outcome::attributed, {"call_overhead"}, "chain", {}));
+    EXPECT_TRUE(is_right(Outcome::attributed, {"call_overhead"}, "chain", {"call_overhead"}));
+    EXPECT_TRUE(is_right(Outcome::attributed, {"fpu_latency", "call_overhead"}, "chain", {"call_overhead"}));
+    EXPECT_FALSE(is_right(Outcome::attributed, {"load_use", "call_overhead"}, "chain", {"call_overhead"}));
+    EXPECT_FALSE(is_right(Outcome::unknown, {"call_overhead"}, "chain", {"call_overhead"}));
+    found.alternatives = {{"interrupt_load", {}, {}, 0, 0, 0}, {"clock_ratio", {}, {}, 0, 0, 0}};
+    EXPECT_TRUE(is_right(Outcome::ambiguous, {"fpu_latency"}, "chain", {"clock_ratio"}));
+    EXPECT_FALSE(is_right(Outcome::ambiguous, {"fpu_latency"}, "chain", {"call_overhead"}));
+}
+
 TEST(CyclesBlind, TheSealedTruthHasAllThatWasDone) {
     gap::cycles::Secret cost{.kind = "cost", .effects = {"clock_ratio"}};
     cost.ratio = 1.25;
@@ -148,6 +193,7 @@ TEST(CyclesBlind, TheSealedTruthHasAllThatWasDone) {
     EXPECT_EQ(truth[1]["case"], gap::cycles::name_of_case(2));
     EXPECT_EQ(truth[1]["effects"], nlohmann::json({"clock_ratio"}));
     EXPECT_EQ(truth[1]["ratio"], 1.25);
+    EXPECT_EQ(truth[1]["rules"], "nominal");
     for (const char* size : {"overhead", "maintenance", "contention", "sawtooth"}) {
         EXPECT_EQ(truth[1][size], 0.0) << size;
     }
@@ -161,8 +207,8 @@ TEST(CyclesTally, HasTheShareOfEachKindWithItsInterval) {
         tally.count("cost", false);
     }
     EXPECT_EQ(tally.to_text(),
-              "  cost       0 of 10, 0 % [0, 31]\n"
-              "  switch     5 of 10, 50 % [19, 81]\n");
+              "  cost           0 of 10, 0 % [0, 31]\n"
+              "  switch         5 of 10, 50 % [19, 81]\n");
 }
 
 }  // namespace

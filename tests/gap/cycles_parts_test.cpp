@@ -8,6 +8,7 @@
 
 #include "gap/cycles/blind.hpp"
 #include "gap/cycles/evidence.hpp"
+#include "gap/cycles/lines.hpp"
 #include "gap/cycles/locate.hpp"
 #include "gap/cycles/search.hpp"
 #include "gap/cycles/verdict.hpp"
@@ -133,6 +134,48 @@ TEST(CyclesEvidence, AddsWhatACorePays) {
     EXPECT_EQ(made.calls, before + 1);
     EXPECT_THAT(evidence.inside(State{.core = "core", .off = {"single_issue"}}), ElementsAre(70.0, 140.0));
     EXPECT_EQ(made.calls, before + 1);
+}
+
+// Cycles a sample and cycles a call count by what the file gives, not by the length of the call.
+TEST(CyclesEvidence, ComparesRowsByTheirUnit) {
+    Made made({row("a_f32", 10, 110), row("b_f32", 100, 1000)});
+    made.question.rows[1].per = 100.0;
+    const Evidence evidence(made.question, made.by);
+    EXPECT_NEAR(evidence.gap({100.0, 1100.0}, {0, 1}), (10.0 + 1.0) / (110.0 + 10.0), 1e-12);
+    EXPECT_NEAR(evidence.floor(), (0.5 + 0.005) / (110.0 + 10.0), 1e-12);
+    // Two programs whose calls are of one length are no row that was measured again.
+    made.question.rows = {row("a_f32", 10, 100), row("a_f32", 10, 104)};
+    made.question.rows[0].program = "a.elf";
+    made.question.rows[1].program = "b.elf";
+    EXPECT_NEAR(Evidence(made.question, made.by).floor(), 1.0 / 204.0, 1e-12);
+}
+
+TEST(CyclesLines, HaveWhatIsLeftOfSlopeAndConstant) {
+    Made made({row("a_f32", 10, 120), row("a_f32", 20, 230), row("a_f32", 30, 340), row("a_f32", 40, 9999),
+               row("a_f32", 50, 560), row("b_f32", 100, 1010), row("b_f32", 110, 1000)});
+    const Evidence evidence(made.question, made.by);
+    const auto lines = gap::cycles::lines_left(evidence, {110.0, 210.0, 310.0, 410.0, 510.0, 1000.0, 1000.0});
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_EQ(lines[0].kernel, "a_f32");
+    EXPECT_NEAR(lines[0].slope, 1.0 / 11.0, 1e-12);  // whatever one row says
+    EXPECT_NEAR(lines[0].constant, 10.0, 1e-12);
+    EXPECT_NEAR(lines[0].shortest, 120.0, 1e-12);
+    EXPECT_EQ(lines[0].placement, "code=itcm data=dtcm");
+    EXPECT_NEAR(lines[1].slope, 0.0, 1e-12);  // calls of nearly one length are no line
+    EXPECT_NEAR(lines[1].constant, 5.0, 1e-12);
+}
+
+TEST(CyclesLines, AreMetToFivePercentOrEightCycles) {
+    using gap::cycles::is_met;
+    using gap::cycles::is_met_closely;
+    EXPECT_TRUE(is_met({"", "", 0.049, 8.0, 100.0}));
+    EXPECT_FALSE(is_met({"", "", 0.051, 0.0, 100.0}));
+    EXPECT_FALSE(is_met({"", "", -0.051, 0.0, 100.0}));
+    EXPECT_FALSE(is_met({"", "", 0.0, 8.5, 100.0}));
+    EXPECT_TRUE(is_met({"", "", 0.0, 8.5, 1000.0}));
+    EXPECT_TRUE(is_met_closely({"", "", -0.019, -8.0, 1000.0}));
+    EXPECT_FALSE(is_met_closely({"", "", 0.021, 0.0, 1000.0}));
+    EXPECT_FALSE(is_met_closely({"", "", 0.0, 8.5, 1000.0}));
 }
 
 TEST(CyclesEvidence, TakesCostsBesideTheCallForMedians) {

@@ -70,9 +70,10 @@ std::vector<qemu::PredictedCycles> predict(const std::vector<qemu::MeasuredCycle
 
 // Cycles of the core `real` without some effects, changed by `change`.
 Explanation diagnose(const std::string& base, const std::vector<std::string>& without,
-                     const std::function<double(const qemu::MeasuredCycles&, const qemu::PredictedCycles&)>& change) {
+                     const std::function<double(const qemu::MeasuredCycles&, const qemu::PredictedCycles&)>& change,
+                     std::vector<qemu::MeasuredCycles> measured = rows()) {
     Question question;
-    question.rows = rows();
+    question.rows = std::move(measured);
     question.base = base;
     question.references = {"real"};
     question.sets["real"] = question.fitting["real"] = {"nominal"};
@@ -262,6 +263,91 @@ TEST(Cycles, AClockThatNobodySetsIsAnotherCore) {
     for (const double ratio : {2.0, 3.0, 1.0 / 3.0}) {
         EXPECT_EQ(outcome_at(ratio).outcome, Outcome::attributed) << ratio;
     }
+}
+
+// At the end of what was tried nothing was found.
+TEST(Cycles, ACostAtTheEndOfTheSearchIsNone) {
+    const Explanation found = diagnose("real", {}, [](const auto&, const auto& p) {
+        return p.nominal + 3.5 * static_cast<double>(p.half_cycles[timing::index(timing::Effect::load_bank_conflict)]);
+    });
+    EXPECT_EQ(found.outcome, Outcome::unknown);
+    for (const auto& step : found.steps) {
+        if (step.parameters.contains("factor")) {
+            EXPECT_LT(step.parameters.at("factor"), 3.9) << step.effect;
+        }
+    }
+}
+
+// Two kernels have two constants: an overhead and any effect of a call fit them, whatever they are.
+TEST(Cycles, FewCyclesOfAConstantAreNoEffectBesideTheOverhead) {
+    std::vector<qemu::MeasuredCycles> two;
+    for (const char* kernel : {"ring_plain_q31", "ring_fir_q31"}) {
+        for (const std::uint32_t taps : {5U, 10U, 20U, 50U, 100U, 128U}) {
+            two.push_back({kernel, "itcm", "dtcm", false, taps, 0.0, 0});
+        }
+    }
+    for (const double other : {-7.0, -4.0, 4.0, 7.0}) {
+        const Explanation found = diagnose(
+            "real", {},
+            [&](const auto& row, const auto& p) {
+                return p.nominal + 30.0 + (row.kernel == "ring_fir_q31" ? other : 0.0);
+            },
+            two);
+        EXPECT_EQ(found.outcome, Outcome::attributed);
+        EXPECT_EQ(effects_of(found), std::vector<std::string>{"call_overhead"}) << other;
+        EXPECT_NEAR(found.steps[0].parameters.at("cycles"), 30.0, std::fabs(other));
+    }
+}
+
+// Counters are whole: rows that all say the same tell a number to half a cycle, not exactly.
+TEST(Cycles, NoIntervalIsOfZeroWidth) {
+    const auto interval = [](const std::string& effect, const std::string& number, const auto& change) {
+        const Explanation found = diagnose("real", {}, change);
+        for (const auto* steps : {&found.steps, &found.alternatives}) {
+            for (const auto& step : *steps) {
+                if (step.effect == effect) {
+                    const gap::cycles::Interval range = step.interval.at(number);
+                    EXPECT_LT(range.low, step.parameters.at(number)) << effect;
+                    EXPECT_GT(range.high, step.parameters.at(number)) << effect;
+                    return range.high - range.low;
+                }
+            }
+        }
+        ADD_FAILURE() << effect << ": not found";
+        return 0.0;
+    };
+    EXPECT_NEAR(interval("call_overhead", "cycles", [](const auto&, const auto& p) { return p.nominal + 60.0; }), 1.0,
+                1e-9);
+    EXPECT_LT(interval("clock_ratio", "ratio", [](const auto&, const auto& p) { return 0.5 * p.nominal; }), 0.1);
+    EXPECT_LT(interval("clock_ratio", "ratio", [](const auto&, const auto& p) { return 1.25 * p.nominal; }), 0.1);
+    EXPECT_LT(interval("bus_contention", "share",
+                       [](const auto& row, const auto& p) { return p.nominal * (row.data == "axi" ? 1.3 : 1.0); }),
+              0.1);
+    EXPECT_LT(
+        interval("load_bank_conflict", "factor",
+                 [](const auto&, const auto& p) {
+                     return p.nominal +
+                            0.4 * static_cast<double>(p.half_cycles[timing::index(timing::Effect::load_bank_conflict)]);
+                 }),
+        0.2);
+}
+
+// One clock for all rows is none that leaves a kernel's slope far off: another core has other costs of its
+// instructions.
+TEST(Cycles, ACauseThatLeavesAKernelsSlopeIsNone) {
+    const Explanation found = diagnose("real", {}, [](const auto& row, const auto& p) {
+        return (row.kernel == "mirror_multi_q15" ? 2.2 : 2.0) * p.nominal;
+    });
+    EXPECT_EQ(found.outcome, Outcome::unknown);
+    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("mirror_multi_q15")));
+}
+
+// A call costs something beside the kernel, or nothing.
+TEST(Cycles, ACostBelowNothingIsNone) {
+    const Explanation found =
+        diagnose("real", {}, [](const auto&, const auto& p) { return std::max(1.0, 2.0 * p.nominal - 40.0); });
+    EXPECT_EQ(found.outcome, Outcome::unknown);
+    EXPECT_THAT(found.notes, testing::Contains(testing::HasSubstr("none costs less than nothing")));
 }
 
 TEST(Cycles, WhatOnlyRowsOnTheBusLoseIsContention) {

@@ -1,6 +1,6 @@
 #!/bin/sh
 # rows.sh FIRMWARE FOLDER [GROUP...]: builds the programs of others whose cycles were measured on silicon, and writes
-# FOLDER/GROUP.csv and FOLDER/all.csv for `glsum silicon --rows`. GROUP: aes, coremark, dhrystone; all of them unless given.
+# FOLDER/GROUP.csv and FOLDER/all.csv for `glsum silicon --rows`. GROUP: aes, coremark, dhrystone, fir; all of them unless given.
 # Their sources stay where GLSUM_SHARED says that they lie; without it there is nothing to do (77). FIRMWARE: the build
 # folder of the emulated board's firmware.
 set -eu
@@ -13,7 +13,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 targets=$here/../../targets
 firmware=$1 folder=$2
 shift 2
-[ $# -gt 0 ] || set -- aes coremark dhrystone
+[ $# -gt 0 ] || set -- aes coremark dhrystone fir
 mkdir -p "$folder"
 folder=$(cd "$folder" && pwd)
 core="-mcpu=cortex-m7 -mthumb -mfloat-abi=hard -mfpu=fpv5-sp-d16"
@@ -73,7 +73,7 @@ aes() {
         object=$into/$(echo "$tables" | tr '/.' '__').o
         [ -e "$object" ] || arm-none-eabi-gcc $core -O2 -fdata-sections -c "$from/$tables" -o "$object"
         link "$into/$nth.elf" $objects "$object"
-        echo "aes/$nth.elf,$function,stm32h747-dtcm,itcm,dtcm,$measured,$per,$commit" >>"$folder/aes.csv"
+        echo "aes/$nth.elf,$function,stm32h747-dtcm,itcm,dtcm,$measured,$per,jnk0le/$commit" >>"$folder/aes.csv"
     done <"$into/rows"
 }
 
@@ -115,14 +115,37 @@ dhrystone() {
     } >"$folder/dhrystone.csv"
 }
 
+# The loops behind results/silicon, a program a length. Measured: less the counter reads and the cache's maintenance, as the
+# core file has them, since a program's rows are of calls alone.
+# shellcheck disable=SC2086
+fir() {
+    into=$folder/fir
+    rm -rf "$into"
+    mkdir -p "$into"
+    figure() { sed -n "s/^$1 = { value = \([0-9]*\),.*/\1/p" "$here/../../qemu/cores/_stm32h747.toml"; }
+    arm-none-eabi-gcc $core -c "$targets/firmware/silicon_loops.S" -o "$into/loops.o"
+    sed '/^#/d; /^kernel,/d' "$here/../../results/silicon/h747_per_sample_fir.csv" >"$into/rows"
+    {
+        echo "# one pass of a filter over a delay line in each of two formats, on an STM32H747: results/silicon/h747_per_sample_fir.csv"
+        echo "$header"
+    } >"$folder/fir.csv"
+    while IFS=, read -r kernel _ data maintenance taps cycles; do
+        if [ ! -e "$into/$kernel-$taps.elf" ]; then
+            arm-none-eabi-g++ $core -O2 -fno-exceptions -fno-rtti -DLOOP="glsum_silicon_$kernel" -DTAPS="$taps" -c "$here/fir_call.cpp" -o "$into/call.o"
+            link "$into/$kernel-$taps.elf" "$into/call.o" "$into/loops.o"
+        fi
+        echo "fir/$kernel-$taps.elf,glsum_silicon_$kernel,stm32h747-dtcm,flash,$data,$((cycles - $(figure counter_reads) - maintenance * $(figure maintenance))),1,fir/$kernel"
+    done <"$into/rows" >>"$folder/fir.csv"
+}
+
 {
     echo "# All groups in one; the assembly by its commits"
     echo "$header"
 } >"$folder/all.csv"
 for group in "$@"; do
     case $group in
-        aes | coremark | dhrystone) "$group" ;;
-        *) echo "rows.sh: expected aes, coremark or dhrystone, found $group" >&2; exit 2 ;;
+        aes | coremark | dhrystone | fir) "$group" ;;
+        *) echo "rows.sh: expected aes, coremark, dhrystone or fir, found $group" >&2; exit 2 ;;
     esac
     sed '/^#/d; /^elf,/d' "$folder/$group.csv" >>"$folder/all.csv"
 done

@@ -35,6 +35,12 @@ TEST(MeasuredCalls, PathsCountFromTheFilesFolderAndEmptyPlacesAreTheCores) {
     EXPECT_EQ(rows[1].line, 4U);
 }
 
+TEST(MeasuredCalls, AreToldFromRowsOfKernelsByTheirHeader) {
+    EXPECT_TRUE(qemu::names_programs("# elf\n\nfunction, elf ,core\na,b,c\n"));
+    EXPECT_FALSE(qemu::names_programs("# elf\nkernel,code\nelf,elf\n"));
+    EXPECT_FALSE(qemu::names_programs(""));
+}
+
 TEST(RowsFit, ErrorsCoverageWidthAndScore) {
     // Errors +10 %, 0, -20 % and +2 %; half-widths 5, 10, 12.5 and 4.9 %; the third lies outside by 10.
     const std::vector<qemu::MeasuredCall> rows{measured("a", 100), measured("b", 200), measured("c", 100),
@@ -77,36 +83,73 @@ TEST(RowsFit, ALineThroughCallsOfDifferentLength) {
     EXPECT_NEAR(fit.lines[0].predicted_constant, 5.0, 1e-9);
 }
 
-// Each group is judged by a band that holds 95 % of the others' rows.
-TEST(RowsFit, LeavesEachGroupOut) {
+// Each group is judged by the band, and by one that is scaled to hold 95 % of the others' rows; so is each author.
+class RowsLeftOut : public testing::Test {
+protected:
     std::vector<qemu::MeasuredCall> rows;
     std::vector<qemu::PredictedCall> calls;
-    const auto add = [&](const std::string& group, double cycles) {
+    void add(const std::string& group, double cycles, double low = 99, double high = 101) {
         rows.push_back(measured("f", cycles));
         rows.back().group = group;
-        calls.push_back(predicted(100, 99, 101));
-    };
-    for (int row = 1; row <= 20; ++row) {
-        add("a", 100 + 0.1 * row);  // 0.1 to 2 %
+        calls.push_back(predicted(100, low, high));
     }
-    add("b", 101);
-    add("b", 104);
+    void SetUp() override {
+        for (int row = 1; row <= 20; ++row) {
+            add("a/1", 100 + 0.1 * row);  // 0.1 to 2 widths of the band
+        }
+        add("b", 101);
+        add("b", 104);
+    }
+};
+
+TEST_F(RowsLeftOut, BandsAreAsWideAsTheOthersAsk) {
     const auto left_out = qemu::fit_of(rows, calls).left_out;
     ASSERT_EQ(left_out.size(), 2U);
-    EXPECT_EQ(left_out[0].group, "a");
-    EXPECT_NEAR(left_out[0].half_width, 0.04, 1e-12);  // of two rows the greater
-    EXPECT_NEAR(left_out[0].inside, 1.0, 1e-12);
+    EXPECT_EQ(left_out[0].group, "a/1");
+    EXPECT_NEAR(left_out[0].scale, 4.0, 1e-12);  // of two rows the greater
+    EXPECT_NEAR(left_out[0].from_others.half_width, 0.04, 1e-12);
+    EXPECT_NEAR(left_out[0].from_others.inside, 1.0, 1e-12);
+    EXPECT_NEAR(left_out[0].as_it_is.half_width, 0.01, 1e-12);
+    EXPECT_NEAR(left_out[0].as_it_is.inside, 0.5, 1e-12);
     EXPECT_EQ(left_out[1].rows, 2U);
-    EXPECT_NEAR(left_out[1].half_width, 0.02, 1e-12);  // 0.95 of 21: the twentieth
-    EXPECT_NEAR(left_out[1].inside, 0.5, 1e-12);
-    EXPECT_NEAR(left_out[1].interval_score, (4.0 / 101 + (4.0 + 40 * 2.0) / 104) / 2, 1e-12);
+    EXPECT_NEAR(left_out[1].scale, 2.0, 1e-12);  // 0.95 of 21: the twentieth
+    EXPECT_NEAR(left_out[1].from_others.inside, 0.5, 1e-12);
+    EXPECT_NEAR(left_out[1].from_others.interval_score, (4.0 / 101 + (4.0 + 40 * 2.0) / 104) / 2, 1e-12);
     const std::string text = qemu::to_text("m.csv", rows, calls, qemu::fit_of(rows, calls));
-    EXPECT_THAT(text, HasSubstr("\nb                                2       2.0%    50.0%           42.4%\n"));
-    EXPECT_THAT(text, HasSubstr("\nall, each unseen                22               95.5%"));
+    EXPECT_THAT(text,
+                HasSubstr("\nb                                2       1.0%    50.0%   59.6%    2.00       2.0%    "
+                          "50.0%   42.4%\n"));
+    EXPECT_THAT(text, HasSubstr("\nall, each unseen                22"));
     for (qemu::MeasuredCall& row : rows) {
         row.group = "one";
     }
     EXPECT_TRUE(qemu::fit_of(rows, calls).left_out.empty());
+}
+
+// A row far off counts by the side of the band that it lies on: a wide band is no narrow one missed.
+TEST_F(RowsLeftOut, RowsCountByTheirOwnBand) {
+    add("c", 110, 99, 120);
+    add("c", 80, 90, 101);
+    const auto left_out = qemu::fit_of(rows, calls).left_out;
+    ASSERT_EQ(left_out.size(), 3U);
+    EXPECT_NEAR(left_out[0].scale, 4.0, 1e-12);               // half a width and two of them: 104 is the farthest
+    EXPECT_NEAR(left_out[2].from_others.inside, 1.0, 1e-12);  // 96 to 180, and 60 to 104
+    EXPECT_NEAR(left_out[2].as_it_is.inside, 0.5, 1e-12);
+}
+
+TEST_F(RowsLeftOut, AnAuthorsGroupsGoTogether) {
+    add("a/2", 103);
+    const auto left_out = qemu::fit_of(rows, calls).left_out;
+    ASSERT_EQ(left_out.size(), 4U);
+    EXPECT_NEAR(left_out[0].scale, 4.0, 1e-12);  // a/2 is seen, and b
+    EXPECT_EQ(left_out[3].group, "a");
+    EXPECT_TRUE(left_out[3].is_author);
+    EXPECT_EQ(left_out[3].rows, 21U);
+    EXPECT_NEAR(left_out[3].scale, 4.0, 1e-12);
+    EXPECT_EQ(left_out[1].group, "a/2");
+    EXPECT_NEAR(left_out[1].scale, 4.0, 1e-12);  // 0.95 of 23: the last of 22
+    EXPECT_THAT(qemu::to_text("m.csv", rows, calls, qemu::fit_of(rows, calls)),
+                testing::AllOf(HasSubstr("\na/                              21"), HasSubstr("\nall, by authors")));
 }
 
 TEST(RowsFit, SaysWhereTheWorstRowsLostTheirCycles) {
