@@ -512,6 +512,18 @@ TEST_F(Rules, WhatIsNoNoiseMayDisturbThePlant) {
     known_.remainders[0] = {0.05, true, {}};
     EXPECT_EQ(outcome(), Outcome::unknown);
     known_.remainders[0] = {};
+    // A quarter of what the output does is no noise, unless the plant integrates what disturbs it, or in a loop.
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.249;
+    EXPECT_EQ(outcome(), Outcome::no_gap);
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.251;
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    ground_.study.scales.steady = false;
+    EXPECT_EQ(outcome(), Outcome::no_gap);
+    ground_.study.scales.steady = true;
+    ground_.study.horizon = 5;
+    EXPECT_EQ(outcome(), Outcome::no_gap);
+    ground_.study.horizon = 0;
+    none.base_gap = none.noise_floor = ranking_[0].gap_after = 0.1;
     // Something listed takes 15 % of it.
     none.noise_floor = 0.0852;
     EXPECT_EQ(outcome(), Outcome::no_gap);
@@ -615,6 +627,22 @@ TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
     gap::Decision decision = after("events_from_outside", attributed(load));
     EXPECT_EQ(decision.outcome, Outcome::unknown);
     EXPECT_LE(decision.confidence, 0.7);
+    // What noise makes of a record that has no event is none.
+    const auto of_validation = [&](double size) {
+        auto& judged = ranking_[load].candidate.own[0];
+        judged.erase(judged.end() - static_cast<std::ptrdiff_t>(more.size()), judged.end());
+        for (gap::FreeParameter one : more) {
+            one.value = one.name.ends_with("from_s") ? 0.41 * length_s
+                        : one.name.ends_with("to_s") ? 0.6 * length_s
+                                                     : size;
+            judged.push_back(one);
+        }
+        return after("events_from_outside", attributed(load)).outcome;
+    };
+    ranking_[load].candidate.own[0].insert(ranking_[load].candidate.own[0].end(), more.begin(), more.end());
+    EXPECT_EQ(of_validation(19.9), Outcome::unknown);
+    EXPECT_EQ(of_validation(-20.1), Outcome::attributed);
+    of_validation(1.0);
     gap::Decision both = attributed(load);
     both.effects = {load, drag};
     decision = after("events_from_outside", both);
