@@ -13,7 +13,7 @@ constexpr double large = 0.03;        // of the greatest input: a move
 constexpr double at_the_end = 0.02;   // of the record's length
 constexpr double settling = 3.0;      // time constants
 constexpr double incredible = 0.006;  // so few true events begin with the input by chance
-constexpr double unfelt = 0.05;       // of the largest event: what a fit makes of a record that has none
+constexpr double unfelt = 0.05;       // of the largest event: how long it lasts there says nothing
 
 double length_of(const Record& record) { return record.time_s.back() - record.time_s.front(); }
 
@@ -50,12 +50,11 @@ double largest_of(const std::string& effect, const Candidate& trained, const Can
 }
 
 // A disturbance, or the first of some jumps; nothing: it was not found in this record.
-std::optional<Happening> happening_of(const std::vector<FreeParameter>& own, const std::string& effect,
-                                      double least_size) {
+std::optional<Happening> happening_of(const std::vector<FreeParameter>& own, const std::string& effect) {
     const auto from_s = number_of(own, effect + ".from_s");
     const auto at_s = number_of(own, effect + ".at_s");
     const auto size = number_of(own, effect + ".size");
-    if ((!from_s && !at_s) || !size || *size == 0.0 || std::fabs(*size) < least_size) {
+    if ((!from_s && !at_s) || !size || *size == 0.0) {
         return std::nullopt;
     }
     return Happening{from_s ? *from_s : *at_s, number_of(own, effect + ".to_s")};
@@ -117,8 +116,10 @@ std::string doubt_of_events(const Study& study, const Candidate& trained, const 
         for (const auto& [of, candidate] : {std::pair(&study, &trained), std::pair(&validation, &validated)}) {
             for (std::size_t r = 0; r < candidate->own.size(); ++r) {
                 const Record& record = of->courses[r].record();
-                const auto happening = happening_of(candidate->own[r], effect->name, least_size);
-                if (happening && lasts_throughout(record, *happening, settling_s)) {
+                const auto happening = happening_of(candidate->own[r], effect->name);
+                const bool felt =
+                    std::fabs(number_of(candidate->own[r], effect->name + ".size").value_or(0.0)) >= least_size;
+                if (happening && felt && lasts_throughout(record, *happening, settling_s)) {
                     return fmt::format("{} of {} begins with the input and is still there at the end", effect->name,
                                        record.name);
                 }

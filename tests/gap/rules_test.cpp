@@ -19,6 +19,7 @@ using gap::Outcome;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::SizeIs;
 
 // A linear stand that is simulated well; what candidates leave of it and how likely they are is said.
@@ -96,7 +97,7 @@ TEST_F(Rules, HaveNamesOfTheirOwnAndReasons) {
         EXPECT_THAT(rule.reason, HasSubstr(" ")) << rule.name;
         EXPECT_EQ(gap::rule_named(rule.name).apply, rule.apply);
     }
-    EXPECT_THAT(names, SizeIs(12));
+    EXPECT_THAT(names, SizeIs(13));
     EXPECT_THROW((void)gap::rule_named("luck"), std::out_of_range);
 }
 
@@ -649,6 +650,56 @@ TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
     EXPECT_EQ(decision.outcome, Outcome::attributed);
     EXPECT_THAT(decision.effects, ElementsAre(drag));
     EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("an event from outside does not")));
+}
+
+// So that what lasts is asked in its place.
+TEST_F(Rules, EventsThatAreNoneCannotBeTakenBesideAForm) {
+    const std::size_t load = add({"load_disturbance"}, 0.5, 100.0);
+    beside_a_form();
+    known_.objections.erase(load);
+    const double length_s = ground_.study.scales.length_s;
+    const auto objection = [&](double from_s) {
+        for (gap::Candidate* candidate : {&ranking_[load].trained, &ranking_[load].candidate}) {
+            candidate->own = {gap::state_of(ground_.study, ground_.study.courses[0].record())};
+            for (gap::FreeParameter one :
+                 gap::parameters_of(gap::effect_named("load_disturbance"), ground_.study.scales, 0)) {
+                one.value = one.name.ends_with("from_s") ? from_s : one.name.ends_with("to_s") ? length_s : 0.1;
+                candidate->own[0].push_back(one);
+            }
+        }
+        return evidence().objection(load);
+    };
+    EXPECT_THAT(objection(0.0), HasSubstr("still there at the end: an event from outside does not"));
+    EXPECT_THAT(objection(0.63 * length_s), Not(HasSubstr("from outside does not")));
+}
+
+TEST_F(Rules, WhatCannotBeNamedOutdoesWhatIs) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    const std::size_t jump = add({"missed_counts"}, 0.249, 100.0);
+    const std::size_t with_it = add({"quadratic_drag", "missed_counts"}, 0.1, 200.0);
+    known_.objections[jump] = known_.objections[with_it] = "every record needs one of its own";
+    const auto outcome = [&] { return after("what_is_outdone", attributed(drag)).outcome; };
+    const auto lead = [&](double advantage) {
+        ranking_[jump].by_sample.assign(samples, advantage / samples);
+        ranking_[jump].log_likelihood = advantage;
+    };
+    beside_a_form();
+    set_noise(0.01);
+    lead(107.9);
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    lead(108.1);
+    const gap::Decision decision = after("what_is_outdone", attributed(drag));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("missed_counts would bring the gap to 0.2490, without")));
+    EXPECT_EQ(after("suspects", decision).suspect, drag);
+    ranking_[jump].gap_after = 0.251;
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    ranking_[jump].gap_after = 0.249;
+    known_.objections[jump] = "";  // what can be named is an alternative, or was chosen
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    known_.objections[jump] = "every record needs one of its own";
+    set_noise(0.1);  // where noise is left it is no other cause
+    EXPECT_EQ(outcome(), Outcome::attributed);
 }
 
 TEST_F(Rules, FewAlternativesAreNamed) {
