@@ -31,8 +31,6 @@ for set in backlash.gap=0.05 input_dead_zone.width=0.015; do
     stand --until-s 40 --set $set --experiment staircase --seed 1 --out "$folder/${set%%.*}_t.csv"
     stand --until-s 40 --set $set --experiment prbs --low-duty 0.02 --bit-s 0.5 --seed 2 --out "$folder/${set%%.*}_v.csv"
 done
-stand --until-s 80 --set backlash.gap=0.05 --experiment staircase --seed 1 --out "$folder/long_t.csv"
-stand --until-s 80 --set backlash.gap=0.05 --experiment prbs --low-duty 0.02 --bit-s 0.5 --seed 2 --out "$folder/long_v.csv"
 
 for until in 20 125; do
     stand --until-s $until --set backlash.gap=0.05 --experiment staircase --seed 1 --out "$folder/${until}_t.csv"
@@ -42,11 +40,8 @@ done
 for kind in plain backlash input_dead_zone; do
     try "$kind, given model" --model "$folder/m.json" --log "$folder/${kind}_t.csv" --validate "$folder/${kind}_v.csv"
 done
-for form in fopdt sopdt niopdt; do
-    try "backlash, fit:$form" --model fit:$form --log "$folder/backlash_t.csv" --validate "$folder/backlash_v.csv"
-done
+try "backlash, fit:niopdt" --model fit:niopdt --log "$folder/backlash_t.csv" --validate "$folder/backlash_v.csv"
 try "plain, fit:sopdt" --model fit:sopdt --log "$folder/plain_t.csv" --validate "$folder/plain_v.csv"
-try "16000 samples, fit:sopdt" --model fit:sopdt --log "$folder/long_t.csv" --validate "$folder/long_v.csv"
 try "4000 samples, fit" --model fit --log "$folder/20_t.csv" --validate "$folder/20_v.csv"
 try "25000 samples, fit" --model fit --log "$folder/125_t.csv" --validate "$folder/125_v.csv"
 real=${GLSUM_SHARED:-none}/data/real
@@ -57,5 +52,4 @@ if [ -d "$real" ]; then
         --validate "$real/carriage_validate.csv"
     try "real: swing, fit" --model fit --domain mechanical --log "$real/swing_1.csv" --log "$real/swing_2.csv" \
         --validate "$real/swing_3.csv"
-    try "real: rotor, fit" --model fit --domain mechanical --log "$real/rotor.csv" --split 91.3
 fi
