@@ -97,6 +97,12 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEventBesideAFormTakesHalf) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
     ranking_[both].gap_after = 0.2495;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    // Two thousandths of the variance are what a form may leave itself.
+    ranking_[both].gap_after = 0.01;
+    ranking_[drag].gap_after = 0.0449;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[drag].gap_after = 0.0445;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
 }
 
 TEST_F(Rules, ClearAdvantageIsNoneOfWhatTrainingLeavesOpen) {
