@@ -1,6 +1,7 @@
 #!/bin/sh
 # speed.sh: CPU seconds, on one thread, of a handful of diagnoses: records of the virtual stand of 40 s at 100 Hz with a second
-# one to judge by, some longer ones, and the real records where GLSUM_SHARED leads to them. Numbers, no verdict on them.
+# one to judge by, some shorter and longer ones, and the real records where GLSUM_SHARED leads to them. Samples are those of
+# both. Numbers, no verdict on them.
 # GLSUM: the program (build/host/cli/glsum).
 set -eu
 cd "$(dirname "$0")/.."
@@ -30,22 +31,25 @@ for set in backlash.gap=0.05 input_dead_zone.width=0.015; do
     stand --until-s 40 --set $set --experiment staircase --seed 1 --out "$folder/${set%%.*}_t.csv"
     stand --until-s 40 --set $set --experiment prbs --low-duty 0.02 --bit-s 0.5 --seed 2 --out "$folder/${set%%.*}_v.csv"
 done
-stand --until-s 80 --set backlash.gap=0.05 --experiment staircase --seed 1 --out "$folder/long_t.csv"
-stand --until-s 80 --set backlash.gap=0.05 --experiment prbs --low-duty 0.02 --bit-s 0.5 --seed 2 --out "$folder/long_v.csv"
+
+for until in 20 125; do
+    stand --until-s $until --set backlash.gap=0.05 --experiment staircase --seed 1 --out "$folder/${until}_t.csv"
+    stand --until-s $until --set backlash.gap=0.05 --experiment prbs --low-duty 0.02 --bit-s 0.5 --seed 2 --out "$folder/${until}_v.csv"
+done
 
 for kind in plain backlash input_dead_zone; do
     try "$kind, given model" --model "$folder/m.json" --log "$folder/${kind}_t.csv" --validate "$folder/${kind}_v.csv"
 done
-for form in fopdt sopdt niopdt; do
-    try "backlash, fit:$form" --model fit:$form --log "$folder/backlash_t.csv" --validate "$folder/backlash_v.csv"
-done
+try "backlash, fit:niopdt" --model fit:niopdt --log "$folder/backlash_t.csv" --validate "$folder/backlash_v.csv"
 try "plain, fit:sopdt" --model fit:sopdt --log "$folder/plain_t.csv" --validate "$folder/plain_v.csv"
-try "8000 samples, fit:sopdt" --model fit:sopdt --log "$folder/long_t.csv" --validate "$folder/long_v.csv"
+try "4000 samples, fit" --model fit --log "$folder/20_t.csv" --validate "$folder/20_v.csv"
+try "25000 samples, fit" --model fit --log "$folder/125_t.csv" --validate "$folder/125_v.csv"
 real=${GLSUM_SHARED:-none}/data/real
 if [ -d "$real" ]; then
-    try "real: heater, fit:fopdt" --model fit:fopdt --log "$real/heater.csv" --split 300
-    try "real: tanks, fit:sopdt" --model fit:sopdt --log "$real/tanks_train.csv" --validate "$real/tanks_validate.csv"
-    try "real: carriage, fit:integrator" --model fit:integrator --metric prediction --log "$real/carriage_train.csv" \
+    try "real: heater, fit" --model fit --domain thermal --log "$real/heater.csv" --split 300
+    try "real: tanks, fit" --model fit --domain hydraulic --log "$real/tanks_train.csv" --validate "$real/tanks_validate.csv"
+    try "real: carriage, fit" --model fit --domain mechanical --metric prediction --log "$real/carriage_train.csv" \
         --validate "$real/carriage_validate.csv"
-    try "real: propeller, fit:fopdt" --model fit:fopdt --log "$real/propeller.csv" --split 99
+    try "real: swing, fit" --model fit --domain mechanical --log "$real/swing_1.csv" --log "$real/swing_2.csv" \
+        --validate "$real/swing_3.csv"
 fi

@@ -13,6 +13,7 @@ constexpr double large = 0.03;        // of the greatest input: a move
 constexpr double at_the_end = 0.02;   // of the record's length
 constexpr double settling = 3.0;      // time constants
 constexpr double incredible = 0.006;  // so few true events begin with the input by chance
+constexpr double unfelt = 0.05;       // of the largest event: how long it lasts there says nothing
 
 double length_of(const Record& record) { return record.time_s.back() - record.time_s.front(); }
 
@@ -33,20 +34,30 @@ std::vector<double> moves_of(const Record& record) {
     return moves;
 }
 
+std::optional<double> number_of(const std::vector<FreeParameter>& own, const std::string& name) {
+    const auto found = std::find_if(own.begin(), own.end(), [&](const FreeParameter& one) { return one.name == name; });
+    return found == own.end() ? std::optional<double>() : found->value;
+}
+
+double largest_of(const std::string& effect, const Candidate& trained, const Candidate& validated) {
+    double largest = 0.0;
+    for (const Candidate* candidate : {&trained, &validated}) {
+        for (const auto& own : candidate->own) {
+            largest = std::max(largest, std::fabs(number_of(own, effect + ".size").value_or(0.0)));
+        }
+    }
+    return largest;
+}
+
 // A disturbance, or the first of some jumps; nothing: it was not found in this record.
 std::optional<Happening> happening_of(const std::vector<FreeParameter>& own, const std::string& effect) {
-    const auto value = [&](const char* name) {
-        const auto found = std::find_if(own.begin(), own.end(),
-                                        [&](const FreeParameter& one) { return one.name == effect + "." + name; });
-        return found == own.end() ? std::optional<double>() : found->value;
-    };
-    const auto from_s = value("from_s");
-    const auto at_s = value("at_s");
-    const auto size = value("size");
+    const auto from_s = number_of(own, effect + ".from_s");
+    const auto at_s = number_of(own, effect + ".at_s");
+    const auto size = number_of(own, effect + ".size");
     if ((!from_s && !at_s) || !size || *size == 0.0) {
         return std::nullopt;
     }
-    return Happening{from_s ? *from_s : *at_s, value("to_s")};
+    return Happening{from_s ? *from_s : *at_s, number_of(own, effect + ".to_s")};
 }
 
 }  // namespace
@@ -100,12 +111,15 @@ std::string doubt_of_events(const Study& study, const Candidate& trained, const 
         if (effect->kind != Kind::event) {
             continue;
         }
+        const double least_size = unfelt * largest_of(effect->name, trained, validated);
         std::vector<double> chances;
         for (const auto& [of, candidate] : {std::pair(&study, &trained), std::pair(&validation, &validated)}) {
             for (std::size_t r = 0; r < candidate->own.size(); ++r) {
                 const Record& record = of->courses[r].record();
                 const auto happening = happening_of(candidate->own[r], effect->name);
-                if (happening && lasts_throughout(record, *happening, settling_s)) {
+                const bool felt =
+                    std::fabs(number_of(candidate->own[r], effect->name + ".size").value_or(0.0)) >= least_size;
+                if (happening && felt && lasts_throughout(record, *happening, settling_s)) {
                     return fmt::format("{} of {} begins with the input and is still there at the end", effect->name,
                                        record.name);
                 }

@@ -75,7 +75,8 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     ranked.log_likelihood = 0.0;
     std::vector<std::vector<double>> left;
     const bool by_size = validation.base.refit && whitener.is_slow();
-    const double size = std::max(rms_of(validation, ranked.residuals), validation.least_deviation);
+    const double left_rms = rms_of(validation, ranked.residuals);
+    const double size = std::max(left_rms, validation.least_deviation);
     // Whitened residuals hardly know of slow ones. Of those each block of the records counts once.
     constexpr double blocks = 24.0;
     double samples = 0.0;
@@ -86,13 +87,14 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     for (std::size_t r = 0; r < ranked.residuals.size(); ++r) {
         const auto& residuals = ranked.residuals[r];
         // What lies within its step is not missed; noise far below a step leaves little else, which is coloured like
-        // any other remainder.
-        const bool fine = step > 0.0 && rms_of(validation, ranked.residuals) < 0.12 * step;
-        auto logs =
-            by_size ? log_of_slow(residuals, size, share_new)
-            : within_steps && !fine
-                ? log_mass(residuals, step)
-                : whitener.log_likelihood(residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
+        // any other remainder. So is what misses by many steps: no rounding does.
+        constexpr double fewest_steps = 0.12;
+        constexpr double most_steps = 8.0;
+        const bool rounded = within_steps && left_rms >= fewest_steps * step && left_rms <= most_steps * step;
+        auto logs = by_size   ? log_of_slow(residuals, size, share_new)
+                    : rounded ? log_mass(residuals, step)
+                              : whitener.log_likelihood(
+                                    residuals, spread_of(validation, ranked.candidate, r, residuals, whitener));
         // No reading tells more than which step it fell on, however well the one before it foresees that it stays
         // there.
         for (double& one : logs) {
@@ -109,7 +111,6 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     ranked.gap_after = rms_of(validation, left) / output_deviation(validation);
     ranked.gap_after = std::isfinite(ranked.gap_after) ? ranked.gap_after : Ranked::ran_away;
     // What ran away has no finite rms, and scores that are no numbers have no order.
-    const double left_rms = rms_of(validation, ranked.residuals);
     const double slow =
         std::max(std::isfinite(left_rms) ? left_rms : Ranked::ran_away, (within_steps ? 0.05 : 0.29) * step) /
         output_deviation(validation);

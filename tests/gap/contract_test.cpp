@@ -247,6 +247,7 @@ TEST(GapContract, AnEffectSaysWhatItIs) {
     EXPECT_THAT(those([](const gap::Effect& effect) { return effect.place == gap::Place::deployed; }),
                 ElementsAre("finite_memory", "single_precision", "fixed_point"));
     EXPECT_FALSE(gap::effect_named("backlash").domains.contains(gap::Domain::thermal));
+    EXPECT_FALSE(gap::effect_named("missed_counts").domains.contains(gap::Domain::hydraulic));
     EXPECT_TRUE(gap::effect_named("end_stop").domains.contains(gap::Domain::hydraulic));
     EXPECT_EQ(gap::effect_named("sensor_lag").domains, gap::all_domains());
     EXPECT_FALSE(gap::effect_named("cogging").domains.contains(gap::Domain::electric));

@@ -115,6 +115,22 @@ TEST(Likelihood, OfSteppedReadingsIsTheMassBeyondTheStep) {
     EXPECT_NEAR(one.log_likelihood, best, 1e-6);
 }
 
+// What misses by many steps is as likely with its steps as without: a mass that is too small to tell would be a floor.
+TEST(Likelihood, OfManyStepsIsNoRoundings) {
+    Made made;
+    constexpr double step = 0.002;
+    made.study.scales.quantum = step;
+    for (const double steps : {7.9, 8.1}) {
+        gap::Ranked plain = ranked(made, steps * step);
+        gap::judge(plain, made.study, white());
+        gap::Ranked stepped = plain;
+        stepped.candidate.effects = {&gap::effect_named("encoder_quantisation")};
+        stepped.candidate.lasting = {{}};
+        gap::judge(stepped, made.study, white());
+        EXPECT_EQ(stepped.log_likelihood == plain.log_likelihood, steps > 8.0) << steps;
+    }
+}
+
 // What a fitted form leaves is slow: its size is the evidence, as often as there is anything new in it.
 TEST(Likelihood, OfASlowMisfitGoesByItsSize) {
     const Made made(1, true);

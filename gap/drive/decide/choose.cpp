@@ -31,8 +31,10 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
     const double material = so_far == 0   ? of_first * before
                             : so_far == 1 ? std::min(further_share * closable, second_share * before)
                                           : further_share * closable;
+    // And where the form may leave as much itself there is nothing for it to explain.
     if (so_far > 0 && evidence.beside_form() && evidence.ranking[wider].trained.has_events() &&
-        !evidence.ranking[chosen].trained.has_events() && taken < further_share_of_an_event * before) {
+        !evidence.ranking[chosen].trained.has_events() &&
+        (taken < further_share_of_an_event * before || before < small_gap_of_a_form)) {
         return false;
     }
     return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material;

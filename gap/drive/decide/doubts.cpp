@@ -61,6 +61,34 @@ void doubt_events(const Evidence& evidence, Decision& decision) {
     decision.notes.push_back(fmt::format("{}: an event from outside does not", doubt));
 }
 
+// Whether a candidate has all effects of another.
+bool contains(const Candidate& wider, const Candidate& narrower) {
+    return std::all_of(narrower.effects.begin(), narrower.effects.end(),
+                       [&](const Effect* effect) { return wider.has(effect->name); });
+}
+
+// What cannot be named, and has nothing of what is named, says that it is none of the two.
+void doubt_what_is_outdone(const Evidence& evidence, Decision& decision) {
+    const Ranked& chosen = evidence.ranking[decision.chosen];
+    if (!evidence.beside_form() || decision.effects.empty() || !evidence.is_no_noise(chosen.gap_after)) {
+        return;
+    }
+    constexpr double of_what_is_left = 0.5;
+    for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
+        const Ranked& other = evidence.ranking[i];
+        if (other.score() > chosen.score() + clear_advantage && other.gap_after < of_what_is_left * chosen.gap_after &&
+            !contains(other.trained, chosen.trained) && !evidence.objection(i).empty()) {
+            decision.outcome = Outcome::unknown;
+            decision.effects.clear();
+            decision.at_most(0.7);
+            decision.notes.push_back(fmt::format("{} would bring the gap to {:.4f}, without {}, but {}",
+                                                 other.trained.name(), other.gap_after, chosen.trained.name(),
+                                                 evidence.objection(i)));
+            return;
+        }
+    }
+}
+
 void doubt_what_does_not_belong(const Evidence& evidence, Decision& decision) {
     constexpr double large = 0.6;
     constexpr double half = 0.5;
@@ -112,6 +140,12 @@ const Rule rule_of_events_from_outside{
     "events_from_outside",
     "What begins with the input, record after record, or lasts throughout is the drive's own, no event from outside.",
     doubt_events};
+
+const Rule rule_of_what_is_outdone{
+    "what_is_outdone",
+    "Where something that cannot be named goes clearly farther, without what is named, these records hold another "
+    "cause than that.",
+    doubt_what_is_outdone};
 
 const Rule rule_of_logs_of_another_drive{
     "logs_of_another_drive", "Where nothing explains half of the output, model and log may not belong together.",

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gap/drive/determined.hpp"
+#include "gap/drive/outside.hpp"
 
 namespace gap {
 namespace {
@@ -115,7 +116,9 @@ const std::string& Evidence::objection(std::size_t i) const {
             what = linear_of(trained);
         }
         if (what.empty() && beside_form() && trained.has_events()) {
-            what = objection_to_events(trained, ranking[i].candidate);
+            what = doubt_of_events(study, trained, validation, ranking[i].candidate);
+            what = what.empty() ? objection_to_events(trained, ranking[i].candidate)
+                                : what + ": an event from outside does not";
         }
     }
     return known_.objections.emplace(i, std::move(what)).first->second;

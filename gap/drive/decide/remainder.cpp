@@ -77,10 +77,20 @@ bool is_slow(const Evidence& evidence, const Decision& decision) {
            over_noise(evidence.study, rms_of(evidence.study, all_residuals(evidence.study, trained))) > much;
 }
 
+// What the plant integrates grows without end, and in a loop, where predictions are judged, the output itself is what
+// the loop leaves of disturbances. Else one of a quarter of all that the output does is more than noise: something acts
+// on the plant that the model lacks.
+bool is_small_for_a_disturbance(const Evidence& evidence, double gap) {
+    constexpr double a_quarter = 0.25;
+    const bool gathers = !evidence.study.scales.steady || evidence.study.horizon > 0;
+    return gathers || gap < a_quarter;
+}
+
 // Noise that the plant filters is slow. What a cause makes follows the input, or something listed takes a part of it.
 bool is_disturbance(const Evidence& evidence, const Decision& decision) {
     constexpr double a_part = 0.15;
-    return decision.noise_floor > (1.0 - a_part) * evidence.gap(decision.chosen) &&
+    const double after = evidence.gap(decision.chosen);
+    return decision.noise_floor > (1.0 - a_part) * after && is_small_for_a_disturbance(evidence, after) &&
            evidence.leaves_a_disturbance(decision.chosen);
 }
 

@@ -47,6 +47,7 @@ extern const Rule rule_of_few_alternatives;
 // doubts.cpp
 extern const Rule rule_of_fitted_forms;
 extern const Rule rule_of_events_from_outside;
+extern const Rule rule_of_what_is_outdone;
 extern const Rule rule_of_logs_of_another_drive;
 extern const Rule rule_of_inputs_that_never_move;
 extern const Rule rule_of_suspects;

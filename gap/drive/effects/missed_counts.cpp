@@ -116,6 +116,7 @@ const Effect& missed_counts() {
         .guess = guess,
         .place = Place::sensor,
         .numbers = {{"at_s"}, {"size"}, {"at2_s"}, {"size2"}, {"at3_s"}, {"size3"}},
+        .domains = {Domain::mechanical, Domain::electric},  // levels and temperatures are not counted
         .to_contract = to_contract,
         .from_contract = from_contract,
     };

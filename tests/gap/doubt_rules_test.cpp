@@ -1,0 +1,164 @@
+// Rules of the decision at their thresholds: what speaks against an answer.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rules_case.hpp"
+
+namespace {
+
+using gap::Outcome;
+using gap_test::Rules;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+TEST_F(Rules, FittedFormsLeaveDoubt) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    const std::size_t jump = add({"missed_counts"}, 0.5, 100.0);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    beside_a_form();
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    EXPECT_EQ(after("fitted_forms", attributed(jump)).confidence, 0.8);
+    // The more so the more is left that is no noise.
+    set_noise(0.01);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
+    ranking_[drag].gap_after = 0.2515;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
+    ranking_[drag].gap_after = 0.249;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.9);
+    ranking_[drag].gap_after = 0.1005;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.9);
+    ranking_[drag].gap_after = 0.0995;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.95);
+    set_noise(1.0);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    ranking_[drag].gap_after = 0.5;
+    known_.remainders[drag] = {0.4, true, {}};  // or can be foreseen
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
+}
+
+TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
+    const std::size_t load = add({"load_disturbance"}, 0.5, 100.0);
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 99.0);
+    const double length_s = ground_.study.scales.length_s;
+    auto more = gap::parameters_of(gap::effect_named("load_disturbance"), ground_.study.scales, 0);
+    for (gap::FreeParameter& one : more) {
+        one.value = one.name.ends_with("from_s") ? 0.0 : one.name.ends_with("to_s") ? length_s : 1.0;
+    }
+    auto& own = ranking_[load].trained.own[0];
+    own.insert(own.end(), more.begin(), more.end());
+    gap::Decision decision = after("events_from_outside", attributed(load));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_LE(decision.confidence, 0.7);
+    // What noise makes of a record that has no event is none.
+    const auto of_validation = [&](double size) {
+        auto& judged = ranking_[load].candidate.own[0];
+        judged.erase(judged.end() - static_cast<std::ptrdiff_t>(more.size()), judged.end());
+        for (gap::FreeParameter one : more) {
+            one.value = one.name.ends_with("from_s") ? 0.41 * length_s
+                        : one.name.ends_with("to_s") ? 0.6 * length_s
+                                                     : size;
+            judged.push_back(one);
+        }
+        return after("events_from_outside", attributed(load)).outcome;
+    };
+    ranking_[load].candidate.own[0].insert(ranking_[load].candidate.own[0].end(), more.begin(), more.end());
+    EXPECT_EQ(of_validation(19.9), Outcome::unknown);
+    EXPECT_EQ(of_validation(-20.1), Outcome::attributed);
+    of_validation(1.0);
+    gap::Decision both = attributed(load);
+    both.effects = {load, drag};
+    decision = after("events_from_outside", both);
+    EXPECT_EQ(decision.outcome, Outcome::attributed);
+    EXPECT_THAT(decision.effects, ElementsAre(drag));
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("an event from outside does not")));
+}
+
+// So that what lasts is asked in its place.
+TEST_F(Rules, EventsThatAreNoneCannotBeTakenBesideAForm) {
+    const std::size_t load = add({"load_disturbance"}, 0.5, 100.0);
+    beside_a_form();
+    known_.objections.erase(load);
+    const double length_s = ground_.study.scales.length_s;
+    const auto objection = [&](double from_s) {
+        for (gap::Candidate* candidate : {&ranking_[load].trained, &ranking_[load].candidate}) {
+            candidate->own = {gap::state_of(ground_.study, ground_.study.courses[0].record())};
+            for (gap::FreeParameter one :
+                 gap::parameters_of(gap::effect_named("load_disturbance"), ground_.study.scales, 0)) {
+                one.value = one.name.ends_with("from_s") ? from_s : one.name.ends_with("to_s") ? length_s : 0.1;
+                candidate->own[0].push_back(one);
+            }
+        }
+        return evidence().objection(load);
+    };
+    EXPECT_THAT(objection(0.0), HasSubstr("still there at the end: an event from outside does not"));
+    EXPECT_THAT(objection(0.63 * length_s), Not(HasSubstr("from outside does not")));
+}
+
+TEST_F(Rules, WhatCannotBeNamedOutdoesWhatIs) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    const std::size_t jump = add({"missed_counts"}, 0.249, 100.0);
+    const std::size_t with_it = add({"quadratic_drag", "missed_counts"}, 0.1, 200.0);
+    known_.objections[jump] = known_.objections[with_it] = "every record needs one of its own";
+    const auto outcome = [&] { return after("what_is_outdone", attributed(drag)).outcome; };
+    const auto lead = [&](double advantage) {
+        ranking_[jump].by_sample.assign(samples, advantage / samples);
+        ranking_[jump].log_likelihood = advantage;
+    };
+    beside_a_form();
+    set_noise(0.01);
+    lead(107.9);
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    lead(108.1);
+    const gap::Decision decision = after("what_is_outdone", attributed(drag));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("missed_counts would bring the gap to 0.2490, without")));
+    EXPECT_EQ(after("suspects", decision).suspect, drag);
+    ranking_[jump].gap_after = 0.251;
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    ranking_[jump].gap_after = 0.249;
+    known_.objections[jump] = "";  // what can be named is an alternative, or was chosen
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    known_.objections[jump] = "every record needs one of its own";
+    set_noise(0.1);  // where noise is left it is no other cause
+    EXPECT_EQ(outcome(), Outcome::attributed);
+}
+
+TEST_F(Rules, LogsOfAnotherDriveAreExplainedByNothing) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.502, 100.0);
+    const gap::Decision decision = after("logs_of_another_drive", attributed(drag, 0.602));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_EQ(decision.confidence, 0.3);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("do model and log belong together?")));
+    EXPECT_EQ(after("logs_of_another_drive", attributed(drag, 0.598)).outcome, Outcome::attributed);
+    ranking_[drag].gap_after = 0.498;
+    EXPECT_EQ(after("logs_of_another_drive", attributed(drag, 0.602)).outcome, Outcome::attributed);
+}
+
+TEST_F(Rules, InputsThatNeverMoveTellOneStep) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    EXPECT_EQ(after("inputs_that_never_move", attributed(drag)).confidence, 0.97);
+    gap::Question question = gap_test::question_of({}, {.seed = 33}, {.seed = 34});
+    for (double& u : question.train[0].input) {
+        u = 0.1;
+    }
+    ground_ = gap::prepare(question);
+    const gap::Decision decision = after("inputs_that_never_move", attributed(drag));
+    EXPECT_EQ(decision.confidence, 0.5);
+    EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("the input never moves")));
+}
+
+TEST_F(Rules, SuspectsAreWhatLeadsAnUnknown) {
+    add({"quadratic_drag"}, 0.952, 100.0);
+    const std::size_t open = add({"backlash"}, 0.5, 100.0);
+    const std::size_t sag = add({"supply_sag"}, 0.949, 100.0);
+    known_.objections[open] = "open";
+    gap::Decision unknown;
+    unknown.outcome = Outcome::unknown;
+    EXPECT_EQ(after("suspects", unknown).suspect, sag);
+    unknown.chosen = open;  // what was chosen and then doubted
+    EXPECT_EQ(after("suspects", unknown).suspect, open);
+    EXPECT_FALSE(after("suspects", attributed(sag)).suspect);
+}
+
+}  // namespace
