@@ -48,15 +48,12 @@ std::string place(const toml::node& node) {
 }
 
 Mark mark_named(const toml::node& node, const std::string& name) {
-    static const std::map<std::string, Mark> marks{{"measured", Mark::measured},
-                                                   {"documented", Mark::documented},
-                                                   {"fitted", Mark::fitted},
-                                                   {"assumed", Mark::assumed}};
-    const auto mark = marks.find(name);
-    if (mark == marks.end()) {
-        reject(node, "expected a mark, measured, documented, fitted or assumed; found " + name);
+    for (const Mark mark : {Mark::measured, Mark::documented, Mark::fitted, Mark::assumed}) {
+        if (name_of(mark) == name) {
+            return mark;
+        }
     }
-    return mark->second;
+    reject(node, "expected a mark, measured, documented, fitted or assumed; found " + name);
 }
 
 std::string text_of(const toml::table& table, const char* key) {
@@ -273,6 +270,12 @@ Place place_named(const std::string& name) {
         }
     }
     throw Failure(Exit::bad_input, "place: expected itcm, dtcm, flash or axi, found " + name);
+}
+std::string name_of(Mark mark) {
+    return mark == Mark::measured     ? "measured"
+           : mark == Mark::documented ? "documented"
+           : mark == Mark::fitted     ? "fitted"
+                                      : "assumed";
 }
 std::string name_of(Core core) { return core == Core::cortex_m4 ? "cortex-m4" : "cortex-m7"; }
 std::string name_of(Place place) {

@@ -33,6 +33,8 @@ enum class Mark : std::uint8_t {
     assumed,     ///< nothing says so; chosen as plausible
 };
 
+[[nodiscard]] std::string name_of(Mark mark);
+
 /// A figure's origin.
 struct Origin {
     std::string key;  ///< "section.name"

@@ -12,20 +12,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* word_of(timing::Mark mark) {
-    switch (mark) {
-        case timing::Mark::measured:
-            return "measured";
-        case timing::Mark::documented:
-            return "documented";
-        case timing::Mark::fitted:
-            return "fitted";
-        case timing::Mark::assumed:
-            return "assumed";
-    }
-    return "";
-}
-
 struct Figure {
     std::string key;
     std::int64_t value;
@@ -93,7 +79,7 @@ Json cores(const std::filesystem::path& folder) {
         for (const timing::Origin& origin : core.origins) {
             figures.push_back({{"key", origin.key},
                                {"value", origin.value},
-                               {"mark", word_of(origin.mark)},
+                               {"mark", timing::name_of(origin.mark)},
                                {"source", origin.source},
                                {"file", std::filesystem::path(origin.file).filename().string()}});
         }
