@@ -39,7 +39,8 @@ printf '%s\n' kernel,code,data,maintenance,taps,cycles >"$folder/two.csv"
 sed -n '/^shift.*,dtcm,0,[0-9]*,[0-9]*$/p' "$published" | sed 's/flash_cached/itcm/' | awk -F, 'BEGIN { OFS = "," } { $6 += 13; print }' >>"$folder/two.csv"
 expect 0 "attributed" diagnose cycles --measured "$folder/two.csv" --core stm32f746-itcm --json "$verdict"
 [ "$(grep -c '"gap_before": ' "$verdict")" -eq 1 ] && has '"effect": "call_overhead"' || fail "expected the overhead alone; found $(cat "$folder/said")"
-grep -q '^call_overhead  *24 cycles  *21.5 to 26.5' "$folder/said" || fail "expected an interval; found $(grep '^call' "$folder/said")"
+# With GCC 12's code 24, 21.5 to 26.5; another compiler's lies beside the published rows by some cycles more.
+awk '/^call_overhead/ { found = $4 < 24.1 && $6 > 23.9 && $4 < $6 && $2 > 21 && $2 < 27 } END { exit !found }' "$folder/said" || fail "expected an interval; found $(grep '^call' "$folder/said")"
 
 # A Cortex-M4's log, as `silicon --core stm32h747-m4` predicts it: another core, whatever clock would explain it.
 printf '%s\n' kernel,code,data,maintenance,taps,cycles \

@@ -11,7 +11,7 @@ fail() { echo "$*"; failures=$((failures + 1)); }
 "$source/cli/help.sh" "$programs" "$folder/help" || fail "cli/help.sh"
 cp "$source/cli/help/glsum-test" "$folder/help/"
 diff -r "$source/cli/help" "$folder/help" || fail "cli/help is not what the programs say; cli/help.sh build/host/cli writes it anew"
-! grep -rl "$source\|$HOME/" "$source/cli/help" || fail "a page names a folder of this machine"
+! grep -rl "$source/\|$HOME/" "$source/cli/help" || fail "a page names a folder of this machine"
 
 # Every command has its line in the list, its page and its example; each program its line.
 sed '/^ *#/d; /^ *$/d; s/ *|.*//' "$source/cli/commands" >"$folder/commands"
