@@ -142,11 +142,41 @@ std::string ranges(const std::vector<Fronts>& all) {
                        base::log_range(std::max(best->second, least_error), std::max(worst->second, least_error)));
 }
 
+// What the picture shows, in a sentence: of each cost how many times it is, in the median of the orders.
+class Message {
+public:
+    void add(const std::vector<Fronts>& all, const Cost& cost) {
+        std::vector<double> ratios;
+        for (const Fronts& fronts : all) {
+            for (const Gain& gain : fronts.gains) {
+                const auto ratio = factor(gain, cost);
+                if (gain.limit == told_limit && ratio) {
+                    ratios.push_back(*ratio);
+                }
+            }
+        }
+        if (!ratios.empty()) {
+            std::ranges::sort(ratios);
+            const double median = ratios[ratios.size() / 2];
+            parts_.push_back(fmt::format("{:.{}f} times the {}", median, median < 10.0 ? 1 : 0, base::gnuplot_text(cost.title)));
+        }
+    }
+    [[nodiscard]] std::string text() const {
+        return parts_.empty() ? "" : fmt::format("At an error of 1e-4 the best window takes {}, in the median of the orders\\n",
+                                                 fmt::join(parts_, " and "));
+    }
+
+private:
+    static constexpr double told_limit = 1e-4;
+    std::vector<std::string> parts_;
+};
+
 }  // namespace
 
 void plot_gains(const std::filesystem::path& stem, const std::vector<CurvePoint>& points,
                 const std::vector<Cost>& costs) {
     const std::vector<CurvePoint> classic = classic_points(points, costs);
+    Message message;
     std::string panels;
     std::size_t drawn = 0;
     std::size_t columns = 1;
@@ -155,6 +185,7 @@ void plot_gains(const std::filesystem::path& stem, const std::vector<CurvePoint>
         const std::vector<Fronts> all = fronts_over(classic, points, costs, c);
         columns = std::min<std::size_t>(3, all.size());
         panels += ranges(all);
+        message.add(all, costs[c]);
         for (std::size_t i = 0; i < all.size(); ++i) {
             const std::string text = panel(all[i], costs[c], i % columns == 0, key);
             key = key && text.find("keyentry") == std::string::npos;
@@ -173,11 +204,11 @@ void plot_gains(const std::filesystem::path& stem, const std::vector<CurvePoint>
     std::transform(marked_limits.begin(), marked_limits.end(), std::back_inserter(marks), power);
     const std::string head = fmt::format(
         "key_at = {:.4f}\nset multiplot layout {},{} margins 0.06,0.985,{:.4f},{:.4f} spacing 0.05,{:.4f} "
-        "title \"Grünwald-Letnikov sum: Pareto fronts of error and cost, before and after\\n"
+        "title \"{}Grünwald-Letnikov sum: Pareto fronts of error and cost, before and after\\n"
         "Worst of the signals; errors below {} are not shown; arrows: how many times the cost, at errors of {}\"\n"
         "set logscale xy\nset format xy \"10^{{%L}}\"\nset xtics nomirror\nset ytics nomirror\nset mytics 1\n"
         "set grid lc rgb \"#dddddd\"\n",
-        1.0 - share(62), rows, columns, share(50), 1.0 - share(92), share(60), power(least_error),
+        1.0 - share(62), rows, columns, share(50), 1.0 - share(92), share(60), message.text(), power(least_error),
         fmt::join(marks, ", "));
     base::draw({head + panels + "unset multiplot\n", 1200, height}, stem);
 }
