@@ -47,7 +47,7 @@ library_of() {
         bench/studies/horizons.cpp | bench/studies/model*.cpp | bench/studies/records.cpp) echo bench/libglsum_drive_studies.a ;;
         bench/studies/bands*) echo bench/libglsum_band_study.a ;;
         bench/studies/*) echo bench/libglsum_studies.a ;;
-        bench/report/best.cpp | bench/report/curves.cpp | bench/report/front_table.cpp | bench/report/table.cpp | bench/report/plot.cpp | bench/report/discretisation_table.cpp) echo bench/libglsum_shown.a ;;
+        bench/report/best.cpp | bench/report/curves.cpp | bench/report/front_table.cpp | bench/report/table.cpp | bench/report/plot.cpp | bench/report/plot_message.cpp | bench/report/discretisation_table.cpp) echo bench/libglsum_shown.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/report/*) echo bench/libglsum_report.a ;;
@@ -79,7 +79,7 @@ tests_of() {
         bench/choose/*) echo choose_tests ;;
         bench/generate/controller/* | bench/generate/model/* | bench/generate/stepper/*) echo controller_tests ;;
         bench/generate/*) echo choose_tests make_headers ;;
-        bench/report/table.* | bench/report/plot.* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
+        bench/report/table.* | bench/report/plot* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
         bench/report/*) echo bench_tests browser_tests ;;
         bench/studies/horizon* | bench/studies/model* | bench/studies/record*) echo studies_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
