@@ -16,6 +16,7 @@
 #include "base/failure.hpp"
 #include "base/gnuplot.hpp"
 #include "bench/report/curves.hpp"
+#include "bench/report/plot_message.hpp"
 #include "bench/studies/equal_cost.hpp"
 
 namespace {
@@ -183,6 +184,22 @@ TEST_F(Drawing, OfErrorsHasAPanelForEachOrderAndKind) {
                   "of at most 9 taps and modes errs by 0.001 to 0.001\\nGrünwald-Letnikov sum"));
     bench::plot_error(groups(), {}, stem());
     EXPECT_THAT(sent(), Not(HasSubstr("truncation bound")));
+}
+
+// Of an order the best counts, of orders the range; designs no shorter than a window, and faults, do not.
+TEST(PlotMessage, SaysWhatTheLongestWindowForgetsAndShortDesignsLeave) {
+    Entry wrong = entry("w_f32", 1e-12, {}, 0.0);
+    wrong.fault = "wrong";
+    EXPECT_EQ(
+        bench::plot_message({{"0.5", "50", {entry("a_f32", 0.5, {}, 0.5)}},
+                             {"0.5", "600", {entry("a_f32", 0.25, {}, 0.25), entry("b_f32", 0.1, {}, 0.1)}},
+                             {"0.9", "600", {entry("a_f32", 0.02, {}, 0.02)}},
+                             {"0.9", "full", {entry("a_f32", 1e-15, {}, 1e-15)}},
+                             {"0.5", "2+7", {entry("c_f32", 1e-3, {}, 0.0), entry("d_f32", 1e-4, {}, 0.0), wrong}},
+                             {"0.9", "2+9", {entry("c_f32", 1e-5, {}, 0.0)}},
+                             {"0.9", "20+30", {entry("c_f32", 1e-9, {}, 0.0)}}}),
+        "The best window of 600 taps forgets 0.02 to 0.1 of the largest sum, by the order; the best of at most 11 "
+        "taps and modes errs by 1e-05 to 0.0001\\n");
 }
 
 // Their points are faint; the line is the best window's, and no line joins a design with modes.
