@@ -64,25 +64,24 @@ constexpr bool can_generate<glsum::Sum<H, T, F>> =
                                                                    glsum::Q15, glsum::Q15C31>;
 
 template <class Technique, class Format>
-TechniqueText text_of(const HistoryText& history, std::size_t past, const std::vector<int>& shifts) {
+TechniqueText text_of(const glsum::CatalogueEntry& kernel, const HistoryText& history, std::size_t past,
+                      const std::vector<int>& shifts) {
     using namespace glsum;
     constexpr bool f32 = std::is_same_v<Format, F32>;
     constexpr bool in_software = std::is_same_v<typename Format::Accumulator, double>;
     if constexpr (is_worded<Technique>) {
-        return worded_text(Technique::word, Technique::summary, history, Technique::word.ends_with("fma"),
-                           std::is_same_v<Format, Q15C31>);
+        return worded_text(kernel.unfused, Technique::summary, history, kernel.fused, std::is_same_v<Format, Q15C31>);
     } else if constexpr (one_of<Technique, Multi, MultiFma>) {
-        constexpr bool fused = std::is_same_v<Technique, MultiFma>;
-        return multi_text(history, past, fused, in_software,
+        return multi_text(history, past, kernel.fused, in_software,
                           std::is_same_v<Format, Q31> ? "dot_smlal"
-                          : f32 && !fused             ? "dot_floats"
+                          : f32 && !kernel.fused      ? "dot_floats"
                                                       : "");
     } else if constexpr (one_of<Technique, Horner, HornerFma>) {
-        return horner_text(history, std::is_same_v<Technique, HornerFma>, in_software);
+        return horner_text(history, kernel.fused, in_software);
     } else if constexpr (one_of<Technique, HornerSplit, HornerSplitFma>) {
-        return horner_split_text(history, past, std::is_same_v<Technique, HornerSplitFma>);
+        return horner_split_text(history, past, kernel.fused);
     } else if constexpr (one_of<Technique, Fir, FirFma>) {
-        return fir_text(std::is_same_v<Technique, FirFma>, !f32);
+        return fir_text(kernel.fused, !f32);
     } else if constexpr (std::is_same_v<Technique, Scaled>) {
         return scaled_text(past, shifts);
     } else {
@@ -148,6 +147,7 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
     using Format = typename K::FormatPart;
     using Sample = typename K::Sample;
     using Output = typename K::Output;
+    const glsum::CatalogueEntry& kernel = *glsum::find_kernel(K::name());
     constexpr bool has_modes = glsum::keeps_modes<typename K::HistoryPart>;
     constexpr bool increments = glsum::keeps_increments<typename K::HistoryPart>;
     const bench::Length length =
@@ -219,17 +219,16 @@ KernelData describe(double order, std::size_t taps, std::size_t horizon, const g
         }
     } else if constexpr (std::is_same_v<typename K::HistoryPart, glsum::Block>) {
         data.groups = glsum::Block::groups(past);
-        data.technique_text = block_text(K::fused, Format::fixed_point);
+        data.technique_text = block_text(kernel.fused, Format::fixed_point);
     } else if constexpr (glsum::keeps_blocks<typename K::HistoryPart>) {
         data.has_blocks = true;
         data.technique_text =
             nested_text(data.past, data.blocks, Format::fixed_point, std::is_same_v<Format, glsum::F64>);
         data.design_error = glsum::design::design_blocks({order, horizon}, taps).error;
     } else if constexpr (states_its_sum<typename K::HistoryPart>) {
-        data.technique_text =
-            stated_sum_text(K::HistoryPart::word, Technique::summary, Technique::word.ends_with("fma"));
+        data.technique_text = stated_sum_text(K::HistoryPart::word, Technique::summary, kernel.fused);
     } else {
-        data.technique_text = text_of<Technique, Format>(data.history_text, past, shifts);
+        data.technique_text = text_of<Technique, Format>(kernel, data.history_text, past, shifts);
     }
     if constexpr (Format::fixed_point) {
         data.scale = {Format::sample_bits, Format::coefficient_bits, state.scale.table_exponent,

@@ -71,7 +71,7 @@ struct FormatText {
 /// A window of `past` samples and a guess of what it dropped; with `to_first` on the line to the first sample.
 [[nodiscard]] HistoryText guess_text(const HistoryText& window, std::size_t past, bool to_first);
 
-/// Of a technique whose texts bear its word. \param mixed  samples of half a word, coefficients of a whole one
+/// Of a technique whose texts bear its unfused word. \param mixed  samples of half a word, coefficients of a whole one
 [[nodiscard]] TechniqueText worded_text(std::string_view word, std::string_view summary, const HistoryText& history,
                                         bool fused, bool mixed);
 /// \param in_software  sums in double, which takes calls on some targets \param m7  the loop that gives the same bits;

@@ -51,7 +51,7 @@ std::string unrolled(int turns) {
 // are known to lie.
 TechniqueText worded_text(std::string_view word, std::string_view summary, const HistoryText& history, bool fused,
                           bool mixed) {
-    const std::string name(fused ? word.substr(0, word.rfind("fma")) : word);
+    const std::string name(word);
     Words words = of(fused);
     words["add("] = "@name@_add(&sum, &lost, ";
     const bool oldest_first = place_of(name + " older") < place_of(name + " newer");

@@ -153,7 +153,7 @@ std::optional<RowKey> parse_key(std::string_view name) {
 
 std::string number_format_of(const std::string& kernel) {
     const glsum::CatalogueEntry* const entry = glsum::find_kernel(kernel);
-    return entry != nullptr ? std::string(entry->format) : kernel.substr(kernel.rfind('_') + 1);
+    return entry != nullptr && !entry->format.empty() ? std::string(entry->format) : "unknown";
 }
 
 bool is_window(std::string_view taps) { return taps.find('+') == taps.npos; }

@@ -64,8 +64,8 @@ inline constexpr const char* count_only = "count";
 /// The same of a sum's row alone: what tables, fronts and choices are made of.
 [[nodiscard]] std::optional<RowKey> parse_key(std::string_view name);
 
-/// The word of a kernel's number format: the catalogue's; of a peer and of another program's kernel, which are not
-/// there, the last word of the name.
+/// The word of a kernel's number format: the catalogue's, which alone knows; "unknown" of a kernel that is not there,
+/// such as another program's or another version's.
 [[nodiscard]] std::string number_format_of(const std::string& kernel);
 
 /// "gl/<kernel>/order:<v>/taps:<L>": what all rows of a kernel, order and length share.

@@ -206,11 +206,13 @@ TEST(PlotMessage, SaysWhatTheLongestWindowForgetsAndShortDesignsLeave) {
 TEST_F(Drawing, OfMoreKernelsThanColoursHasForEachFormatTheBestWindowAsALine) {
     Group many{"0.5", "50", {}};
     double error = 0.5;
-    for (const char* kernel : {"a_f32", "b_f32", "c_q15", "d_q15", "e_f64", "f_f32", "g_f32", "h_f32", "i_f64"}) {
+    for (const char* kernel :
+         {"ring_plain_f32", "ring_oldest_f32", "ring_plain_q15", "shift_fir_q15", "shift_plain_f64", "ring_multi_f32",
+          "mirror_multi_f32", "shift_plain_f32", "ring_horner_f64"}) {
         many.entries.push_back(entry(kernel, error, error / 2.0, 0.125));
         error /= 2.0;
     }
-    Group close{"0.5", "20+20", {entry("a_f32", 1e-3, 0.25, 0.25)}};  // 40: too near to 50 for a mark
+    Group close{"0.5", "20+20", {entry("ring_plain_f32", 1e-3, 0.25, 0.25)}};  // 40: too near to 50 for a mark
     bench::plot_error({many, close}, {}, stem());
     const std::string text = sent();
     EXPECT_EQ(count_of(text, "title \"f32\""), 2U);  // once a panel
@@ -225,7 +227,7 @@ TEST_F(Drawing, OfMoreKernelsThanColoursHasForEachFormatTheBestWindowAsALine) {
     many.entries.pop_back();  // eight have one each
     bench::plot_error({many}, {}, stem());
     const std::string few = sent();
-    EXPECT_EQ(count_of(few, "title \"h_f32\""), 2U);
+    EXPECT_EQ(count_of(few, "title \"shift_plain_f32\""), 2U);
     EXPECT_THAT(few, Not(HasSubstr("best window of")));
 }
 
@@ -280,12 +282,12 @@ TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
         made.bytes = bytes;
         return made;
     };
-    Entry wrong = costed("a_f32", 1e-9, 1.0, 1.0);
+    Entry wrong = costed("ring_plain_f32", 1e-9, 1.0, 1.0);
     wrong.fault = "wrong";
     const std::vector<Group> all = {
-        {"0.5", "50", {costed("a_f32", 0.25, 20.0, 400.0), costed("b_q15", 0.5, 30.0, 100.0), wrong}},
-        {"0.5", "100", {costed("a_f32", 0.125, 40.0, 800.0)}},
-        {"0.9", "50", {costed("a_f32", 0.75, 20.0, 400.0), entry("c_f64", 0.5, 0.5, 0.0)}}};
+        {"0.5", "50", {costed("ring_plain_f32", 0.25, 20.0, 400.0), costed("ring_plain_q15", 0.5, 30.0, 100.0), wrong}},
+        {"0.5", "100", {costed("ring_plain_f32", 0.125, 40.0, 800.0)}},
+        {"0.9", "50", {costed("ring_plain_f32", 0.75, 20.0, 400.0), entry("shift_plain_f64", 0.5, 0.5, 0.0)}}};
     const auto costs = bench::report::costs_of(all);
     std::vector<std::string> names;
     for (const auto& cost : costs) {

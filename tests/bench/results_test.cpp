@@ -39,6 +39,14 @@ const bench::Entry& entry(const std::vector<bench::Group>& groups, const std::st
     throw std::runtime_error("no entry " + kernel);
 }
 
+TEST(Results, TheCatalogueAloneKnowsTheFormatOfAKernel) {
+    EXPECT_EQ(bench::number_format_of("ring_plain_q31"), "q31");
+    EXPECT_EQ(bench::number_format_of("mirror_smlaldshaped_q15"), "q15");
+    for (const char* foreign : {"null", "fir", "another_program_q31", "ring_plain_f33", "ring_plain_f32_", ""}) {
+        EXPECT_EQ(bench::number_format_of(foreign), "unknown") << foreign;
+    }
+}
+
 TEST(Results, NamesAreShortestRoundTripAndReadBack) {
     EXPECT_EQ(to_name(bench::row_key("ring_plain_f32", 0.98319, {600}, "host")),
               "gl/ring_plain_f32/order:0.98319/taps:600/host");
