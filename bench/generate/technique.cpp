@@ -86,7 +86,9 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
         if (piece == "newer" || history.two_pieces) {
             Words of_piece = words;
             of_piece.insert({{"samples", piece}, {"count", piece + "_count"}, {"chains", "4U"}});
-            sum += "    {\n" + shared("multi piece", of_piece, 8) + "    }\n";
+            sum += "    {\n" + shared("multi piece", of_piece, 8) +
+                   (past < 4 ? "" : shared("multi groups", of_piece, 8)) + shared("multi rest", of_piece, 8) +
+                   "    }\n";
         }
     }
     const bool on_m7 = !m7.empty() && past >= 16;  // a shorter loop over a constant costs less than to enter the other
@@ -97,11 +99,11 @@ TechniqueText multi_text(const HistoryText& history, std::size_t past, bool fuse
                            (floats ? "    s0 = s[0];\n    s1 = s[1];\n    s2 = s[2];\n    s3 = s[3];\n" : ""),
                        sum);
     }
-    // Unrolled wholly, GCC 12 loads between fused products, each of which holds off the loads behind it. Of fewer than
-    // four it warns of groups that are not there.
-    const Hidden hidden = past < 4               ? Hidden{"past", "samples", "table"}
-                          : fused || in_software ? Hidden{"past"}
-                                                 : Hidden{};
+    // Unrolled wholly, GCC 12 loads between fused products, each of which holds off the loads behind it. Of two pieces
+    // with fewer than four it warns of samples that are not there.
+    const Hidden hidden = past < 4 && history.two_pieces ? Hidden{"past", "samples", "table"}
+                          : fused || in_software         ? Hidden{"past"}
+                                                         : Hidden{};
     return {.summary = "newest first, four accumulators in turn" + rounded_once(fused),
             .sum = window_of(history, hidden) + shared("multi") + sum,
             .closing = shared("multi closing"),

@@ -88,6 +88,12 @@ void FirmwareTest::expect_the_bits_of_this_machine() {
             }
         }
     }
+    // Loops of a core's own: each place where a turn may be entered, each rest, several turns.
+    for (const char* kernel : {"mirror_multi_f32", "mirror_multi_q31", "mirror_smlald_q15", "mirror_hornersplit_f32"}) {
+        for (std::size_t taps = 4; taps <= 150; ++taps) {
+            plan.push_back({kernel, 0.5, taps, 6, 2 * taps});
+        }
+    }
     // In parts that the firmware has room for.
     std::vector<qemu::ReplayedRow> rows;
     constexpr std::size_t at_once = 6000;

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #if defined(__ARM_ARCH_7EM__) && defined(__GNUC__) && !defined(__PIC__)
-/// Where there are loops in the order of a Cortex-M7's issue slots: the same sums, bit by bit.
+/// Where there are loops in the order that a Cortex-M7 or Cortex-M4 loses least in: the same sums, bit by bit.
 #define GLSUM_M7
 #include "glsum/window/m7/dot_words.h"
 #if defined(__ARM_FP) && (__ARM_FP & 4)

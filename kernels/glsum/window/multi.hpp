@@ -75,12 +75,14 @@ protected:
         const auto add_piece = [&](const Sample* samples, std::size_t count) {
             // C99: multi piece
             std::size_t i = 0;
+            // C99: multi groups
             for (; i + chains <= count; i += chains) {
                 s0 = accumulate<Format, fused>(s0, table[i], samples[i]);
                 s1 = accumulate<Format, fused>(s1, table[i + 1], samples[i + 1]);
                 s2 = accumulate<Format, fused>(s2, table[i + 2], samples[i + 2]);
                 s3 = accumulate<Format, fused>(s3, table[i + 3], samples[i + 3]);
             }
+            // C99: multi rest
             if (i < count) {
                 s0 = accumulate<Format, fused>(s0, table[i], samples[i]);
             }
