@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -48,12 +49,27 @@ private:
         if (shown) {
             progress.emplace("shortest lengths", choice_.kernels.size());
         }
-        base::parallel_for(choice_.kernels.size(), jobs_, [&](std::size_t i) {
-            find_length(choice_.kernels[i]);
+        const std::vector<std::size_t> turns = in_turns();
+        base::parallel_for(turns.size(), jobs_, [&](std::size_t i) {
+            find_length(choice_.kernels[turns[i]]);
             if (progress) {
                 progress->advance();
             }
         });
+    }
+
+    // The first of each group, then the second of each: threads that share no work.
+    [[nodiscard]] std::vector<std::size_t> in_turns() const {
+        std::map<std::string, std::size_t> seen;
+        std::multimap<std::size_t, std::size_t> by_place;
+        for (std::size_t i = 0; i < choice_.kernels.size(); ++i) {
+            by_place.emplace(seen[errors_.group(choice_.kernels[i].kernel)]++, i);
+        }
+        std::vector<std::size_t> turns;
+        for (const auto& [place, kernel] : by_place) {
+            turns.push_back(kernel);
+        }
+        return turns;
     }
 
     void find_length(Outcome& outcome) {

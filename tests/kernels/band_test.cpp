@@ -91,6 +91,18 @@ TEST(FittedFilter, OnePoleThatSwingsIsWorthSeveral) {
     }
 }
 
+TEST(FittedFilter, WhatAmplifiesTooMuchIsNotTheBetterOne) {
+    FittedFilter calm{1.0, {}, {}, {0.1, 1.0, 0.0, 0.0}, FilterKind::samples, 2.0};
+    FittedFilter loud{1.0, {}, {}, {0.01, 1.0, 0.0, 0.0}, FilterKind::samples, 9.0};
+    EXPECT_EQ(&better_of(calm, loud), &calm);
+    loud.amplification = 7.0;
+    EXPECT_EQ(&better_of(calm, loud), &loud);
+    EXPECT_EQ(&better_of(loud, calm), &loud);
+    const FittedFilter fitted = fit_filter(goal_of(0.5, 0.8, 80.0, 0.0), 1, 4, FilterKind::samples);
+    EXPECT_GT(fitted.amplification, 0.5);
+    EXPECT_LE(fitted.amplification, 8.0);
+}
+
 TEST(FittedFilter, IsWhatItsErrorSays) {
     const DerivativeGoal goal = goal_of(0.5, 0.05, 80.0, 60.0);
     const FittedFilter fitted = fit_filter(goal, 1, 5, FilterKind::samples);

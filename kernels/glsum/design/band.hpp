@@ -19,7 +19,8 @@ namespace glsum::design {
 /// Which poles a filter may have.
 enum class Poles {
     decaying,       ///< in [0, 1): what every kernel with modes holds
-    one_may_swing,  ///< one may lie in (-0.9, 0): floating point alone. Of v towards 1 it is worth several others
+    one_swings,     ///< one lies in (-0.9, 0): floating point alone. Of v towards 1 it is worth several others
+    one_may_swing,  ///< the better of both
 };
 
 /// A filter for a goal, as what a kernel's design names: D_k = factor S_k with S_k of these weights and modes.
@@ -29,6 +30,8 @@ struct FittedFilter {
     std::vector<Mode> modes;      ///< slowest first; of an integrator the first does not decay
     DerivativeError error;        ///< of the filter in double, at the points of a search
     FilterKind kind = FilterKind::samples;
+    /// What rounding is multiplied by: the magnitudes of all coefficients, in units of the order's own weights'.
+    double amplification = 0.0;
 
     /// Of the samples, in units of the derivative.
     [[nodiscard]] Filter filter() const;
@@ -37,7 +40,16 @@ struct FittedFilter {
 /// \param near_taps  K >= 1
 /// \param modes      M; none: a window fitted to the goal; of an integrator M >= 1
 /// A tap that no point of the goal shows is that of the order's own weights. The same arguments give the same filter.
+/// \pre of `one_swings` a mode that may move: M >= 1, of an integrator M >= 2
 [[nodiscard]] FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes,
                                       FilterKind kind, Poles poles = Poles::decaying);
+
+/// How many of a filter's poles are sought: all modes but an integrator's running sum.
+[[nodiscard]] constexpr std::size_t moving_poles(std::size_t modes, FilterKind kind) {
+    return modes - (kind == FilterKind::integrator ? 1 : 0);
+}
+
+/// The one that errs less, of those that do not amplify too much.
+[[nodiscard]] const FittedFilter& better_of(const FittedFilter& decaying, const FittedFilter& swinging);
 
 }  // namespace glsum::design
