@@ -89,4 +89,7 @@ private:
     std::size_t remembered_ = 0;
 };
 
+/// Places in `kernels`, the first of each group first, then the second of each: neighbours share no work.
+[[nodiscard]] std::vector<std::size_t> turns_of(const ErrorSource& errors, const std::vector<std::string>& kernels);
+
 }  // namespace choose

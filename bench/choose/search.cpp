@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <utility>
 
 #include "base/parallel.hpp"
@@ -49,27 +48,17 @@ private:
         if (shown) {
             progress.emplace("shortest lengths", choice_.kernels.size());
         }
-        const std::vector<std::size_t> turns = in_turns();
+        std::vector<std::string> kernels;
+        for (const Outcome& outcome : choice_.kernels) {
+            kernels.push_back(outcome.kernel);
+        }
+        const std::vector<std::size_t> turns = turns_of(errors_, kernels);
         base::parallel_for(turns.size(), jobs_, [&](std::size_t i) {
             find_length(choice_.kernels[turns[i]]);
             if (progress) {
                 progress->advance();
             }
         });
-    }
-
-    // The first of each group, then the second of each: threads that share no work.
-    [[nodiscard]] std::vector<std::size_t> in_turns() const {
-        std::map<std::string, std::size_t> seen;
-        std::multimap<std::size_t, std::size_t> by_place;
-        for (std::size_t i = 0; i < choice_.kernels.size(); ++i) {
-            by_place.emplace(seen[errors_.group(choice_.kernels[i].kernel)]++, i);
-        }
-        std::vector<std::size_t> turns;
-        for (const auto& [place, kernel] : by_place) {
-            turns.push_back(kernel);
-        }
-        return turns;
     }
 
     void find_length(Outcome& outcome) {

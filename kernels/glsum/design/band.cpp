@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "glsum/design/band_fit_body.hpp"
@@ -180,6 +181,25 @@ FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::
         mode.weight /= found.factor;
     }
     return found;
+}
+
+std::optional<FittedFilter> design_filter(const DerivativeGoal& goal, double error, FilterKind kind, Poles poles) {
+    constexpr double gain = 0.95;
+    constexpr int patience = 6;
+    const std::size_t least_modes = kind == FilterKind::integrator ? 1 : 0;
+    double least = std::numeric_limits<double>::infinity();
+    int without_gain = 0;
+    for (std::size_t length = 1 + 2 * least_modes; length <= longest_filter && without_gain < patience; ++length) {
+        const std::size_t near_taps = length % 2 == 1 ? 1 : 2;
+        FittedFilter fitted = fit_filter(goal, near_taps, (length - near_taps) / 2, kind, poles);
+        const double now = certified_error(fitted.filter(), goal).largest();
+        if (now <= error && fitted.amplification <= largest_amplification) {
+            return fitted;
+        }
+        without_gain = now < gain * least ? 0 : without_gain + 1;
+        least = std::min(least, now);
+    }
+    return std::nullopt;
 }
 
 }  // namespace glsum::design
