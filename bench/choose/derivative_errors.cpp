@@ -47,7 +47,10 @@ std::optional<std::vector<std::size_t>> DerivativeErrors::lengths(const std::str
 }
 
 const design::FittedFilter& DerivativeErrors::filter_of(const std::string& kernel, std::size_t taps) {
-    const Key key = key_of(kernel, taps);
+    return filter_of(key_of(kernel, taps));
+}
+
+const design::FittedFilter& DerivativeErrors::filter_of(const Key& key) {
     Once* once = nullptr;
     {
         const std::lock_guard lock(mutex_);
@@ -57,9 +60,24 @@ const design::FittedFilter& DerivativeErrors::filter_of(const std::string& kerne
         }
         once = entry.get();
     }
-    std::call_once(once->flag,
-                   [&] { once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.kind, key.poles); });
+    std::call_once(once->flag, [&] {
+        Key part = key;
+        if (key.poles == design::Poles::one_may_swing && design::moving_poles(key.modes, key.kind) > 0) {
+            // Kernels without room for a swinging pole ask for the decaying ones.
+            part.poles = design::Poles::decaying;
+            const design::FittedFilter& decaying = filter_of(part);
+            part.poles = design::Poles::one_swings;
+            once->filter = design::better_of(decaying, filter_of(part));
+        } else {
+            once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.kind, key.poles);
+        }
+    });
     return *once->filter;
+}
+
+std::string DerivativeErrors::group(const std::string& kernel) const {
+    const Key key = key_of(kernel, longest_with_modes);
+    return fmt::format("{} {}", key.modes > 0, static_cast<int>(key.kind));
 }
 
 ErrorAt DerivativeErrors::error(const std::string& kernel, std::size_t taps) {

@@ -26,6 +26,8 @@ public:
     /// to 64 each an eighth longer than the last.
     [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
     [[nodiscard]] std::size_t patience() const override { return 6; }
+    /// By what is fitted: two of one group that are asked at once wait for each other.
+    [[nodiscard]] std::string group(const std::string& kernel) const override;
     [[nodiscard]] double truncation(std::size_t) const override { return 0.0; }
     [[nodiscard]] double rounding_bound(const std::string&, std::size_t) const override { return 0.0; }
     [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override;
@@ -52,6 +54,7 @@ private:
         std::once_flag flag;
         std::optional<glsum::design::FittedFilter> filter;
     };
+    [[nodiscard]] const glsum::design::FittedFilter& filter_of(const Key& key);
     [[nodiscard]] Key key_of(const std::string& kernel, std::size_t taps) const;
 
     glsum::design::DerivativeGoal goal_;

@@ -180,7 +180,8 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
             report_on(chosen.kernel, chosen.taps, *question.goal, errors.fitted->filter_of(chosen.kernel, chosen.taps));
     }
     if (errors.fitted && !answer.choice.chosen) {
-        answer.would_do = what_would_do(*question.goal, nearest_of(answer.choice.kernels), *costs, limits);
+        answer.would_do =
+            what_would_do(*question.goal, nearest_of(answer.choice.kernels), *costs, limits, question.jobs);
     }
     if (const auto* counted = dynamic_cast<const OnTarget*>(costs.get())) {
         answer.notes.back() +=

@@ -60,6 +60,8 @@ constexpr Part error{&RowKey::error, "error:", is_number};
 constexpr Part samples{&RowKey::samples, "samples:", is_number};
 constexpr Part poles{&RowKey::poles, "poles:", is_number};
 constexpr Part hz{&RowKey::hz, "hz:", is_band};
+constexpr Part hz_if_any{&RowKey::hz, "hz:", is_band, true};
+constexpr Part until_if_any{&RowKey::until, "until:", is_number, true};
 constexpr Part aspect{&RowKey::aspect, "", is_aspect};
 constexpr Part signal{&RowKey::signal, "signal:", is_word};
 constexpr Part signal_if_any{&RowKey::signal, "signal:", is_word, true};
@@ -73,6 +75,8 @@ constexpr Part parts_of_record[] = {part::kernel, part::order, part::samples, pa
 constexpr Part parts_of_horizon[] = {part::kernel, part::order, part::error, part::samples};
 constexpr Part parts_of_filter[] = {part::kernel, part::order, part::poles, part::aspect, part::signal};
 constexpr Part parts_of_band[] = {part::kernel, part::order, part::taps, part::hz};
+constexpr Part parts_of_derivative[] = {part::kernel, part::order,     part::taps,
+                                        part::aspect, part::hz_if_any, part::until_if_any};
 
 struct Form {
     RowKind kind;
@@ -81,9 +85,13 @@ struct Form {
 };
 
 constexpr Form forms[] = {
-    {RowKind::sum, "gl", parts_of_sum},           {RowKind::model, "drive", parts_of_model},
-    {RowKind::record, "record", parts_of_record}, {RowKind::horizon, "horizon", parts_of_horizon},
-    {RowKind::filter, "filter", parts_of_filter}, {RowKind::band, "band", parts_of_band},
+    {RowKind::sum, "gl", parts_of_sum},
+    {RowKind::model, "drive", parts_of_model},
+    {RowKind::record, "record", parts_of_record},
+    {RowKind::horizon, "horizon", parts_of_horizon},
+    {RowKind::filter, "filter", parts_of_filter},
+    {RowKind::band, "band", parts_of_band},
+    {RowKind::derivative, "derivative", parts_of_derivative},
 };
 
 std::string written(const RowKey& key, std::size_t most_parts) {

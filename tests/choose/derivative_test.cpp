@@ -136,6 +136,25 @@ TEST(DerivativeErrors, LeavesOutWhatIsNoFilterOfItsOwn) {
     EXPECT_NE(DerivativeErrors(goal_of(-0.5, 0.0)).error("modesdelta_plain_f32", 9).fault, "");
 }
 
+TEST(DerivativeErrors, KernelsOfOneGroupShareWhatIsFitted) {
+    DerivativeErrors errors(goal_of(0.5, 0.0));
+    EXPECT_EQ(errors.group("modes_plain_f32"), errors.group("modes_plain_q31"));
+    EXPECT_EQ(errors.group("ring_plain_f32"), errors.group("mirror_smlad_q15"));
+    EXPECT_NE(errors.group("modes_plain_f32"), errors.group("ring_plain_f32"));
+    EXPECT_NE(errors.group("modes_plain_f32"), errors.group("modesdelta_plain_f32"));
+    EXPECT_NE(errors.group("mirrordelta_plain_f32"), errors.group("ring_plain_f32"));
+    // What floating point has room for is never worse than what fixed point takes, and the same without a pole.
+    const FittedFilter& swinging = errors.filter_of("modes_plain_f32", 7);
+    const FittedFilter& decaying = errors.filter_of("modes_plain_q31", 7);
+    EXPECT_LE(swinging.error.largest(), decaying.error.largest());
+    EXPECT_EQ(&swinging, &errors.filter_of("modes_compensated_f32", 7));
+    EXPECT_EQ(
+        swinging.error.largest(),
+        fit_filter(goal_of(0.5, 0.0), 1, 3, FilterKind::samples, glsum::design::Poles::one_may_swing).error.largest());
+    EXPECT_EQ(errors.filter_of("modes_plain_f32", 1).error.largest(),
+              errors.filter_of("modes_plain_q31", 1).error.largest());
+}
+
 TEST(DerivativeErrors, LengthsAreThoseThatAFilterIsFittedTo) {
     DerivativeErrors errors(goal_of(0.5, 0.0));
     EXPECT_EQ(errors.lengths("modes_plain_f32")->size(), 40U);

@@ -45,7 +45,7 @@ library_of() {
         bench/host/*) echo bench/libglsum_host.a ;;
         bench/target/*) echo bench/libglsum_target.a ;;
         bench/studies/horizons.cpp | bench/studies/model*.cpp | bench/studies/records.cpp) echo bench/libglsum_drive_studies.a ;;
-        bench/studies/bands*) echo bench/libglsum_band_study.a ;;
+        bench/studies/bands* | bench/studies/derivative*) echo bench/libglsum_band_study.a ;;
         bench/studies/*) echo bench/libglsum_studies.a ;;
         bench/report/best.cpp | bench/report/curves.cpp | bench/report/front_table.cpp | bench/report/table.cpp | bench/report/plot.cpp | bench/report/plot_message.cpp | bench/report/discretisation_table.cpp) echo bench/libglsum_shown.a ;;
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
@@ -82,6 +82,7 @@ tests_of() {
         bench/report/table.* | bench/report/plot* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
         bench/report/*) echo bench_tests browser_tests ;;
         bench/studies/horizon* | bench/studies/model* | bench/studies/record*) echo studies_tests ;;
+        bench/studies/derivative*) echo choose_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
         docs/site/*) echo docs_tests ;;
         drive/tune/*) echo tune_tests ;;
