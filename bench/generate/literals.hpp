@@ -6,9 +6,14 @@
 #include <string>
 #include <vector>
 
-#include "bench/generate/kernel_data.hpp"
-
 namespace generate {
+
+/// A type of C with its values, each exactly a double or a 64-bit integer.
+struct Numbers {
+    std::string type;  ///< "float", "double", "int32_t", "int16_t"
+    std::vector<double> reals;
+    std::vector<std::int64_t> integers;
+};
 
 /// Decimal with the digits of a round trip, since hex floats are not C++11. \param type  "float" or "double"
 [[nodiscard]] std::string real_literal(const std::string& type, double value);

@@ -5,10 +5,10 @@
 
 #include "bench/generate/header.hpp"
 #include "bench/generate/kernel_data.hpp"
-#include "bench/generate/text.hpp"
 
 namespace generate {
 
-[[nodiscard]] std::string opening_comment(const Spec& spec, const KernelData& data, const Places& places);
+/// \param data  is given the places of this comment
+[[nodiscard]] std::string opening_comment(const Spec& spec, KernelData& data);
 
 }  // namespace generate

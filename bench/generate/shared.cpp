@@ -12,9 +12,12 @@ bool in_word(char letter) { return std::isalnum(static_cast<unsigned char>(lette
 
 // What every text has alike.
 const Words common = {
+    {"accumulate<Format, fused>", "@accumulate@"},
+    {"Format::template horner_step<fused>", "@horner_step@"},
     {"static_cast<", "("},
     {"if constexpr ", "if "},
     {", scale)", ")"},
+    {", state.scale)", ")"},
     {"std::", ""},
     {"typename ", ""},
     {"window.", ""},

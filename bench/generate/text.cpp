@@ -11,6 +11,13 @@
 namespace generate {
 
 std::string fill(std::string_view text, const Places& places) {
+    return fill(text, [&](std::string_view name) {
+        const auto place = places.find(name);
+        return place != places.end() ? place->second : throw std::out_of_range("no such place: " + std::string(name));
+    });
+}
+
+std::string fill(std::string_view text, const std::function<std::string(std::string_view)>& find) {
     std::string filled;
     while (!text.empty()) {
         const std::size_t at = text.find('@');
@@ -19,11 +26,10 @@ std::string fill(std::string_view text, const Places& places) {
             break;
         }
         const std::size_t end = text.find('@', at + 1);
-        const auto place = places.find(text.substr(at + 1, end - at - 1));
-        if (end == std::string_view::npos || place == places.end()) {
-            throw std::out_of_range("no such place: " + std::string(text.substr(at, end - at + 1)));
+        if (end == std::string_view::npos) {
+            throw std::out_of_range("a place without an end: " + std::string(text.substr(at)));
         }
-        filled += place->second;
+        filled += find(text.substr(at + 1, end - at - 1));
         text.remove_prefix(end + 1);
     }
     return filled;
@@ -34,15 +40,6 @@ std::string upper(std::string word) {
                    [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
     return word;
 }
-
-std::string helper(const std::string& result, const std::string& name, const std::string& arguments,
-                   const std::string& body) {
-    return "@NAME@_HELPER " + result + " @name@_" + name + "(" + arguments + ")\n{\n" + body + "}\n";
-}
-
-std::string accumulate(bool fused) { return fused ? "@name@_fused_multiply_add" : "@name@_multiply_add"; }
-
-std::string rounded_once(bool fused) { return fused ? ", product and addition rounded once" : ""; }
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
     for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + with.size())) {
@@ -65,19 +62,6 @@ std::string fingerprint(std::string_view text) {
         hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001B3U;
     }
     return fmt::format("{:016X}", hash);
-}
-
-std::string include_guard(const std::string& name, const std::string& design, const std::string& identity) {
-    return fill(R"(#if defined(@NAME@_H) && !defined(@NAME@_IS_@identity@)
-#define @NAME@_DESIGN "@design@"
-#error "@name@: another design of this prefix was included before (see the two DESIGN); make one with another --prefix"
-#endif
-#ifndef @NAME@_H
-#define @NAME@_H
-#define @NAME@_IS_@identity@
-#define @NAME@_DESIGN "@design@"
-)",
-                {{"name", name}, {"NAME", upper(name)}, {"design", design}, {"identity", identity}});
 }
 
 }  // namespace generate

@@ -4,6 +4,10 @@
 //   summary                           how it sums, in the words of a generated header's comment; with it a header holds
 //                                     its texts "// C99: WORD", "WORD newer", "WORD older" and "WORD closing" as they
 //                                     stand there, and bench/generate need not know it
+//   text                              the name of its text for generated headers (NAME.h.in), where it is not its word
+//   constants(table, past, says)      what a generated header knows of its table: says(name, number), and of the items
+//   of
+//                                     a list says(list, index, name, number)
 //   fused                             whether product and addition are rounded once
 //   unfused_word                      of such a one (Fused): the word of the same order with both rounded
 //   host_only                         whether it needs the host's vector unit
