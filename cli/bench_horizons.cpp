@@ -14,7 +14,6 @@
 #include "cli/command.hpp"
 #include "cli/rising.hpp"
 #include "glsum/design/modes.hpp"
-#include "qemu/emulate/foreign_program.hpp"
 
 namespace cli {
 namespace {
@@ -38,8 +37,10 @@ void run(Options options) {
         }
     }
     base::check_writable(options.out);
-    if (!options.wanted.core.empty()) {
-        options.wanted.board = built_board(qemu::machine_of({options.wanted.core, "", ""}, cores_folder()));
+    bench::Sweep sweep;
+    sweep.targets = options.targets;
+    for (const base::Machine* machine : sweep.machines()) {
+        options.wanted.boards.push_back(built_board(*machine));
     }
     const bench::Study study = bench::measure_horizons(options.wanted);
     fmt::print("{}", study.text);
@@ -68,7 +69,8 @@ void add_options(Command& command, const Words&) {
         .between(-1, 2)
         .delimiter(',')
         .capture_default_str();
-    command.add_option("--targets", options->targets, "host alone leaves out modelled cycles")
+    command
+        .add_option("--targets", options->targets, "host alone leaves out modelled cycles; m7, m4: beside each other")
         .delimiter(',')
         .capture_default_str();
     command.add_option("--out", options->out,
@@ -76,14 +78,6 @@ void add_options(Command& command, const Words&) {
     command.callback([options] {
         check_orders(options->wanted.orders);
         check_targets(options->targets);
-        bench::Sweep sweep;
-        sweep.targets = options->targets;
-        if (sweep.machines().size() > 1) {
-            throw Failure(Exit::bad_input, "--targets: expected one of m7 and m4 at once");
-        }
-        if (!sweep.machines().empty()) {
-            options->wanted.core = sweep.machines().front()->default_core;
-        }
         run(*options);
     });
 }

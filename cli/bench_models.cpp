@@ -1,4 +1,4 @@
-// glsum bench models: whole models stepped in real time, on this machine and on the emulated Cortex-M7.
+// glsum bench models: whole models stepped in real time, on this machine and on emulated ones.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -24,7 +24,8 @@ using glsum::Failure;
 
 struct Options {
     bench::Models wanted;
-    std::vector<std::string> taps;  ///< numbers, full, or 2+7 of kernels with modes; empty: the usual ones
+    std::vector<std::string> taps;   ///< numbers, full, or 2+7 of kernels with modes; empty: the usual ones
+    std::vector<std::string> cores;  ///< of the timing model; empty: the usual ones
     std::filesystem::path out = results_folder() / "drive.json";
 };
 
@@ -47,17 +48,14 @@ void run(Options options) {
     bench::Models& wanted = options.wanted;
     bench::Sweep sweep;
     sweep.targets = wanted.targets;
-    if (sweep.machines().size() > 1) {
-        throw Failure(Exit::bad_input, "--targets: expected one of m7 and m4 at once");
-    }
-    take_cores(sweep, wanted.cores);
-    wanted.cores = sweep.modelled_cores();
-    if (!sweep.machines().empty()) {
-        wanted.board = built_board(*sweep.machines().front());
-        (void)qemu::model_elf(*wanted.board);
+    take_cores(sweep, options.cores);
+    for (const base::Machine* machine : sweep.machines()) {
+        std::vector<std::string> cores = sweep.cores_on(*machine);
+        std::erase(cores, bench::count_only);
+        wanted.boards.push_back({built_board(*machine), std::move(cores)});
+        (void)qemu::model_elf(wanted.boards.back().board);
     }
     wanted.models = std::filesystem::path(build_info::source_folder) / "drive" / "models";
-    wanted.core_files = cores_folder();
     wanted.lengths = asked_lengths(options);
     const bench::Study study =
         bench::measure_models(wanted, [](const std::string& what) { fmt::print(stderr, "{}\n", what); });
@@ -84,12 +82,12 @@ void add_options(Command& command, const Words&) {
         .capture_default_str();
     command.add_option("--taps", options->taps, "Lengths: numbers, full, or 2+7: two near taps and seven modes")
         .delimiter(',');
-    command.add_option("--targets", options->wanted.targets, "host, m7 or m4, or host and one of them")
+    command.add_option("--targets", options->wanted.targets, "Some of host, m7, m4: machines stand beside each other")
         .delimiter(',')
         .capture_default_str();
     command
         .add_option(
-            "--core", options->wanted.cores,
+            "--core", options->cores,
             fmt::format("Cores of the timing model, files of qemu/cores; count: instructions alone (default: {})",
                         fmt::join(default_cores(), " or ")))
         .delimiter(',');

@@ -17,11 +17,11 @@ export const decidingCost = all =>
 const isWindow = taps => !taps.includes("+");
 
 // The least cost within the limit, of two that cost the same the more exact: as `cheapest` of best.hpp.
-const cheapest = (points, limit) => points.filter(point => point.y <= limit)
+export const cheapest = (points, limit) => points.filter(point => point.y <= limit)
   .reduce((held, point) => !held || point.x < held.x || point.x === held.x && point.y < held.y ? point : held, null);
 
 // No filter, and the error that limits are of.
-const unfiltered = (all, now) =>
+export const unfiltered = (all, now) =>
   ({...now, error: "error_max", signal: "worst", find: "", ...Object.fromEntries(["taps", ...Object.keys(all.words)].map(name => ["no-" + name, ""]))});
 
 /// With what a limit is in per cent.

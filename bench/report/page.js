@@ -1,6 +1,7 @@
 // All together: the data, the state of its choices, and what is drawn anew when that changes.
 
 import {answerOf} from "./answer.js";
+import {coresOf} from "./cores.js";
 import {catalogueOf} from "./catalogue.js";
 import {changesOf} from "./changes.js";
 import {choicesOf} from "./choices.js";
@@ -46,6 +47,11 @@ function drawFirst() {
   drawQuestion(all, state);
   drawAnswer(answer, acts);
   if (answer) drawTable(byId("answer-table"), "The front", answer.columns, answer.rows);
+  const cores = coresOf(all, state.now);
+  byId("cores").hidden = !cores;
+  if (!cores) return;
+  byId("cores-text").textContent = cores.text;
+  drawTable(byId("cores-table"), "Cores", cores.columns, cores.rows);
 }
 
 const drawOfWidth = () => {

@@ -1,6 +1,6 @@
 # The report: a page with its own script and D3 inside.
 set(report ${CMAKE_CURRENT_LIST_DIR})
-set(scripts data.js front.js numbers.js state.js counters.js catalogue.js select.js answer.js choices.js difference.js changes.js rows.js  # what is shown
+set(scripts data.js front.js numbers.js state.js counters.js catalogue.js select.js answer.js cores.js choices.js difference.js changes.js rows.js  # what is shown
     marks.js tip.js panel.js draw.js tables.js controls.js page.js)  # the page; each behind what it imports
 list(JOIN scripts "," script_list)
 list(TRANSFORM scripts PREPEND ${report}/ OUTPUT_VARIABLE script_files)

@@ -25,6 +25,8 @@ bool is_word(std::string_view text) { return has_only(text, "_"); }
 
 bool is_aspect(std::string_view text) { return has_only(text, "_:-."); }
 
+bool is_targets_aspect(std::string_view text) { return is_aspect(text) && text.find(':') != text.npos; }
+
 bool is_number(std::string_view text) {
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -63,6 +65,7 @@ constexpr Part hz{&RowKey::hz, "hz:", is_band};
 constexpr Part hz_if_any{&RowKey::hz, "hz:", is_band, true};
 constexpr Part until_if_any{&RowKey::until, "until:", is_number, true};
 constexpr Part aspect{&RowKey::aspect, "", is_aspect};
+constexpr Part targets_aspect_if_any{&RowKey::aspect, "", is_targets_aspect, true};
 constexpr Part signal{&RowKey::signal, "signal:", is_word};
 constexpr Part signal_if_any{&RowKey::signal, "signal:", is_word, true};
 constexpr Part amplitude_if_any{&RowKey::amplitude, "amplitude:", is_number, true};
@@ -72,7 +75,8 @@ constexpr Part parts_of_sum[] = {part::kernel, part::order,         part::taps,
                                  part::aspect, part::signal_if_any, part::amplitude_if_any};
 constexpr Part parts_of_model[] = {part::model, part::kernel, part::taps, part::aspect};
 constexpr Part parts_of_record[] = {part::kernel, part::order, part::samples, part::aspect};
-constexpr Part parts_of_horizon[] = {part::kernel, part::order, part::error, part::samples};
+constexpr Part parts_of_horizon[] = {part::kernel, part::order, part::error, part::samples,
+                                     part::targets_aspect_if_any};
 constexpr Part parts_of_filter[] = {part::kernel, part::order, part::poles, part::aspect, part::signal};
 constexpr Part parts_of_band[] = {part::kernel, part::order, part::taps, part::hz};
 constexpr Part parts_of_derivative[] = {part::kernel, part::order,     part::taps,
@@ -137,7 +141,7 @@ std::optional<RowKey> parse_any_key(std::string_view name) {
     RowKey key;
     key.kind = form->kind;
     for (const Part& part : form->parts) {
-        if (part.may_lack && !rest.starts_with(part.before)) {
+        if (part.may_lack && (rest.empty() || !rest.starts_with(part.before))) {
             continue;
         }
         std::string_view text = take(rest);

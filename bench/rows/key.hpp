@@ -14,7 +14,7 @@ enum class RowKind {
     sum,         ///< gl/<kernel>/order:<v>/taps:<L>/<aspect>[/signal:<s>[/amplitude:<a>]]
     model,       ///< drive/<model>/<kernel>/taps:<L>/<aspect>
     record,      ///< record/<kernel>/order:<v>/samples:<N>/<aspect>
-    horizon,     ///< horizon/<kernel>/order:<v>/error:<e>/samples:<N>
+    horizon,     ///< horizon/<kernel>/order:<v>/error:<e>/samples:<N>[/<aspect of a target>]
     filter,      ///< filter/<kernel>/order:<v>/poles:<P>/<aspect>/signal:<s>
     band,        ///< band/<kernel>/order:<v>/taps:<L>/hz:<low>..<high>
     derivative,  ///< derivative/<kernel>/order:<v>/taps:<L>/<aspect>[/hz:<low>..<high>][/until:<s>]

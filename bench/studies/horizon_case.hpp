@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/gnuplot.hpp"
+#include "base/machines.hpp"
 #include "bench/rows/row.hpp"
 #include "glsum/design/mode.hpp"
 
@@ -23,8 +24,8 @@ struct HorizonCase {
     std::optional<std::size_t> window;  ///< multiplications; nothing: as many as samples, but one
     std::optional<std::size_t> blocks;  ///< multiplications; nothing: a window is as short
     std::optional<glsum::design::Approximation> modes;
-    double largest_error = 0.0;  ///< of the modes' kernel over the whole record, found
-    std::optional<double> cycles = {};
+    double largest_error = 0.0;       ///< of the modes' kernel over the whole record, found
+    std::vector<double> cycles = {};  ///< modelled, on each of the cores; empty without any
 
     /// Multiplications of a window that keeps the error: all samples where no shorter one does.
     [[nodiscard]] std::size_t window_macs() const { return window.value_or(samples - 1); }
@@ -36,11 +37,19 @@ struct HorizonCase {
 /// of the weights up to the horizon; nothing where all are needed. \param weights  of all samples of the horizon
 [[nodiscard]] std::optional<std::size_t> window_for(const std::vector<double>& weights, double error);
 
-/// Those of a window, of blocks and of modes, where there is a design of each.
-[[nodiscard]] std::vector<Json> to_rows(const HorizonCase& one);
+/// An emulated machine and the core whose cycles are modelled there.
+struct HorizonCore {
+    const base::Machine* machine;
+    std::string core;
+};
 
-/// Of one order.
-[[nodiscard]] std::string to_table(double order, const std::vector<HorizonCase>& cases);
+/// Those of a window, of blocks and of modes, where there is a design of each. The cycles of the first core stand in
+/// the row of the modes, those of others in rows of their own. \param cores  in the order of the case's cycles
+[[nodiscard]] std::vector<Json> to_rows(const HorizonCase& one, const std::vector<HorizonCore>& cores = {});
+
+/// Of one order. \param cores  as above; several have a column each
+[[nodiscard]] std::string to_table(double order, const std::vector<HorizonCase>& cases,
+                                   const std::vector<HorizonCore>& cores = {});
 
 /// Multiplications over the horizon: a panel for each order and error. \param cases  by rising horizon
 [[nodiscard]] base::Picture picture_of(const std::vector<double>& orders, const std::vector<HorizonCase>& cases);

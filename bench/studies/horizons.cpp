@@ -79,7 +79,7 @@ void measure_errors(std::vector<HorizonCase>& all, const std::vector<double>& or
 }
 
 // Modelled cycles of the designs in single precision. What was measured once is known.
-void measure_cycles(std::vector<HorizonCase>& all, const qemu::Board& board, const std::string& core) {
+void measure_cycles(std::vector<HorizonCase>& all, const qemu::Board& board) {
     constexpr const char* kernel = "modes_plain_f32";
     std::map<std::pair<double, std::size_t>, std::size_t> planned;  // by order and cost: the plan's row
     std::vector<qemu::PlannedRow> plan;
@@ -92,10 +92,10 @@ void measure_cycles(std::vector<HorizonCase>& all, const qemu::Board& board, con
     base::Progress progress(board.name(), plan.size());
     const auto measured = qemu::measure(
         board, plan, {make_signal("noise", 1000, Sweep().seed)}, [&] { progress.advance(); }, qemu::Counting::blocks,
-        timing_request(board.cores, {core}));
+        timing_request(board.cores, {std::string(board.machine->default_core)}));
     for (HorizonCase& one : all) {
         if (one.modes) {
-            one.cycles = measured.at(planned.at({one.order, one.modes->length()})).cores.at(0).cycles;
+            one.cycles.push_back(measured.at(planned.at({one.order, one.modes->length()})).cores.at(0).cycles);
         }
     }
 }
@@ -103,7 +103,7 @@ void measure_cycles(std::vector<HorizonCase>& all, const qemu::Board& board, con
 }  // namespace
 
 Study measure_horizons(const Horizons& wanted) {
-    const auto& [horizons, orders, board, core] = wanted;
+    const auto& [horizons, orders, boards] = wanted;
     std::vector<HorizonCase> all;
     base::Progress progress("designs", orders.size() * horizons.size() * horizon_errors.size());
     for (const double order : orders) {
@@ -120,8 +120,12 @@ Study measure_horizons(const Horizons& wanted) {
         }
     }
     measure_errors(all, orders, horizons);
-    if (board) {
-        measure_cycles(all, *board, core);
+    std::vector<HorizonCore> cores;
+    std::string core_names;
+    for (const qemu::Board& board : boards) {
+        measure_cycles(all, board);
+        cores.push_back({board.machine, std::string(board.machine->default_core)});
+        core_names += (core_names.empty() ? "" : ", ") + cores.back().core;
     }
     Study study;
     study.text =
@@ -129,13 +133,14 @@ Study measure_horizons(const Horizons& wanted) {
         "past: of a\n"
         "window, of near taps and blocks, of near taps and modes; the modes' certificate, the largest error found in "
         "double on all\n";
-    study.text += fmt::format("seven signals of 0.9{}.\n",
-                              !board ? "" : "; modelled cycles of the same design in single precision, " + core);
+    study.text +=
+        fmt::format("seven signals of 0.9{}.\n",
+                    boards.empty() ? "" : "; modelled cycles of the same design in single precision, " + core_names);
     for (const double order : orders) {
-        study.text += to_table(order, all);
+        study.text += to_table(order, all, cores);
     }
     for (const HorizonCase& one : all) {
-        for (Json& row : to_rows(one)) {
+        for (Json& row : to_rows(one, cores)) {
             study.wrong += row.contains("error_occurred") ? 1 : 0;
             study.rows.push_back(std::move(row));
         }
@@ -148,7 +153,7 @@ Study measure_horizons(const Horizons& wanted) {
     sweep.signals.assign(std::begin(signal_names), std::end(signal_names));
     study.context = make_context(Json(), sweep, {});
     study.context["horizons"] = horizons;
-    study.context["core"] = core;
+    study.context["core"] = core_names;
     study.picture = picture_of(orders, all);
     return study;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,8 +13,7 @@ namespace bench {
 struct Horizons {
     std::vector<std::size_t> horizons;                     ///< samples, 100 to 10000000; rising
     std::vector<double> orders{0.2, 0.5, 0.9, 1.5, -0.5};  ///< in (-1, 2), not whole
-    std::optional<qemu::Board> board = {};                 ///< nothing: multiplications alone
-    std::string core = {};                                 ///< of the timing model, with a board
+    std::vector<qemu::Board> boards = {};  ///< whose machines' usual cores are modelled; none: multiplications alone
 };
 
 /// Rows `horizon/<kernel>/order:<v>/error:<e>/samples:<N>`, and a picture: a panel for each order and error.

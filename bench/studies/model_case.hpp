@@ -1,6 +1,7 @@
 // One model with one kernel and memory: what is stepped, and what that showed.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "bench/rows/row.hpp"
 #include "bench/sweep/designs.hpp"
+#include "bench/target/target_rows.hpp"
 #include "drive/realtime.hpp"
 #include "glsum/catalogue.hpp"
 #include "qemu/emulate/model_run.hpp"
@@ -33,28 +35,43 @@ struct ModelCase {
     std::uint32_t saturations = 0;
     double host_ns = 0.0;
     std::size_t macs = 0;
-    std::optional<qemu::MeasuredRow> counted = {};
-    bool same_bits = true;
+    std::vector<Counted> counted = {};  ///< on each emulated machine; empty where it was stepped on none
     std::string fault = {};
 
     [[nodiscard]] std::string length() const { return full ? "full" : design.memory().text(); }
     [[nodiscard]] bool in_double() const { return facts_of(kernel).in_double; }
     [[nodiscard]] bool runs_on_target() const { return !in_double() || design.memory().taps <= emulated_double_taps; }
+    /// Whether every machine computed the host's bits.
+    [[nodiscard]] bool same_bits() const {
+        return std::all_of(counted.begin(), counted.end(), [](const Counted& on) { return on.same_bits; });
+    }
+};
+
+/// An emulated machine, as tables of models show it.
+struct ModelColumns {
+    std::string machine = "M7";     ///< short
+    double period = period_cycles;  ///< cycles of a step at 1 kHz
 };
 
 /// "216 000"
 [[nodiscard]] std::string in_thousands(double cycles);
 
-/// \param aspect  host, or of the target
-/// \param core  which of the counted row's modelled cores; counts alone without
-[[nodiscard]] Json to_row(const ModelCase& one, const std::string& aspect, std::optional<std::size_t> core = {},
-                          double clock_hz = 1.0, double period = period_cycles);
+/// On this machine.
+[[nodiscard]] Json to_host_row(const ModelCase& one);
 
-/// Of one model. \param model  its name \param counted_on  short: "M7" \param period  cycles of a step at 1 kHz
+/// On an emulated one. \param counted  of the case
+/// \param core  which of the counted row's modelled cores; counts alone without
+[[nodiscard]] Json to_target_row(const ModelCase& one, const Counted& counted, const std::string& aspect,
+                                 std::optional<std::size_t> core = {}, double clock_hz = 1.0,
+                                 double period = period_cycles);
+
+/// Of one model, the machines beside each other. \param machines  one or more, in the order in which cases were counted
 [[nodiscard]] std::string to_table(const std::vector<ModelCase>& cases, const std::string& model,
-                                   const std::string& counted_on = "M7", double period = period_cycles);
+                                   const std::vector<ModelColumns>& machines = {{}});
 
 /// The longest memory that a period leaves, if every cycle took an instruction, and what bytes 320 KB leave.
-[[nodiscard]] std::string deadline_table(const std::vector<ModelCase>& cases, double period = period_cycles);
+/// \param machine  which of those that cases were counted on
+[[nodiscard]] std::string deadline_table(const std::vector<ModelCase>& cases, std::size_t machine = 0,
+                                         const ModelColumns& columns = {});
 
 }  // namespace bench

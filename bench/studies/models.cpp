@@ -121,14 +121,75 @@ ModelLengths lengths_of(const Models& wanted, bool with_modes, drive::Writing wr
     return {drive::Memory{50}, drive::Memory{100}, drive::Memory{200}, drive::Memory{600}, std::nullopt};
 }
 
+// What each case takes on an emulated machine: one more in its list of those.
+void step_there(std::vector<ModelCase>& cases, const ModelBoard& on) {
+    const timing::TimingRequest timing = timing_request(on.board.cores, on.cores);
+    std::vector<std::size_t> chosen;
+    for (std::size_t i = 0; i < cases.size(); ++i) {
+        if (cases[i].fault.empty() && cases[i].runs_on_target()) {
+            chosen.push_back(i);
+        }
+    }
+    base::Progress progress("models on the " + on.board.name(), chosen.size());
+    // As many at once as the firmware has room for.
+    constexpr std::size_t at_once = 20;
+    for (std::size_t first = 0; first < chosen.size(); first += at_once) {
+        std::vector<qemu::PlannedModel> plan;
+        for (std::size_t i = first; i < std::min(first + at_once, chosen.size()); ++i) {
+            const ModelCase& one = cases[chosen[i]];
+            plan.push_back({one.kernel, &one.design.design(), ones, one.steps});
+        }
+        const auto counted = qemu::step_models(
+            on.board, plan, [&] { progress.advance(); }, timing);
+        for (std::size_t i = 0; i < counted.size(); ++i) {
+            const bool same_bits =
+                counted[i].status == glsum::Status::ok && counted[i].hash == qemu::step_model_here(plan[i]).hash;
+            cases[chosen[first + i]].counted.push_back({counted[i], same_bits});
+        }
+    }
+}
+
+// A machine's cycles of a step: of the chip that its rows are for where none is asked for.
+ModelColumns columns_of(const ModelBoard& on) {
+    const base::Machine& machine = *on.board.machine;
+    const std::string usual(machine.default_core);
+    return {std::string(machine.name.substr(machine.name.rfind('-') + 1)),
+            model_step_s * clocks_of(timing_request(on.board.cores, {usual})).front()};
+}
+
+void add_target_rows(std::vector<Json>& rows, const ModelCase& one, const std::vector<ModelBoard>& boards,
+                     const std::vector<ModelColumns>& columns) {
+    for (std::size_t i = 0; i < one.counted.size(); ++i) {
+        const base::Machine& machine = *boards[i].board.machine;
+        const std::vector<std::string>& cores = boards[i].cores;
+        const std::vector<double> clocks = clocks_of(timing_request(boards[i].board.cores, cores));
+        rows.push_back(to_target_row(one, one.counted[i], on_target(machine, count_only), {}, 1.0, columns[i].period));
+        for (std::size_t c = 0; c < cores.size(); ++c) {
+            rows.push_back(
+                to_target_row(one, one.counted[i], on_target(machine, cores[c]), c, clocks[c], columns[i].period));
+        }
+    }
+}
+
+// What a machine's columns are, under the tables.
+std::string meaning_of(const ModelBoard& on, const ModelColumns& columns) {
+    return fmt::format(
+        "\n  {}: instructions a step on the emulated core, dead time and factors included; model cycles: "
+        "what the timing\n"
+        "  model gives it on {}, with the band over its rule sets. period: the worst step's {} over\n"
+        "  {}, the cycles of a step on {}. Every row that ran there computed the host's "
+        "bits over the\n"
+        "  whole record.\n",
+        columns.machine, on.cores.empty() ? "no core" : on.cores[0], on.cores.empty() ? "instructions" : "cycles",
+        in_thousands(columns.period), on.board.machine->default_core);
+}
+
 }  // namespace
 
 Study measure_models(const Models& wanted, const std::function<void(const std::string&)>& say) {
     const auto wants = [&](const char* target) {
         return std::find(wanted.targets.begin(), wanted.targets.end(), target) != wanted.targets.end();
     };
-    const timing::TimingRequest timing = timing_request(wanted.core_files, wanted.cores);
-    const std::vector<double> clocks = clocks_of(timing);
     std::map<std::string, drive::Model> models;
     std::map<std::string, std::vector<double>> exact;
     for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
@@ -198,55 +259,19 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
             progress.advance();
         }
     }
-    if (wanted.board) {
-        std::vector<std::size_t> chosen;
-        for (std::size_t i = 0; i < cases.size(); ++i) {
-            if (cases[i].fault.empty() && cases[i].runs_on_target()) {
-                chosen.push_back(i);
-            }
-        }
-        base::Progress progress("models on the " + wanted.board->name(), chosen.size());
-        // As many at once as the firmware has room for.
-        constexpr std::size_t at_once = 20;
-        for (std::size_t first = 0; first < chosen.size(); first += at_once) {
-            std::vector<qemu::PlannedModel> plan;
-            for (std::size_t i = first; i < std::min(first + at_once, chosen.size()); ++i) {
-                const ModelCase& one = cases[chosen[i]];
-                plan.push_back({one.kernel, &one.design.design(), ones, one.steps});
-            }
-            const auto counted = qemu::step_models(
-                *wanted.board, plan, [&] { progress.advance(); }, timing);
-            for (std::size_t i = 0; i < counted.size(); ++i) {
-                ModelCase& one = cases[chosen[first + i]];
-                one.counted = counted[i];
-                one.same_bits =
-                    counted[i].status == glsum::Status::ok && counted[i].hash == qemu::step_model_here(plan[i]).hash;
-            }
-        }
+    std::vector<ModelColumns> columns;
+    for (const ModelBoard& on : wanted.boards) {
+        step_there(cases, on);
+        columns.push_back(columns_of(on));
     }
-
-    const base::Machine& machine = wanted.board ? *wanted.board->machine : base::machines.front();
-    const std::string short_name(machine.name.substr(machine.name.rfind('-') + 1));
-    // Of the chip that the machine's rows are for where none is asked for.
-    const std::string usual(machine.default_core);
-    const double clock_hz = &machine == base::machines.data()
-                                ? period_cycles / model_step_s
-                                : clocks_of(timing_request(wanted.core_files, {usual})).front();
-    const double period = clock_hz * model_step_s;
-    const std::string chip = &machine == base::machines.data() ? "an STM32F746" : usual;
 
     Study study;
     for (const ModelCase& one : cases) {
         if (wants("host")) {
-            study.rows.push_back(to_row(one, std::string(RowKey::host)));
+            study.rows.push_back(to_host_row(one));
         }
-        if (one.counted) {
-            study.rows.push_back(to_row(one, on_target(machine, count_only), {}, 1.0, period));
-            for (std::size_t c = 0; c < wanted.cores.size(); ++c) {
-                study.rows.push_back(to_row(one, on_target(machine, wanted.cores[c]), c, clocks[c], period));
-            }
-        }
-        study.wrong += one.fault.empty() && one.same_bits ? 0 : 1;
+        add_target_rows(study.rows, one, wanted.boards, columns);
+        study.wrong += one.fault.empty() && one.same_bits() ? 0 : 1;
     }
     study.text = fmt::format(
         "Models stepped at 1 kHz, a unit step, for so many seconds; errors relative to the largest exact output.\n"
@@ -254,19 +279,13 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
         "ringapart:\n"
         "the textbook's, one for each order; modes: 2+7 near taps and modes, full memory.\n");
     for (const char* name : {"fopdt", "sopdt", "niopdt"}) {
-        study.text += to_table(cases, name, short_name, period);
+        study.text += to_table(cases, name, columns.empty() ? std::vector<ModelColumns>{{}} : columns);
     }
-    study.text += fmt::format(
-        "\n  {}: instructions a step on the emulated core, dead time and factors included; model cycles: "
-        "what the timing\n"
-        "  model gives it on {}, with the band over its rule sets. period: the worst step's {} over\n"
-        "  {}, the cycles of a step on {}. Every row that ran there computed the host's "
-        "bits over the\n"
-        "  whole record.\n",
-        short_name, wanted.cores.empty() ? "no core" : wanted.cores[0],
-        wanted.cores.empty() ? "instructions" : "cycles", in_thousands(period), chip);
-    if (wanted.board) {
-        study.text += deadline_table(cases, period);
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        study.text += meaning_of(wanted.boards[i], columns[i]);
+    }
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        study.text += deadline_table(cases, i, columns[i]);
     }
     if (wants("host") && !wanted.quick) {
         study.text += time_long_records(models["niopdt"], "niopdt", wanted.long_records, study.rows);
@@ -277,12 +296,12 @@ Study measure_models(const Models& wanted, const std::function<void(const std::s
     sweep.jobs = wanted.jobs;
     sweep.kernels = wanted.kernels;
     sweep.orders = {0.0};  // a sweep names where software double is counted; models have orders of their own
-    std::optional<qemu::Board> stepped_on = wanted.board;
-    if (wanted.board) {
-        stepped_on->measure_elf = qemu::model_elf(*wanted.board);
+    std::vector<qemu::Board> stepped_on;
+    for (const ModelBoard& on : wanted.boards) {
+        stepped_on.push_back(on.board);
+        stepped_on.back().measure_elf = qemu::model_elf(on.board);
     }
-    study.context =
-        make_context(Json(), sweep, stepped_on ? std::vector<qemu::Board>{*stepped_on} : std::vector<qemu::Board>{});
+    study.context = make_context(Json(), sweep, stepped_on);
     for (const char* of_sums : {"target_count_order", "weights", "first_weights"}) {
         study.context.erase(of_sums);
     }

@@ -66,7 +66,7 @@ TEST(HorizonCase, HasARowForEachWayThatThereIs) {
     EXPECT_FALSE(rows[1].contains("error_occurred"));
     one.window = 400;
     one.blocks = 50;
-    one.cycles = 33.5;
+    one.cycles = {33.5};
     rows = bench::to_rows(one);
     ASSERT_EQ(rows.size(), 3U);
     EXPECT_EQ(rows[0].at("macs_per_sample"), 400);
@@ -75,6 +75,28 @@ TEST(HorizonCase, HasARowForEachWayThatThereIs) {
     EXPECT_EQ(rows[2].at("model_cycles_per_sample"), 33.5);
     one.modes.reset();
     EXPECT_EQ(bench::to_rows(one).size(), 2U);
+}
+
+TEST(HorizonCase, CoresStandBesideEachOtherAndEachFurtherOneHasARow) {
+    const std::vector<bench::HorizonCore> cores{{base::machine_called("m7"), "stm32f746-itcm"},
+                                                {base::machine_called("m4"), "cortex-m4-zerowait"}};
+    HorizonCase one = made(9e-5, 1e-5);
+    HorizonCase without = one;
+    without.modes.reset();
+    without.largest_error = 0.0;
+    one.cycles = {33.5, 66.6};
+    const std::vector<Json> rows = bench::to_rows(one, cores);
+    ASSERT_EQ(rows.size(), 3U);
+    EXPECT_EQ(rows[1].at("name"), "horizon/modes/order:0.5/error:0.0001/samples:600");
+    EXPECT_EQ(rows[1].at("model_cycles_per_sample"), 33.5);
+    EXPECT_EQ(rows[2].at("name"), "horizon/modes/order:0.5/error:0.0001/samples:600/m4:cortex-m4-zerowait");
+    EXPECT_EQ(rows[2].at("model_cycles_per_sample"), 66.6);
+    EXPECT_EQ(rows[2].at("macs_per_sample"), 7);
+    EXPECT_EQ(bench::to_rows(without, cores).size(), 1U);
+    const std::string table = bench::to_table(0.5, {one, without}, cores);
+    EXPECT_NE(table.find("  error found  m7 cycles  m4 cycles\n"), std::string::npos) << table;
+    EXPECT_NE(table.find("      1.0e-05         34         67\n"), std::string::npos) << table;
+    EXPECT_NE(table.find("            -          -          -\n"), std::string::npos) << table;
 }
 
 TEST(HorizonCase, AModesRowThatErrsMoreThanItPromisesIsWrong) {
@@ -93,7 +115,7 @@ TEST(HorizonCase, TheTableIsOfItsOrder) {
     other.samples = 5000;
     other.window = 400;
     other.blocks = 50;
-    other.cycles = 33.4;
+    other.cycles = {33.4};
     other.modes.reset();
     HorizonCase elsewhere = other;
     elsewhere.order = 0.9;
@@ -255,11 +277,12 @@ TEST(HorizonsStudy, HasTheDocumentedOrders) {
     EXPECT_EQ(bench::Horizons().orders, (std::vector<double>{0.2, 0.5, 0.9, 1.5, -0.5}));
 }
 
-// Each design once, as the board itself counts it.
+// Each design once, as each board itself counts it.
 TEST(HorizonsStudy, CyclesAreTheBoardsOfTheSameDesigns) {
-    qemu::Board board;
+    std::vector<qemu::Board> boards;
     try {
-        board = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
+        boards = {qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE),
+                  qemu::find_board(TEST_M4_FIRMWARE_BUILD, TEST_PLUGIN, TEST_M4_EMULATE)};
         (void)qemu::emulator_version();
     } catch (const glsum::Failure& failure) {
         if (std::getenv("GLSUM_REQUIRE_FIRMWARE") != nullptr) {
@@ -267,32 +290,43 @@ TEST(HorizonsStudy, CyclesAreTheBoardsOfTheSameDesigns) {
         }
         GTEST_SKIP() << failure.what();
     }
-    board.cores = TEST_CORES;
-    const bench::Study study =
-        bench::measure_horizons({.horizons = {100, 150}, .orders = {0.5}, .board = board, .core = "stm32f746-itcm"});
-    EXPECT_NE(study.text.find("; modelled cycles of the same design in single precision, stm32f746-itcm.\n"),
+    boards[0].machine = base::machine_called("m7");
+    boards[1].machine = base::machine_called("m4");
+    for (qemu::Board& board : boards) {
+        board.cores = TEST_CORES;
+    }
+    const bench::Study study = bench::measure_horizons({.horizons = {100, 150}, .orders = {0.5}, .boards = boards});
+    EXPECT_NE(study.text.find("; modelled cycles of the same design in single precision, stm32f746-itcm, "
+                              "cortex-m4-zerowait.\n"),
               std::string::npos);
-    EXPECT_EQ(study.context.at("core"), "stm32f746-itcm");
+    EXPECT_EQ(study.context.at("core"), "stm32f746-itcm, cortex-m4-zerowait");
     std::vector<qemu::PlannedRow> plan;
-    std::vector<double> found;
+    std::vector<std::vector<double>> found(2);  // by board
     for (const Json& row : study.rows) {
-        if (!row.at("name").get<std::string>().starts_with("horizon/modes")) {
+        const auto name = row.at("name").get<std::string>();
+        if (!name.starts_with("horizon/modes")) {
             EXPECT_FALSE(row.contains("model_cycles_per_sample"));
             continue;
         }
-        found.push_back(row.at("model_cycles_per_sample").get<double>());
-        const auto modes = glsum::design::design_modes(
-            {0.5, row.at("horizon_samples").get<std::size_t>() - 1},
-            std::stod(row.at("name").get<std::string>().substr(row.at("name").get<std::string>().find("error:") + 6)));
+        const auto cycles = row.at("model_cycles_per_sample").get<double>();
+        if (name.ends_with("/m4:cortex-m4-zerowait")) {
+            found[1].push_back(cycles);
+            continue;
+        }
+        found[0].push_back(cycles);
+        const auto modes = glsum::design::design_modes({0.5, row.at("horizon_samples").get<std::size_t>() - 1},
+                                                       std::stod(name.substr(name.find("error:") + 6)));
         plan.push_back({"modes_plain_f32", 0.5, modes->length(), 0,
                         qemu::calls_to_measure("modes_plain_f32", modes->length()), modes->modes});
     }
-    ASSERT_EQ(found.size(), 6U);
-    const auto measured = qemu::measure(
-        board, plan, {bench::make_signal("noise", 1000, bench::Sweep().seed)}, [] {}, qemu::Counting::blocks,
-        bench::timing_request(TEST_CORES, {"stm32f746-itcm"}));
-    for (std::size_t i = 0; i < found.size(); ++i) {
-        EXPECT_EQ(found[i], measured[i].cores.at(0).cycles) << i;
+    for (std::size_t b = 0; b < boards.size(); ++b) {
+        ASSERT_EQ(found[b].size(), 6U);
+        const auto measured = qemu::measure(
+            boards[b], plan, {bench::make_signal("noise", 1000, bench::Sweep().seed)}, [] {}, qemu::Counting::blocks,
+            bench::timing_request(TEST_CORES, {std::string(boards[b].machine->default_core)}));
+        for (std::size_t i = 0; i < plan.size(); ++i) {
+            EXPECT_EQ(found[b][i], measured[i].cores.at(0).cycles) << b << ' ' << i;
+        }
     }
 }
 

@@ -68,7 +68,7 @@ qemu::ModelledCall modelled(double cycles, double low, double high, double worst
 
 TEST(ModelCase, OnTheHostARowHasErrorsAndTime) {
     ModelCase one = made({100});
-    const Json row = bench::to_row(one, "host");
+    const Json row = bench::to_host_row(one);
     EXPECT_EQ(row.at("name"), "drive/niopdt/ringdelta_plain_f32/taps:100/host");
     EXPECT_EQ(row.at("iterations"), 2001);  // steps, and the first output
     EXPECT_EQ(row.at("error_max"), 0.25);
@@ -84,27 +84,27 @@ TEST(ModelCase, OnTheHostARowHasErrorsAndTime) {
         EXPECT_FALSE(row.contains(not_here)) << not_here;
     }
     one.full = true;
-    EXPECT_EQ(bench::to_row(one, "host").at("name"), "drive/niopdt/ringdelta_plain_f32/taps:full/host");
+    EXPECT_EQ(bench::to_host_row(one).at("name"), "drive/niopdt/ringdelta_plain_f32/taps:full/host");
     one.fault = "the coefficients do not fit the format";
-    EXPECT_EQ(bench::to_row(one, "host").at("error_message"), "the coefficients do not fit the format");
-    EXPECT_FALSE(bench::to_row(one, "host").contains("ns_per_sample"));
+    EXPECT_EQ(bench::to_host_row(one).at("error_message"), "the coefficients do not fit the format");
+    EXPECT_FALSE(bench::to_host_row(one).contains("ns_per_sample"));
 }
 
 TEST(ModelCase, ModesHaveNoWindowAndFixedPointSaturates) {
     const ModelCase modes = made({16, 7}, "modes_plain_f32");
-    const Json row = bench::to_row(modes, "host");
+    const Json row = bench::to_host_row(modes);
     EXPECT_EQ(row.at("name"), "drive/niopdt/modesdelta_plain_f32/taps:2+7/host");
     EXPECT_FALSE(row.contains("effective_taps"));
     EXPECT_EQ(row.at("horizon_samples"), 2000);  // all that was stepped
     ModelCase fixed = made({100}, "ring_plain_q31");
     fixed.saturations = 3;
-    EXPECT_EQ(bench::to_row(fixed, "host").at("saturations"), 3);
+    EXPECT_EQ(bench::to_host_row(fixed).at("saturations"), 3);
 }
 
 TEST(ModelCase, OnTheTargetARowHasItsCounts) {
     ModelCase one = made({100});
-    one.counted = counted(21600, 800, 400);
-    const Json row = bench::to_row(one, "m7:count");
+    one.counted = {{counted(21600, 800, 400), true}};
+    const Json row = bench::to_target_row(one, one.counted[0], "m7:count");
     EXPECT_EQ(row.at("name"), "drive/niopdt/ringdelta_plain_f32/taps:100/m7:count");
     EXPECT_EQ(row.at("label"), "instructions only");
     EXPECT_EQ(row.at("instructions_per_sample"), 600.5);
@@ -122,17 +122,18 @@ TEST(ModelCase, OnTheTargetARowHasItsCounts) {
         EXPECT_FALSE(row.contains(not_here)) << not_here;
     }
     one.kernel = "ring_oldest_f64";
-    EXPECT_EQ(bench::to_row(one, "m7:count").at("label"),
+    EXPECT_EQ(bench::to_target_row(one, one.counted[0], "m7:count").at("label"),
               "instructions only; double precision in software, where the count depends on the data");
-    one.same_bits = false;
-    EXPECT_EQ(bench::to_row(one, "m7:count").at("error_message"), "the target's outputs differ from the host's");
+    one.counted[0].same_bits = false;
+    EXPECT_EQ(bench::to_target_row(one, one.counted[0], "m7:count").at("error_message"),
+              "the target's outputs differ from the host's");
 }
 
 TEST(ModelCase, OfAModelledCoreItHasTheCyclesToo) {
     ModelCase one = made({100});
-    one.counted = counted(21600, 800, 400);
-    one.counted->cores = {modelled(1.0, 1.0, 1.0, 1.0), modelled(500.0, 450.0, 550.0, 40000.0)};
-    Json row = bench::to_row(one, "m7:other", 1, 400e6);
+    one.counted = {{counted(21600, 800, 400), true}};
+    one.counted[0].row.cores = {modelled(1.0, 1.0, 1.0, 1.0), modelled(500.0, 450.0, 550.0, 40000.0)};
+    Json row = bench::to_target_row(one, one.counted[0], "m7:other", 1, 400e6);
     EXPECT_EQ(row.at("label"), "modelled cycles");
     EXPECT_EQ(row.at("instructions_per_sample"), 600.5);
     EXPECT_EQ(row.at("model_cycles_per_sample"), 500.0);
@@ -141,10 +142,11 @@ TEST(ModelCase, OfAModelledCoreItHasTheCyclesToo) {
     EXPECT_EQ(row.at("worst_model_cycles"), 40000.0);
     EXPECT_DOUBLE_EQ(row.at("real_time").get<double>(), 1250.0);     // ns at 400 MHz
     EXPECT_DOUBLE_EQ(row.at("share_of_period").get<double>(), 0.1);  // of 400 000 cycles in 1 ms
-    one.counted->unknown_encodings = {0x08001234, 0x08004321};
-    row = bench::to_row(one, "m7:other", 1, 400e6);
+    one.counted[0].row.unknown_encodings = {0x08001234, 0x08004321};
+    row = bench::to_target_row(one, one.counted[0], "m7:other", 1, 400e6);
     EXPECT_EQ(row.at("error_message"), "the timing model does not know 2 encodings, the first at 0x08001234");
-    EXPECT_FALSE(bench::to_row(one, "m7:count").contains("error_message"));  // counts need no model
+    EXPECT_FALSE(
+        bench::to_target_row(one, one.counted[0], "m7:count").contains("error_message"));  // counts need no model
 }
 
 TEST(ModelCase, SoftwareDoubleRunsOnTheTargetUpToSixHundredTaps) {
@@ -159,15 +161,15 @@ TEST(ModelCase, TheTableIsOfItsModel) {
     std::vector<ModelCase> cases;
     cases.push_back(made({100}));
     cases.push_back(made({100}));
-    cases[1].counted = counted(21600, 800, 400);
+    cases[1].counted = {{counted(21600, 800, 400), true}};
     cases[1].saturations = 5;
     cases.push_back(made({100}));
-    cases[2].counted = counted(21600, 800, 400);
-    cases[2].counted->cores = {modelled(500.0, 500.0, 500.0, 43200.0)};
-    cases[2].same_bits = false;
+    cases[2].counted = {{counted(21600, 800, 400), true}};
+    cases[2].counted[0].row.cores = {modelled(500.0, 500.0, 500.0, 43200.0)};
+    cases[2].counted[0].same_bits = false;
     cases.push_back(made({100}));
-    cases[3].counted = counted(21600, 800, 400);
-    cases[3].counted->cores = {modelled(500.0, 450.0, 550.0, 43200.0)};
+    cases[3].counted = {{counted(21600, 800, 400), true}};
+    cases[3].counted[0].row.cores = {modelled(500.0, 450.0, 550.0, 43200.0)};
     cases.push_back(made({100}));
     cases[4].fault = "no taps";
     cases.push_back(made({100}));
@@ -188,13 +190,26 @@ TEST(ModelCase, TheTableIsOfItsModel) {
         "  ringdelta_plain_f32             100 no taps\n");
 }
 
+TEST(ModelCase, MachinesStandBesideEachOther) {
+    std::vector<ModelCase> cases;
+    cases.push_back(made({100}));
+    cases[0].counted = {{counted(21600, 800, 400), true}, {counted(2400, 800, 400), false}};
+    cases[0].counted[1].row.cores = {modelled(900.0, 850.0, 950.0, 1200.0)};
+    EXPECT_EQ(bench::to_table(cases, "niopdt", {{"M7", 216000.0}, {"M4", 24000.0}}),
+              "\nniopdt\n"
+              "  kernel                         taps  MACs for s  error max at the end  M7 instr.      model cycles   "
+              "period  M4 instr.      model cycles   period    bytes  host ns\n"
+              "  ringdelta_plain_f32             100   102     2   2.50e-01    0.75000      600.5                 -   "
+              "10.00%      600.5     900 (850-950)    5.00%     1200  50.5  NOT THE HOST'S BITS\n");
+}
+
 // Straight lines: 6 instructions and 12 bytes a tap.
 TEST(ModelCase, TheLongestMemoryIsByTheLineThroughTheShortestAndTheLongest) {
     std::vector<ModelCase> cases;
     const auto add = [&](const Memory& memory, std::uint64_t worst, std::size_t state, std::size_t coefficients,
                          const std::string& kernel = "ring_plain_f32") {
         cases.push_back(made(memory, kernel));
-        cases.back().counted = counted(worst, state, coefficients);
+        cases.back().counted = {{counted(worst, state, coefficients), true}};
     };
     add({200}, 5000, 5000, 5000);  // between them: of no weight
     add({600}, 3700, 4800, 2400);
@@ -229,7 +244,6 @@ bench::Models host_only(std::vector<std::string> kernels) {
     wanted.kernels = std::move(kernels);
     wanted.targets = {"host"};
     wanted.models = TEST_PROJECT "/drive/models";
-    wanted.core_files = TEST_CORES;
     wanted.quick = true;
     return wanted;
 }
@@ -342,9 +356,8 @@ TEST(ModelsStudy, MeasuresEachWritingAtItsUsualLengths) {
     for (const char* of_sums : {"target_count_order", "weights", "first_weights"}) {
         EXPECT_FALSE(study.context.contains(of_sums)) << of_sums;
     }
-    EXPECT_NE(study.text.find("gives it on no core,"), std::string::npos);
-    EXPECT_NE(study.text.find("the worst step's instructions over"), std::string::npos);
-    EXPECT_EQ(study.text.find("The longest memory"), std::string::npos);  // nothing was counted
+    EXPECT_EQ(study.text.find("gives it on"), std::string::npos);  // nothing was counted
+    EXPECT_EQ(study.text.find("The longest memory"), std::string::npos);
     EXPECT_LT(study.text.find("\nfopdt\n"), study.text.find("\nsopdt\n"));
     EXPECT_LT(study.text.find("\nsopdt\n"), study.text.find("\nniopdt\n"));
 }
@@ -424,7 +437,7 @@ TEST(ModelsStudy, HasTheDocumentedDefaults) {
     EXPECT_EQ(wanted.kernels, std::vector<std::string>{"*"});
     EXPECT_TRUE(wanted.lengths.empty());
     EXPECT_EQ(wanted.targets, (std::vector<std::string>{"host", "m7"}));
-    EXPECT_TRUE(wanted.cores.empty());
+    EXPECT_TRUE(wanted.boards.empty());
     EXPECT_FALSE(wanted.quick);
     EXPECT_EQ(wanted.long_records, (std::vector<std::size_t>{5000, 100000, 1000000}));
     EXPECT_EQ(wanted.jobs, 1U);
@@ -441,12 +454,17 @@ TEST(ModelsStudy, RefusesKernelsThatStepNoModel) {
     }
 }
 
-// The same models, stepped on the board by themselves.
-TEST(ModelsStudy, OnTheBoardRowsAreTheBoardsCounts) {
+// The same models, stepped on each board by themselves.
+TEST(ModelsStudy, OnBoardsRowsAreTheirCounts) {
     bench::Models wanted = host_only({"ringdelta_plain_f32", "ringdelta_oldest_f64"});
     try {
-        wanted.board = qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE);
-        (void)qemu::model_elf(*wanted.board);
+        wanted.boards = {
+            {qemu::find_board(TEST_FIRMWARE_BUILD, TEST_PLUGIN, TEST_EMULATE), {"stm32f746-itcm", "stm32h747-dtcm"}},
+            {qemu::find_board(TEST_M4_FIRMWARE_BUILD, TEST_PLUGIN, TEST_M4_EMULATE), {"stm32h747-m4"}}};
+        for (bench::ModelBoard& on : wanted.boards) {
+            (void)qemu::model_elf(on.board);
+            on.board.cores = TEST_CORES;
+        }
         (void)qemu::emulator_version();
     } catch (const glsum::Failure& failure) {
         if (std::getenv("GLSUM_REQUIRE_FIRMWARE") != nullptr) {
@@ -454,9 +472,9 @@ TEST(ModelsStudy, OnTheBoardRowsAreTheBoardsCounts) {
         }
         GTEST_SKIP() << failure.what();
     }
-    wanted.targets = {"m7"};
-    wanted.board->cores = TEST_CORES;
-    wanted.cores = {"stm32f746-itcm", "stm32h747-dtcm"};
+    wanted.boards[0].board.machine = base::machine_called("m7");
+    wanted.boards[1].board.machine = base::machine_called("m4");
+    wanted.targets = {"m7", "m4"};
     wanted.lengths = {Memory{40}, Memory{100}, std::nullopt};
     const bench::Study study = measured(wanted);
     EXPECT_EQ(study.wrong, 0U);
@@ -468,28 +486,32 @@ TEST(ModelsStudy, OnTheBoardRowsAreTheBoardsCounts) {
     }
     const drive::RealtimeModel design(plants::niopdt(), Writing::delta, {40}, 1e-3);
     const std::vector<double> ones{1.0};
-    const auto timing = bench::timing_request(TEST_CORES, wanted.cores);
-    const auto counted = qemu::step_models(
-        *wanted.board, std::vector<qemu::PlannedModel>{{"ring_plain_f32", &design.design(), ones, 6000}}, [] {},
-        timing);
-    const auto row = [&](const std::string& target) {
-        return *std::find_if(study.rows.begin(), study.rows.end(), [&](const Json& one) {
-            return one.at("name") == "drive/niopdt/ringdelta_plain_f32/taps:40/m7:" + target;
-        });
-    };
-    EXPECT_EQ(row("count").at("instructions_per_sample"), counted[0].instructions);
-    EXPECT_EQ(row("stm32f746-itcm").at("model_cycles_per_sample"), counted[0].cores[0].cycles);
-    EXPECT_EQ(row("stm32h747-dtcm").at("model_cycles_per_sample"), counted[0].cores[1].cycles);
-    const std::vector<double> clocks = bench::clocks_of(timing);
-    for (std::size_t c = 0; c < 2; ++c) {
-        EXPECT_DOUBLE_EQ(row(wanted.cores[c]).at("real_time").get<double>(),
-                         1e9 * counted[0].cores[c].cycles / clocks[c]);
+    for (const bench::ModelBoard& on : wanted.boards) {
+        const auto timing = bench::timing_request(TEST_CORES, on.cores);
+        const std::vector<double> clocks = bench::clocks_of(timing);
+        const auto counted = qemu::step_models(
+            on.board, std::vector<qemu::PlannedModel>{{"ring_plain_f32", &design.design(), ones, 6000}}, [] {}, timing);
+        const auto row = [&](const std::string& core) {
+            return *std::find_if(study.rows.begin(), study.rows.end(), [&](const Json& one) {
+                return one.at("name") ==
+                       "drive/niopdt/ringdelta_plain_f32/taps:40/" + bench::on_target(*on.board.machine, core);
+            });
+        };
+        EXPECT_EQ(row("count").at("instructions_per_sample"), counted[0].instructions);
+        for (std::size_t c = 0; c < on.cores.size(); ++c) {
+            const double cycles = counted[0].cores[c].cycles;
+            EXPECT_EQ(row(on.cores[c]).at("model_cycles_per_sample"), cycles);
+            EXPECT_DOUBLE_EQ(row(on.cores[c]).at("real_time").get<double>(), 1e9 * cycles / clocks[c]);
+        }
+        EXPECT_NE(study.text.find("gives it on " + on.cores[0] + ","), std::string::npos);
     }
-    EXPECT_NE(clocks[0], clocks[1]);
     EXPECT_EQ(names.count("drive/niopdt/ringdelta_plain_f32/taps:full/m7:count"), 1U);
-    EXPECT_NE(study.text.find("The longest memory at 1 kHz"), std::string::npos);
-    EXPECT_NE(study.text.find("gives it on stm32f746-itcm,"), std::string::npos);
-    EXPECT_NE(study.text.find("the worst step's cycles over"), std::string::npos);
+    EXPECT_NE(study.text.find(" M7 instr.      model cycles   period  M4 instr.      model cycles   period    bytes "),
+              std::string::npos);
+    EXPECT_NE(study.text.find("The longest memory at 1 kHz on an M7, 216 000 cycles a step"), std::string::npos);
+    EXPECT_NE(study.text.find("The longest memory at 1 kHz on an M4, 24 000 cycles a step"), std::string::npos);
+    EXPECT_NE(study.text.find("the worst step's cycles over\n  24 000, the cycles of a step on cortex-m4-zerowait."),
+              std::string::npos);
 }
 
 }  // namespace

@@ -80,6 +80,7 @@ TEST(Results, EveryKindOfNameIsReadAsItIsWritten) {
           "gl/ring_plain_f32/order:-0.5/taps:full/m7:stm32f746-itcm", "gl/null/order:1/taps:1/host",
           "gl/a/order:1/taps:50/accuracy/amplitude:0.5", "drive/niopdt/ringdelta_plain_f32/taps:2+7/m7:count",
           "record/peer_fftw_f64/order:0.5/samples:1000/host", "horizon/nested/order:0.5/error:1e-06/samples:600",
+          "horizon/modes/order:0.5/error:1e-06/samples:600/m4:cortex-m4-zerowait",
           "filter/oustaloup_f64/order:0.5/poles:7/accuracy/signal:step", "band/charef_f32/order:0.5/taps:1+3/hz:8..80",
           "derivative/modes_plain_f32/order:0.5/taps:1+5/m7:stm32f746-itcm/hz:0.05..80/until:60",
           "derivative/modes_plain_f32/order:0.5/taps:1+5/host/until:60",

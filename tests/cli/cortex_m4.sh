@@ -76,7 +76,11 @@ expect 2 "of several, m7 and m4, found host" choose $ask --target host,m4
 expect 0 "on the emulated Cortex-M4, of the registered kernel" generate --order 0.5 --kernel mirror_multi_f32 --taps 50 --verify --target m4
 expect 0 "M4: instructions a step" bench models --targets m4 --kernels ringdelta_plain_f32 --taps 100 --out "$folder/models.json"
 grep -q "/taps:100/m4:$core\"" "$folder/models.json" || fail "expected the models' rows"
-expect 2 "expected one of m7 and m4 at once" bench models --targets m7,m4 --out "$folder/bad.json"
+expect 0 " M7 instr.      model cycles   period  M4 instr." bench models --targets m7,m4 --kernels ringdelta_plain_f32 --taps 100 --out "$folder/models.json"
+grep -q "/taps:100/m7:stm32f746-itcm\"" "$folder/models.json" && grep -q "/taps:100/m4:$core\"" "$folder/models.json" || fail "expected the models' rows of both"
+expect 0 "m7 cycles  m4 cycles" bench horizons 150 --orders 0.5 --targets m7,m4 --out "$folder/horizons.json"
+grep -q "horizon/modes/order:0.5/error:0.01/samples:150/m4:$core\"" "$folder/horizons.json" || fail "expected the M4's row of a horizon"
+expect 2 "of a Cortex-M4; expected --targets with m4" bench models --targets m7 --core $core --out "$folder/bad.json"
 expect 0 "biquad_step on $core" time --elf "$firmware/targets/biquad.elf" --function biquad_step --core $core
 expect 0 "biquad_step on stm32h747-m4" time --elf "$firmware/targets/biquad.elf" --function biquad_step --core stm32h747-m4
 expect 2 "no such core" time --elf "$firmware/targets/biquad.elf" --function biquad_step --core cortex-m5

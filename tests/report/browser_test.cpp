@@ -381,6 +381,30 @@ TEST_F(Page, TheFirstScreenAnswers) {
     choose("ask-error", "1e-6");
     EXPECT_EQ(text("#answer-text"), "No kernel of this file errs 1e-6 (0.0001 %) or less at order 0.9.");
 
+    EXPECT_TRUE(run("return document.getElementById('cores').hidden").get<bool>());  // one machine's rows alone
+
+    // With a second machine's rows both stand beside each other, the one that was chosen for each marked.
+    bench::report::Input both = input;
+    for (const bench::Json& row : input.results.rows) {
+        std::string name = row["name"];
+        if (const std::size_t at = name.find("/m7:pretend"); at != std::string::npos) {
+            bench::Json slower = row;
+            slower["name"] = name.replace(at, std::string::npos, "/m4:other");
+            slower["model_cycles_per_sample"] = 2.0 * row["model_cycles_per_sample"].get<double>();
+            slower["real_time"] = 1000.0;
+            both.results.rows.push_back(std::move(slower));
+        }
+    }
+    open(both);
+    choose("ask-error", "1e-3");
+    choose("ask-order", "0.9");
+    EXPECT_FALSE(run("return document.getElementById('cores').hidden").get<bool>());
+    EXPECT_EQ(count("#cores-table tbody tr"), 2);
+    EXPECT_EQ(text("#cores-table tbody tr td"), "M7 pretend");
+    EXPECT_EQ(text("#cores-table tbody tr:nth-child(2) td"), "M4 other");
+    EXPECT_EQ(text("#cores-table tbody tr:nth-child(2) td:nth-child(6)"), "1");  // us
+    EXPECT_EQ(count("#cores-table tr.chosen"), 2);
+
     bench::Results other = input.results;
     for (bench::Json& row : other.rows) {
         if (const std::string name = row["name"];

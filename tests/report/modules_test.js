@@ -4,6 +4,7 @@ import {createRequire} from "node:module";
 
 globalThis.d3 = createRequire(import.meta.url)("/usr/share/nodejs/d3/dist/d3.min.js");
 const {answerOf, decidingCost, limits} = await import("./answer.js");
+const {coresOf} = await import("./cores.js");
 const {catalogueOf} = await import("./catalogue.js");
 const {changesOf} = await import("./changes.js");
 const {choicesOf, tablesOf} = await import("./choices.js");
@@ -222,6 +223,24 @@ const tests = {
     assert.deepEqual([state.now["ask-error"], state.now["ask-order"], state.now["ask-target"]], ["1e-2", "0.5", "cycles-m7:pretend"], "what cannot be asked is not");
     assert.ok(limits.includes(state.now["ask-error"]));
     assert.equal(answerOf(all, {...state.now, "ask-order": "0.7"}), null);
+  },
+  bothCoresStandBesideEachOther() {
+    const accuracy = table("accuracy", keys, ["error_max", "state_bytes", "coefficient_bytes"], [
+      ["ring_plain_f32", "0.5", "600", "step", "", 0.004, 2000, 400], ["ring_plain_q15", "0.5", "600", "step", "", 0.003, 1000, 200]]);
+    const on = (aspect, ...rows) => table(aspect, ["kernel", "order", "taps", "fault"], ["model_cycles_per_sample", "model_cycles_high", "real_time"], rows);
+    const m7 = on("m7:fast", ["ring_plain_f32", "0.5", "600", "", 216, 270, 1000], ["ring_plain_q15", "0.5", "600", "", 432, 540, 2000]);
+    const m4 = on("m4:slow", ["ring_plain_f32", "0.5", "600", "", 960, 1200, 40000], ["ring_plain_q15", "0.5", "600", "", 480, 600, 20000]);
+    const of = tables => page({files: [{name: "d.json", context: a.context, bounds: a.bounds, tables}]});
+    const {all, state} = of([accuracy, m7, m4]);
+    const cores = coresOf(all, state.now);
+    assert.deepEqual(cores.rows.map(row => cores.columns.map(one => one.text(row)).concat(row.mark)), [
+      ["M7 fast", "ring_plain_f32", "600", "216", "270", "1", "2,400", "0.13 %", "chosen"],
+      ["M4 slow", "ring_plain_f32", "600", "960", "1,200", "40", "2,400", "5 %", ""],
+      ["M7 fast", "ring_plain_q15", "600", "432", "540", "2", "1,200", "0.25 %", ""],
+      ["M4 slow", "ring_plain_q15", "600", "480", "600", "20", "1,200", "2.5 %", "chosen"]]);
+    assert.equal(coresOf(all, {...state.now, "ask-error": "1e-6"}), null, "nothing errs so little");
+    const alone = of([accuracy, m4]);
+    assert.equal(coresOf(alone.all, alone.state.now), null, "a machine alone has nothing beside it");
   },
   changesAreBetterOrWorseByKernelAndCounter() {
     const row = (kernel, counter, from, to) => ({kernel, aspect: "accuracy", counter, a: from, b: to, ratio: to / from, size: Math.abs(Math.log(to / from)), note: ""});
