@@ -40,21 +40,6 @@ struct Options {
 // What is judged where no core is asked for, of rows of our kernels.
 constexpr const char* of_kernels = "m7-ideal";
 
-// The rule sets of a core file that fit silicon, beside the one that judges.
-std::vector<std::string> rivals_of(const std::string& core, const std::filesystem::path& cores) {
-    const gap::cycles::Question question = gap::cycles::question_about({}, {core}, cores);
-    std::vector<std::string> sets = question.fitting.at(core);
-    sets.erase(sets.begin());
-    std::erase_if(sets, [](const std::string& set) { return !gap::cycles::has_place(set); });
-    if (sets.empty()) {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected a core file with rival rules of a Cortex-M7", core));
-    }
-    for (const std::string& mechanism : timing::mechanism_names()) {
-        sets.push_back(mechanism);
-    }
-    return sets;
-}
-
 // The truth is written, and its hash told, before the first diagnosis; each diagnosis reads its rows from their file.
 void run_blind(const Options& options) {
     const qemu::SiliconProgram program = built_silicon();
@@ -63,7 +48,8 @@ void run_blind(const Options& options) {
     const auto predict = [&](const auto& variants) { return qemu::predict(program, "blind", rows, variants); };
     const auto secrets =
         options.other_rules
-            ? gap::cycles::draw_other_rules(options.blind, options.seed, rivals_of(core, program.cores_folder))
+            ? gap::cycles::draw_other_rules(options.blind, options.seed,
+                                            gap::cycles::other_rules_of(core, program.cores_folder))
             : gap::cycles::draw_secrets(options.blind, options.seed, gap::cycles::switches_that_show(core, predict));
     std::filesystem::create_directories(options.out);
     for (std::size_t c = 0; c < secrets.size(); ++c) {

@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "base/failure.hpp"
+#include "gap/cycles/diagnose.hpp"
 #include "gap/cycles/evidence.hpp"
 #include "qemu/emulate/silicon_loops.hpp"
 
@@ -148,6 +150,21 @@ std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed, const st
 }
 
 bool has_place(const std::string& rules) { return touched_by.contains(rules); }
+
+std::vector<std::string> other_rules_of(const std::string& core, const std::filesystem::path& cores) {
+    const Question question = question_about({}, {core}, cores);
+    std::vector<std::string> rules = question.fitting.at(core);
+    rules.erase(rules.begin());
+    std::erase_if(rules, [](const std::string& set) { return !has_place(set); });
+    if (rules.empty()) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{}: expected a core file with rival rules of a Cortex-M7", core));
+    }
+    for (const std::string& mechanism : timing::mechanism_names()) {
+        rules.push_back(mechanism);
+    }
+    return rules;
+}
 
 std::string core_with(const std::string& core, const std::string& mechanism) {
     return fmt::format("base = \"{}\"\nmechanisms = [\"{}\"]\n", core, mechanism);

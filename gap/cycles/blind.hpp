@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -38,6 +39,10 @@ struct Secret {
 
 /// Whether it is known where the rules of a set, or a mechanism, act.
 [[nodiscard]] bool has_place(const std::string& rules);
+
+/// The rules that may make a core's cycles in its place: its rival sets that fit silicon, and every mechanism.
+/// \throws glsum::Failure (bad input) for a core file without rival rules of a Cortex-M7
+[[nodiscard]] std::vector<std::string> other_rules_of(const std::string& core, const std::filesystem::path& cores);
 
 /// A core file of that core with a mechanism that it has not.
 [[nodiscard]] std::string core_with(const std::string& core, const std::string& mechanism);
