@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "base/rounded_up.hpp"
-#include "bench/generate/text.hpp"
 #include "bench/sweep/designs.hpp"
+#include "bench/texts/text.hpp"
 #include "glsum/catalogue.hpp"
 #include "glsum/weights.hpp"
 
@@ -46,12 +46,12 @@ std::string truncation_bound(const Spec& spec, bool increments, bool guesses) {
 
 }  // namespace
 
-std::string opening_comment(const Spec& spec, KernelData& data) {
+std::string opening_comment(const Spec& spec, HeaderText& header) {
     const glsum::CatalogueEntry& kernel = bench::facts_of(spec.kernel);
-    Facts& facts = data.text.facts;
-    Places& places = data.text.places;
+    Facts& facts = header.facts;
+    Places& places = header.places;
     const long near_taps = facts["past"] + 1;
-    const bool guesses = facts["held"] != 0 || facts["line"] != 0;
+    const bool guesses = facts["guesses"] != 0;
     const bool designed = facts["modes"] != 0 || kernel.blocks;
     facts["model"] = spec.past_of_model;
     facts["fitted"] = spec.fitted.has_value();
@@ -67,11 +67,10 @@ std::string opening_comment(const Spec& spec, KernelData& data) {
                         : facts["modes"] == 0 ? fmt::format("{} taps", spec.taps)
                                               : "these taps and modes, as designed in double") +
                        (guesses || kernel.integrator ? fmt::format(", over {} samples", spec.horizon) : "");
-    places["error_bound"] = base::rounded_up(data.error_bound);
     places["against"] = designed ? fmt::format("{} samples from rest", spec.horizon) : "truncation";
     places["memory_bound"] =
-        designed ? base::rounded_up(data.design_error) : truncation_bound(spec, facts["increments"] != 0, guesses);
-    std::string text = data.text.section("header", "opening");
+        designed ? places["design_error"] : truncation_bound(spec, facts["increments"] != 0, guesses);
+    std::string text = header.section("header", "opening");
     text += spec.provenance.empty() ? "" : "\n";
     for (const std::string& line : spec.provenance) {
         text += line + "\n";

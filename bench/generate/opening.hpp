@@ -4,11 +4,11 @@
 #include <string>
 
 #include "bench/generate/header.hpp"
-#include "bench/generate/kernel_data.hpp"
+#include "bench/texts/template.hpp"
 
 namespace generate {
 
-/// \param data  is given the places of this comment
-[[nodiscard]] std::string opening_comment(const Spec& spec, KernelData& data);
+/// \param header  of `kernel_text`, which is given the places of this comment
+[[nodiscard]] std::string opening_comment(const Spec& spec, HeaderText& header);
 
 }  // namespace generate

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A sum is written once: no string literal of bench/generate states one, and no text of a header. Argument: the source folder.
+# A sum is written once: no string literal of what writes headers states one, and no text of a header. Argument: the source folder.
 set -u
 root=$1
 here=$root/tests/generate
@@ -10,7 +10,7 @@ fail() { echo "$*"; failures=$((failures + 1)); }
 
 { echo "$root/bench/generate/header.h.in"; find "$root/kernels" -name '*.h.in'; } >"$folder/files"
 [ "$(wc -l <"$folder/files")" -gt 15 ] || fail "expected the texts of headers"
-find "$root/bench/generate" -name '*.cpp' -o -name '*.hpp' -o -name '*.cpp.in' >>"$folder/files"
+find "$root/bench/generate" "$root/bench/texts" "$root/bench/steppers" "$root/bench/verify" -name '*.cpp' -o -name '*.hpp' -o -name '*.cpp.in' >>"$folder/files"
 xargs perl "$here/literals.pl" <"$folder/files" >"$folder/found" ||
     fail "a sum is stated in a literal and in kernels/glsum: $(cat "$folder/found")"
 

@@ -10,7 +10,8 @@
 
 #include "base/failure.hpp"
 #include "bench/generate/header.hpp"
-#include "bench/generate/template.hpp"
+#include "bench/texts/template.hpp"
+#include "bench/texts/text.hpp"
 
 namespace {
 

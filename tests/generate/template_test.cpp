@@ -1,5 +1,5 @@
 // Texts of headers: what of them stands in one, by its facts, and what is refused.
-#include "bench/generate/template.hpp"
+#include "bench/texts/template.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

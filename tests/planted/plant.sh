@@ -51,8 +51,10 @@ library_of() {
         bench/gate/*) echo bench/gate/libglsum_gate.a ;;
         bench/choose/*) echo bench/libglsum_choose.a ;;
         bench/report/*) echo bench/libglsum_report.a ;;
-        bench/generate/controller/* | bench/generate/model/* | bench/generate/stepper/*) echo bench/libglsum_generate_steppers.a ;;
+        bench/steppers/*) echo bench/libglsum_generate_steppers.a ;;
         bench/generate/*) echo bench/libglsum_generate.a ;;
+        bench/texts/*) echo bench/libglsum_texts.a ;;
+        bench/verify/*) echo bench/libglsum_verify.a ;;
         bench/*) echo bench/libglsum_bench.a ;;
         docs/site/*) echo docs/site/libglsum_docs_facts.a ;;
         drive/stand/*) echo drive/stand/libglsum_stand.a ;;
@@ -77,8 +79,8 @@ tests_of() {
         kernels/*) echo kernel_tests bench_tests ;;
         base/*) echo base_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;
-        bench/generate/controller/* | bench/generate/model/* | bench/generate/stepper/*) echo controller_tests ;;
-        bench/generate/*) echo choose_tests make_headers ;;
+        bench/steppers/*) echo controller_tests ;;
+        bench/generate/* | bench/texts/* | bench/verify/*) echo choose_tests make_headers ;;
         bench/report/table.* | bench/report/plot* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
         bench/report/*) echo bench_tests browser_tests ;;
         bench/studies/horizon* | bench/studies/model* | bench/studies/record*) echo studies_tests ;;
