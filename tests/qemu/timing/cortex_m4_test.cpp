@@ -78,6 +78,20 @@ constexpr Probe probes[] = {
     {"access.load_pipelines", "ldr.w r0,[r1]; ldm r2,{r3,r4}", 5},
     {"access.load_pipelines", "ldr.w r0,[pc,#16]; ldr.w r1,[r2]; add.w r3,r4,r5", 5},  // another block of memory
     {"access.load_pipelines", "ldr.w r0,[r1]; str.w r0,[r3]; add.w r4,r5,r6", 3},      // takes the load's wait away
+    // What the kernels' own loops rest on (window/m7/): four words of two pointers, and by LDM; four floats by VLDM.
+    {"access.load_pipelines",
+     "ldr.w r4,[r3]; ldr.w r5,[r3,#4]; ldr.w r6,[r3,#8]; ldr.w r7,[r3,#12]; ldr.w r8,[r2]; ldr.w r9,[r2,#4]; "
+     "ldr.w r10,[r2,#8]; ldr.w r11,[r2,#12]; smlald r0,r1,r4,r8; smlald r0,r1,r5,r9; smlald r0,r1,r6,r10; "
+     "smlald r0,r1,r7,r11",
+     13},
+    {"takes.multiple_first",
+     "ldm r3,{r4-r7}; ldm r2,{r8-r11}; smlald r0,r1,r4,r8; smlald r0,r1,r5,r9; smlald r0,r1,r6,r10; smlald "
+     "r0,r1,r7,r11",
+     14},
+    {"takes.multiple_first",
+     "vldm r1,{s4-s7}; vldm r2,{s8-s11}; vmul.f32 s4,s4,s8; vmul.f32 s5,s5,s9; vmul.f32 s6,s6,s10; vmul.f32 s7,s7,s11; "
+     "vadd.f32 s0,s0,s4; vadd.f32 s1,s1,s5; vadd.f32 s2,s2,s6; vadd.f32 s3,s3,s7",
+     18},
     {"access.load_hides_nop", "ldr.w r0,[r1]; nop.w; add.w r2,r3,r4", 3},
     {"access.load_hides_nop", "ldr.w r0,[r1]; cmp.w r5,r6; add.w r2,r3,r4", 4},
     {"access.load_behind_store", "str.w r0,[r1]; ldr.w r2,[r3]; add.w r4,r5,r6", 5},
