@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/choose/errors.hpp"
+#include "bench/choose/kernel_run.hpp"
 #include "glsum/design/band.hpp"
 
 namespace choose {
@@ -53,8 +54,13 @@ private:
     struct Once {
         std::once_flag flag;
         std::optional<glsum::design::FittedFilter> filter;
+        std::once_flag certified_flag;
+        glsum::design::DerivativeError certified;  ///< of the filter itself
     };
     [[nodiscard]] const glsum::design::FittedFilter& filter_of(const Key& key);
+    [[nodiscard]] Once& entry_of(const Key& key);
+    /// Of what a kernel holds; of the fitted filter itself once for all.
+    [[nodiscard]] glsum::design::DerivativeError certified_error_of(const Key& key, const Held& held);
     [[nodiscard]] Key key_of(const std::string& kernel, std::size_t taps) const;
 
     glsum::design::DerivativeGoal goal_;

@@ -145,6 +145,7 @@ Held hold(const glsum::Design& made, const design::DerivativeGoal& goal, const d
         run_noise<K>(line, goal, fitted.factor, found);
     } else {
         found.filter = fitted.filter();
+        found.as_fitted = true;
         bound_noise(goal, std::fabs(fitted.factor) * glsum::error_bound<K>(made, line.state(), 1.0, goal.horizon()),
                     found);
     }
