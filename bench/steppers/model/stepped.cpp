@@ -8,10 +8,11 @@
 
 namespace generate {
 
-class SteppedModel::Line {
+class SteppedModel::Stepper {
 public:
-    explicit Line(const ModelSpec& spec) : design(spec.model, spec.writing, spec.memory, spec.step_s, spec.samples) {}
-    virtual ~Line() = default;
+    explicit Stepper(const ModelSpec& spec)
+        : design(spec.model, spec.writing, spec.memory, spec.step_s, spec.samples) {}
+    virtual ~Stepper() = default;
     virtual float step(float input) = 0;
     const drive::RealtimeModel design;
 
@@ -20,11 +21,11 @@ public:
 };
 
 template <class K>
-class SteppedModel::Line::With : public SteppedModel::Line {
+class SteppedModel::Stepper::With : public SteppedModel::Stepper {
     using Stepper = glsum::Stepper<K>;
 
 public:
-    explicit With(const ModelSpec& spec) : Line(spec) {
+    explicit With(const ModelSpec& spec) : Stepper(spec) {
         const glsum::ModelDesign& numbers = design.design();
         std::size_t coefficients = 0;
         std::size_t samples = 0;
@@ -51,16 +52,16 @@ private:
 
 SteppedModel::SteppedModel(const ModelSpec& spec) {
     if (spec.compensated) {
-        line_ = std::make_unique<Line::With<glsum::modes_compensated_f32>>(spec);
+        stepper_ = std::make_unique<Stepper::With<glsum::modes_compensated_f32>>(spec);
     } else {
-        line_ = std::make_unique<Line::With<glsum::modes_plain_f32>>(spec);
+        stepper_ = std::make_unique<Stepper::With<glsum::modes_plain_f32>>(spec);
     }
 }
 
 SteppedModel::~SteppedModel() = default;
 
-float SteppedModel::step(float input) { return line_->step(input); }
+float SteppedModel::step(float input) { return stepper_->step(input); }
 
-const drive::RealtimeModel& SteppedModel::design() const { return line_->design; }
+const drive::RealtimeModel& SteppedModel::design() const { return stepper_->design; }
 
 }  // namespace generate

@@ -33,8 +33,8 @@ public:
     [[nodiscard]] const drive::RealtimeModel& design() const;
 
 private:
-    class Line;
-    std::unique_ptr<Line> line_;
+    class Stepper;
+    std::unique_ptr<Stepper> stepper_;
 };
 
 }  // namespace generate
