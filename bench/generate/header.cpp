@@ -40,9 +40,6 @@ std::string make_header(const Spec& spec) {
     Facts& facts = text.facts;
     Places& places = text.places;
     const bool in_software = facts["in_software"] != 0;
-    places["reads"] = facts["increments"] != 0 || facts["guesses"] != 0 ? "what is kept of those"
-                      : facts["modes"] != 0                             ? "all samples"
-                                                                        : fmt::format("the {} samples", facts["held"]);
     places["fp_bit"] = in_software ? "8" : "4";
     places["fp_register"] = in_software ? "w" : "t";
     places["turns"] = in_software ? "1" : "16";

@@ -247,6 +247,8 @@ HeaderText text_for(const Spec& spec) {
     const Says<Sample> says{text};
     says("taps", spec.taps);
     says("past", past - 2 * design.modes.size() - design.blocks.count);
+    says("near_taps", spec.taps - 2 * design.modes.size() - design.blocks.count);
+    says("horizon", spec.horizon);
     says("modes", design.modes.size());
     says("decaying", std::count_if(design.modes.begin(), design.modes.end(),
                                    [](const glsum::Mode& mode) { return mode.decay != 0.0; }));

@@ -6,9 +6,7 @@
 #include <sstream>
 
 #include "base/rounded_up.hpp"
-#include "bench/sweep/designs.hpp"
 #include "bench/texts/text.hpp"
-#include "glsum/catalogue.hpp"
 #include "glsum/weights.hpp"
 
 namespace generate {
@@ -47,29 +45,14 @@ std::string truncation_bound(const Spec& spec, bool increments, bool guesses) {
 }  // namespace
 
 std::string opening_comment(const Spec& spec, HeaderText& header) {
-    const glsum::CatalogueEntry& kernel = bench::facts_of(spec.kernel);
-    Facts& facts = header.facts;
-    Places& places = header.places;
-    const long near_taps = facts["past"] + 1;
-    const bool guesses = facts["guesses"] != 0;
-    const bool designed = facts["modes"] != 0 || kernel.blocks;
-    facts["model"] = spec.past_of_model;
-    facts["fitted"] = spec.fitted.has_value();
-    facts["use"] = !spec.use.empty();
-    places["use"] = spec.use;
-    places["kernel"] = spec.kernel;
-    places["order"] = fmt::format("{}", spec.order);
-    places["length"] = facts["blocks"] > 0   ? fmt::format("{} taps and {} blocks", near_taps, facts["blocks"])
-                       : facts["modes"] == 0 ? fmt::format("{} taps", spec.taps)
-                                             : fmt::format("{} taps and {} modes", near_taps, facts["modes"]);
-    places["summed"] = (guesses               ? fmt::format("{} taps and the tail's weights", spec.taps)
-                        : facts["blocks"] > 0 ? "these taps and blocks"
-                        : facts["modes"] == 0 ? fmt::format("{} taps", spec.taps)
-                                              : "these taps and modes, as designed in double") +
-                       (guesses || kernel.integrator ? fmt::format(", over {} samples", spec.horizon) : "");
-    places["against"] = designed ? fmt::format("{} samples from rest", spec.horizon) : "truncation";
-    places["memory_bound"] =
-        designed ? places["design_error"] : truncation_bound(spec, facts["increments"] != 0, guesses);
+    header.facts["model"] = spec.past_of_model;
+    header.facts["fitted"] = spec.fitted.has_value();
+    header.facts["use"] = !spec.use.empty();
+    header.places["use"] = spec.use;
+    header.places["kernel"] = spec.kernel;
+    header.places["order"] = fmt::format("{}", spec.order);
+    header.places["truncation_bound"] =
+        truncation_bound(spec, header.facts["increments"] != 0, header.facts["guesses"] != 0);
     std::string text = header.section("header", "opening");
     text += spec.provenance.empty() ? "" : "\n";
     for (const std::string& line : spec.provenance) {

@@ -10,6 +10,7 @@
 
 #include "base/failure.hpp"
 #include "bench/generate/header.hpp"
+#include "bench/sweep/designs.hpp"
 #include "bench/texts/template.hpp"
 #include "bench/texts/text.hpp"
 
@@ -109,7 +110,7 @@ TEST(Technique, StatementsAreIndentedByTheirBraces) {
     const std::regex statement(
         R"(^( *)((s|t|c|x)\d+ = |if \(|for \(|do \{|while \(|at |sum = |const @|--?[ax]|\+\+[ax]|mode |average|a -= |x \+= |\}))");
     for (const std::string& kernel : generate::generatable()) {
-        const bool integral = kernel.find("sum_") != std::string::npos;
+        const bool integral = bench::has_integrator(kernel);
         const std::string text = generate::make_header({.kernel = kernel,
                                                         .order = integral ? -0.5 : 0.5,
                                                         .taps = 31,

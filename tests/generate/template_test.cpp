@@ -65,7 +65,9 @@ TEST(Template, FactsDecide) {
         return std::string(sum.find("KEEP_WORD(samples)") != sum.npos ? "samples " : "") +
                (sum.find("KEEP_WORD(past)") != sum.npos ? "past" : "");
     };
-    EXPECT_EQ(hidden(3, "f32"), "samples past");
+    EXPECT_EQ(hidden(3, "two_pieces"), "samples past");
+    EXPECT_EQ(hidden(4, "two_pieces"), "");
+    EXPECT_EQ(hidden(3, "f32"), "");
     EXPECT_EQ(hidden(4, "f32"), "");
     EXPECT_EQ(hidden(4, "fused"), "past");
     EXPECT_EQ(hidden(4, "in_software"), "past");
