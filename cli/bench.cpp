@@ -148,6 +148,7 @@ void add_options(Command& command, const Words& words) {
     auto options = std::make_shared<Options>();
     command.footer(
         "Flags --benchmark_... go to Google Benchmark.\n"
+        "With --derivative-error it is `bench derivative`: what each kernel needs for the derivative itself.\n"
         "Example: glsum bench --quick --kernels 'ring_*' --orders 0.5,-0.5 --taps 100,full --out my.json");
     command.add_flag("--quick", options->quick, "1000 samples, 4 orders, 5 lengths");
     command.add_option("--kernels", options->kernels, "Globs of kernel names").delimiter(',').capture_default_str();

@@ -31,16 +31,7 @@ std::shared_ptr<Budget> add_budget(Command& command, bool needs_order) {
         .add_option("--max-error", budget->max_error,
                     "Largest error of the sum, relative to the largest exact full-memory sum, before h^-v")
         .above(0);
-    command.add_option("--derivative-error", budget->derivative_error,
-                       "In place of --max-error: largest relative error of the derivative (or integral) itself, as in "
-                       "5%, over a --band, along a step (--step-until), or both");
-    command.add_option("--band", budget->band,
-                       "Hertz, as in 0.05..80: there |H - (jw)^v| / w^v is held within --derivative-error");
-    command
-        .add_option("--step-until", budget->step_until_s,
-                    "Seconds: until then, from ten samples on, the response to a unit step is held within it of "
-                    "t^-v / Gamma(1 - v)")
-        .above(0);
+    add_goal(command, *budget);
     command.add_option("--plot", budget->plot,
                        "With --derivative-error: draws gain, phase and step response there (FILE.svg and FILE.png)");
     command.add_option("--signal", budget->signals, "The error is the worst of these records (default: all of them)")

@@ -16,6 +16,19 @@ namespace {
 
 }  // namespace
 
+void add_goal(Command& command, Budget& budget) {
+    command.add_option("--derivative-error", budget.derivative_error,
+                       "Largest relative error of the derivative (or integral) itself, as in 5%, and not of the sum: "
+                       "over a --band, along a step (--step-until), or both");
+    command.add_option("--band", budget.band,
+                       "Hertz, as in 0.05..80: there |H - (jw)^v| / w^v is held within --derivative-error");
+    command
+        .add_option("--step-until", budget.step_until_s,
+                    "Seconds: until then, from ten samples on, the response to a unit step is held within it of "
+                    "t^-v / Gamma(1 - v)")
+        .above(0);
+}
+
 std::optional<glsum::design::DerivativeGoal> derivative_goal(const Budget& budget) {
     if (budget.derivative_error.empty()) {
         if (!budget.band.empty() || budget.step_until_s != 0.0 || !budget.plot.empty()) {

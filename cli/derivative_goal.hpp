@@ -8,6 +8,9 @@
 
 namespace cli {
 
+/// Adds the options `--derivative-error`, `--band` and `--step-until`.
+void add_goal(Command& command, Budget& budget);
+
 /// Its band and step; nothing where --max-error asks about the sum.
 /// \throws glsum::Failure (bad input) for options that contradict each other, or that no record can hold.
 [[nodiscard]] std::optional<glsum::design::DerivativeGoal> derivative_goal(const Budget& budget);

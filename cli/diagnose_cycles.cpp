@@ -40,34 +40,28 @@ struct Options {
 // What is judged where no core is asked for, of rows of our kernels.
 constexpr const char* of_kernels = "m7-ideal";
 
-// The rule sets of a core file that fit silicon, beside the one that judges.
-std::vector<std::string> rivals_of(const std::string& core, const std::filesystem::path& cores) {
-    const gap::cycles::Question question = gap::cycles::question_about({}, {core}, cores);
-    std::vector<std::string> sets = question.fitting.at(core);
-    sets.erase(sets.begin());
-    std::erase_if(sets, [](const std::string& set) { return !gap::cycles::has_place(set); });
-    if (sets.empty()) {
-        throw Failure(Exit::bad_input, fmt::format("{}: expected a core file with rival rules of a Cortex-M7", core));
-    }
-    return sets;
-}
-
 // The truth is written, and its hash told, before the first diagnosis; each diagnosis reads its rows from their file.
 void run_blind(const Options& options) {
     const qemu::SiliconProgram program = built_silicon();
     const std::string core = options.core.empty() || options.core == of_kernels ? default_core : options.core;
-    const std::vector<qemu::MeasuredCycles> rows = gap::cycles::blind_rows();
+    const std::vector<qemu::MeasuredCycles> rows = gap::cycles::blind_rows(options.other_rules);
     const auto predict = [&](const auto& variants) { return qemu::predict(program, "blind", rows, variants); };
     const auto secrets =
         options.other_rules
-            ? gap::cycles::draw_other_rules(options.blind, options.seed, rivals_of(core, program.cores_folder))
+            ? gap::cycles::draw_other_rules(options.blind, options.seed,
+                                            gap::cycles::other_rules_of(core, program.cores_folder))
             : gap::cycles::draw_secrets(options.blind, options.seed, gap::cycles::switches_that_show(core, predict));
     std::filesystem::create_directories(options.out);
     for (std::size_t c = 0; c < secrets.size(); ++c) {
         std::vector<qemu::MeasuredCycles> measured = rows;
-        gap::cycles::measure(
-            measured, predict(std::vector<qemu::CoreVariant>{{core, secrets[c].set, secrets[c].without}}).front(),
-            secrets[c], options.seed + 1 + c);
+        const gap::cycles::Secret& secret = secrets[c];
+        qemu::CoreVariant real{core, secret.set, secret.without};
+        if (!secret.mechanism.empty()) {
+            const std::filesystem::path file = options.out / (secret.mechanism + ".toml");
+            put(gap::cycles::core_with(core, secret.mechanism), file);
+            real.core = file.string();
+        }
+        gap::cycles::measure(measured, predict(std::vector{real}).front(), secret, options.seed + 1 + c);
         put(qemu::to_csv(measured), options.out / (gap::cycles::name_of_case(c + 1) + ".csv"));
     }
     const std::filesystem::path truth = options.out / "truth.json";
@@ -90,13 +84,14 @@ void run_blind(const Options& options) {
         }
         const bool good = gap::cycles::names(found, secret);
         // Of cycles that other rules made, `unknown` says no more than is known.
-        const bool held_back = !good && !secret.set.empty() && found.outcome == gap::Outcome::unknown;
+        const bool held_back = !good && !secret.other_rules().empty() && found.outcome == gap::Outcome::unknown;
         tally.count(secret.kind, good);
-        if (!secret.set.empty()) {
+        if (!secret.other_rules().empty()) {
             tally.count("no false name", good || held_back);
         }
         fmt::print("  {:<10} {:<14} {:<44} {}: {}{}\n", name, secret.kind,
-                   fmt::format("{}", fmt::join(secret.effects, " ")) + (secret.set.empty() ? "" : " by " + secret.set),
+                   fmt::format("{}", fmt::join(secret.effects, " ")) +
+                       (secret.other_rules().empty() ? "" : " by " + secret.other_rules()),
                    name_of(found.outcome), fmt::join(named, " "),
                    good        ? ""
                    : held_back ? "   held back"

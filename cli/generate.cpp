@@ -10,11 +10,11 @@
 #include "base/failure.hpp"
 #include "base/files.hpp"
 #include "bench/choose/derivative_text.hpp"
+#include "bench/choose/provenance.hpp"
 #include "bench/choose/report.hpp"
 #include "bench/generate/header.hpp"
-#include "bench/generate/provenance.hpp"
-#include "bench/generate/verify.hpp"
 #include "bench/target/target_rows.hpp"
+#include "bench/verify/verify.hpp"
 #include "cli/board.hpp"
 #include "cli/budget.hpp"
 #include "cli/command.hpp"
@@ -131,7 +131,7 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
         }
     }
     if (!options.out.empty()) {
-        specs.front().provenance = generate::provenance(*answer, command);
+        specs.front().provenance = choose::provenance(*answer, command);
         const std::string header = generate::make_header(specs.front());
         base::write_file(options.out, header);
         const generate::Spec& spec = specs.front();

@@ -7,6 +7,7 @@
 #include "base/failure.hpp"
 #include "base/glob.hpp"
 #include "bench/sweep/designs.hpp"
+#include "bench/texts/text.hpp"
 
 namespace cli {
 namespace {

@@ -82,7 +82,7 @@ std::optional<Instant> instant_of(std::string_view text) {
     Instant instant;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), instant.whole);
     std::string_view rest(end, static_cast<std::size_t>(text.data() + text.size() - end));
-    if (error != std::errc{} || instant.whole < 0 || text.front() == '-' ||
+    if (error != std::errc{} || text.front() == '-' ||
         (!rest.empty() && (!take(rest, ".,") || !take_part(rest, instant.part) || !rest.empty()))) {
         return std::nullopt;
     }

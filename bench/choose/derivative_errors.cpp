@@ -47,19 +47,47 @@ std::optional<std::vector<std::size_t>> DerivativeErrors::lengths(const std::str
 }
 
 const design::FittedFilter& DerivativeErrors::filter_of(const std::string& kernel, std::size_t taps) {
-    const Key key = key_of(kernel, taps);
-    Once* once = nullptr;
-    {
-        const std::lock_guard lock(mutex_);
-        auto& entry = fitted_[key];
-        if (!entry) {
-            entry = std::make_unique<Once>();
-        }
-        once = entry.get();
+    return filter_of(key_of(kernel, taps));
+}
+
+DerivativeErrors::Once& DerivativeErrors::entry_of(const Key& key) {
+    const std::lock_guard lock(mutex_);
+    auto& entry = fitted_[key];
+    if (!entry) {
+        entry = std::make_unique<Once>();
     }
-    std::call_once(once->flag,
-                   [&] { once->filter = design::fit_filter(goal_, key.near_taps, key.modes, key.kind, key.poles); });
-    return *once->filter;
+    return *entry;
+}
+
+const design::FittedFilter& DerivativeErrors::filter_of(const Key& key) {
+    Once& once = entry_of(key);
+    std::call_once(once.flag, [&] {
+        Key part = key;
+        if (key.poles == design::Poles::one_may_swing && design::moving_poles(key.modes, key.kind) > 0) {
+            // Kernels without room for a swinging pole ask for the decaying ones.
+            part.poles = design::Poles::decaying;
+            const design::FittedFilter& decaying = filter_of(part);
+            part.poles = design::Poles::one_swings;
+            once.filter = design::better_of(decaying, filter_of(part));
+        } else {
+            once.filter = design::fit_filter(goal_, key.near_taps, key.modes, key.kind, key.poles);
+        }
+    });
+    return *once.filter;
+}
+
+std::string DerivativeErrors::group(const std::string& kernel) const {
+    const Key key = key_of(kernel, longest_with_modes);
+    return fmt::format("{} {}", key.modes > 0, static_cast<int>(key.kind));
+}
+
+design::DerivativeError DerivativeErrors::certified_error_of(const Key& key, const Held& held) {
+    if (!held.as_fitted) {
+        return design::certified_error(held.filter, goal_);
+    }
+    Once& once = entry_of(key);
+    std::call_once(once.certified_flag, [&] { once.certified = design::certified_error(held.filter, goal_); });
+    return once.certified;
 }
 
 ErrorAt DerivativeErrors::error(const std::string& kernel, std::size_t taps) {
@@ -78,7 +106,7 @@ ErrorAt DerivativeErrors::error(const std::string& kernel, std::size_t taps) {
         found.fault = "its filter begins with no coefficient above 0";
     }
     if (found.fault.empty()) {
-        const design::DerivativeError error = held.added_to(design::certified_error(held.filter, goal_));
+        const design::DerivativeError error = held.added_to(certified_error_of(key_of(kernel, taps), held));
         found.error = error.largest();
         found.signal = worst_place(error);
         if (!std::isfinite(found.error)) {

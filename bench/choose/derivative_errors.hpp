@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "bench/choose/errors.hpp"
+#include "bench/choose/kernel_run.hpp"
 #include "glsum/design/band.hpp"
 
 namespace choose {
@@ -26,6 +27,8 @@ public:
     /// to 64 each an eighth longer than the last.
     [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override;
     [[nodiscard]] std::size_t patience() const override { return 6; }
+    /// By what is fitted: two of one group that are asked at once wait for each other.
+    [[nodiscard]] std::string group(const std::string& kernel) const override;
     [[nodiscard]] double truncation(std::size_t) const override { return 0.0; }
     [[nodiscard]] double rounding_bound(const std::string&, std::size_t) const override { return 0.0; }
     [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override;
@@ -51,7 +54,13 @@ private:
     struct Once {
         std::once_flag flag;
         std::optional<glsum::design::FittedFilter> filter;
+        std::once_flag certified_flag;
+        glsum::design::DerivativeError certified;  ///< of the filter itself
     };
+    [[nodiscard]] const glsum::design::FittedFilter& filter_of(const Key& key);
+    [[nodiscard]] Once& entry_of(const Key& key);
+    /// Of what a kernel holds; of the fitted filter itself once for all.
+    [[nodiscard]] glsum::design::DerivativeError certified_error_of(const Key& key, const Held& held);
     [[nodiscard]] Key key_of(const std::string& kernel, std::size_t taps) const;
 
     glsum::design::DerivativeGoal goal_;

@@ -48,6 +48,19 @@ Run run(const glsum::Design& design, const Record& record, double limit) {
 
 }  // namespace
 
+std::vector<std::size_t> turns_of(const ErrorSource& errors, const std::vector<std::string>& kernels) {
+    std::map<std::string, std::size_t> seen;
+    std::multimap<std::size_t, std::size_t> by_place;
+    for (std::size_t i = 0; i < kernels.size(); ++i) {
+        by_place.emplace(seen[errors.group(kernels[i])]++, i);
+    }
+    std::vector<std::size_t> turns;
+    for (const auto& [place, kernel] : by_place) {
+        turns.push_back(kernel);
+    }
+    return turns;
+}
+
 MeasuredErrors::MeasuredErrors(double order, std::vector<Record> records)
     : order_(order), records_(std::move(records)), truncation_(records_.at(0).samples.size(), 0.0) {
     for (const Record& record : records_) {

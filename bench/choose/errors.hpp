@@ -32,6 +32,8 @@ public:
     [[nodiscard]] virtual std::optional<std::vector<std::size_t>> lengths(const std::string&) const { return {}; }
     /// After so many of `lengths` in a row that came no nearer by a twentieth, none longer is tried.
     [[nodiscard]] virtual std::size_t patience() const { return std::numeric_limits<std::size_t>::max(); }
+    /// Kernels of one group share work: asked at once, they wait for each other.
+    [[nodiscard]] virtual std::string group(const std::string& kernel) const { return kernel; }
     [[nodiscard]] std::size_t longest_of(const std::string& kernel) const {
         const auto few = lengths(kernel);
         return few ? few->back() : longest();
@@ -86,5 +88,8 @@ private:
     std::size_t measured_ = 0;
     std::size_t remembered_ = 0;
 };
+
+/// Places in `kernels`, the first of each group first, then the second of each: neighbours share no work.
+[[nodiscard]] std::vector<std::size_t> turns_of(const ErrorSource& errors, const std::vector<std::string>& kernels);
 
 }  // namespace choose

@@ -28,9 +28,9 @@ glsum::Design design_for(const design::DerivativeGoal& goal, const design::Fitte
 }
 
 // A filter in double, sample by sample: its averages in the leaky form, as kernels have them.
-class Line {
+class FilterInDouble {
 public:
-    explicit Line(design::Filter filter)
+    explicit FilterInDouble(design::Filter filter)
         : filter_(std::move(filter)), past_(filter_.taps.size(), 0.0), averages_(filter_.modes.size(), 0.0) {}
 
     double step(double sample) {
@@ -80,7 +80,7 @@ void run_noise(bench::HostLine<K>& line, const design::DerivativeGoal& goal, dou
     // visit(k, difference) behind each sample.
     const auto compare = [&](std::size_t samples, const auto& signal, const auto& visit) {
         K::reset(line.state());
-        Line exact(found.filter);
+        FilterInDouble exact(found.filter);
         for (std::size_t k = 0; k < samples; ++k) {
             const double sample = full_scale * signal(k);
             const double output = factor * line.step_real(sample);
@@ -145,6 +145,7 @@ Held hold(const glsum::Design& made, const design::DerivativeGoal& goal, const d
         run_noise<K>(line, goal, fitted.factor, found);
     } else {
         found.filter = fitted.filter();
+        found.as_fitted = true;
         bound_noise(goal, std::fabs(fitted.factor) * glsum::error_bound<K>(made, line.state(), 1.0, goal.horizon()),
                     found);
     }

@@ -14,6 +14,7 @@ struct Held {
     glsum::design::Filter filter;  ///< in units of the derivative
     double band_noise = 0.0;       ///< largest, at full scale, relative to the least |w^v| of the band
     double step_noise = 0.0;       ///< largest, relative to the step's exact response at that time
+    bool as_fitted = false;        ///< of a window: the filter is the design's own, rounding is in the noise
     std::string fault;             ///< why the kernel refused; empty if it did not
 
     /// With the filter's own errors, as they were found.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <memory>
@@ -150,6 +151,17 @@ std::vector<std::string> kernels_of(Target target, double order) {
     return kernels;
 }
 
+std::string what_a_whole_order_is(double order) {
+    if (order != std::round(order)) {
+        return "";
+    }
+    return order < 0.0 ? "a whole order: the sum is that of all samples so far, one addition without any kernel"
+                       : fmt::format(
+                             "a whole order: the sum has {} weight{} and no memory beyond, exact in a window of "
+                             "as many taps",
+                             order + 1.0, order > 0.0 ? "s" : "");
+}
+
 Answer answer(const Question& question, const std::optional<qemu::Board>& board) {
     Answer answer;
     answer.question = question;
@@ -180,11 +192,15 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
             report_on(chosen.kernel, chosen.taps, *question.goal, errors.fitted->filter_of(chosen.kernel, chosen.taps));
     }
     if (errors.fitted && !answer.choice.chosen) {
-        answer.would_do = what_would_do(*question.goal, nearest_of(answer.choice.kernels), *costs, limits);
+        answer.would_do =
+            what_would_do(*question.goal, nearest_of(answer.choice.kernels), *costs, limits, question.jobs);
     }
     if (const auto* counted = dynamic_cast<const OnTarget*>(costs.get())) {
         answer.notes.back() +=
             fmt::format("; {} costs measured, {} taken from the file", counted->measured(), counted->remembered());
+    }
+    if (const std::string whole = what_a_whole_order_is(question.conditions.order); !whole.empty()) {
+        answer.notes.push_back(whole);
     }
     answer.notes.insert(answer.notes.end(), left_out.begin(), left_out.end());
     if (const auto* timed = dynamic_cast<const HostTimes*>(costs.get())) {

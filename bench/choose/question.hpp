@@ -59,6 +59,9 @@ struct Answer {
 /// these alone.
 [[nodiscard]] std::vector<std::string> kernels_of(Target target, double order);
 
+/// Of a whole order, what its sum is; empty for others.
+[[nodiscard]] std::string what_a_whole_order_is(double order);
+
 /// \param board  needed for an emulated target; on the host it only says whether a file's rows are of this build
 /// \throws glsum::Failure (bad input) for limits that do not suit the target; (missing) without a board for an emulated
 /// target.

@@ -48,8 +48,13 @@ private:
         if (shown) {
             progress.emplace("shortest lengths", choice_.kernels.size());
         }
-        base::parallel_for(choice_.kernels.size(), jobs_, [&](std::size_t i) {
-            find_length(choice_.kernels[i]);
+        std::vector<std::string> kernels;
+        for (const Outcome& outcome : choice_.kernels) {
+            kernels.push_back(outcome.kernel);
+        }
+        const std::vector<std::size_t> turns = turns_of(errors_, kernels);
+        base::parallel_for(turns.size(), jobs_, [&](std::size_t i) {
+            find_length(choice_.kernels[turns[i]]);
             if (progress) {
                 progress->advance();
             }

@@ -4,6 +4,8 @@
 
 #include <optional>
 
+#include "base/parallel.hpp"
+#include "base/progress.hpp"
 #include "bench/choose/reach.hpp"
 
 namespace choose {
@@ -13,9 +15,9 @@ namespace design = glsum::design;
 
 std::string text_of(const design::Band& band) { return fmt::format("--band {:g}..{:g}", band.low_hz, band.high_hz); }
 
-// The cheapest of the kernels, each at the shortest length that meets the error.
-std::optional<Candidate> cheapest(const design::DerivativeGoal& goal, const std::vector<std::string>& kernels,
-                                  CostSource& costs, const Limits& limits) {
+// Each of the kernels that meets the error, at the shortest length that does.
+std::vector<Candidate> shortest_of(const design::DerivativeGoal& goal, const std::vector<std::string>& kernels,
+                                   const Limits& limits) {
     DerivativeErrors errors(goal);
     std::vector<Candidate> candidates;
     for (const std::string& kernel : kernels) {
@@ -24,6 +26,10 @@ std::optional<Candidate> cheapest(const design::DerivativeGoal& goal, const std:
             candidates.push_back({kernel, *found.shortest, found.best, {}});
         }
     }
+    return candidates;
+}
+
+std::optional<Candidate> cheapest(std::vector<Candidate> candidates, CostSource& costs, const Limits& limits) {
     std::vector<Candidate*> all;
     for (Candidate& candidate : candidates) {
         all.push_back(&candidate);
@@ -65,11 +71,20 @@ std::vector<std::pair<std::string, design::DerivativeGoal>> lesser_goals(const d
 }
 
 std::vector<WouldDo> what_would_do(const design::DerivativeGoal& goal, const std::vector<std::string>& kernels,
-                                   CostSource& costs, const Limits& limits) {
+                                   CostSource& costs, const Limits& limits, unsigned jobs) {
+    const auto lesser = lesser_goals(goal);
+    std::vector<std::vector<Candidate>> candidates(lesser.size());
+    {
+        base::Progress progress("what would do", lesser.size());
+        base::parallel_for(lesser.size(), jobs, [&](std::size_t i) {
+            candidates[i] = shortest_of(lesser[i].second, kernels, limits);
+            progress.advance();
+        });
+    }
     std::vector<WouldDo> found;
-    for (const auto& [text, lesser] : lesser_goals(goal)) {
-        if (const auto candidate = cheapest(lesser, kernels, costs, limits)) {
-            found.push_back({text, lesser, *candidate});
+    for (std::size_t i = 0; i < lesser.size(); ++i) {
+        if (const auto candidate = cheapest(candidates[i], costs, limits)) {
+            found.push_back({lesser[i].first, lesser[i].second, *candidate});
         }
     }
     return found;

@@ -21,9 +21,9 @@ struct WouldDo {
 [[nodiscard]] std::vector<std::pair<std::string, glsum::design::DerivativeGoal>> lesser_goals(
     const glsum::design::DerivativeGoal& goal);
 
-/// Of those, the ones that some kernel meets, with the cheapest.
+/// Of those, the ones that some kernel meets, with the cheapest. Shows its progress. \param jobs  threads
 [[nodiscard]] std::vector<WouldDo> what_would_do(const glsum::design::DerivativeGoal& goal,
                                                  const std::vector<std::string>& kernels, CostSource& costs,
-                                                 const Limits& limits);
+                                                 const Limits& limits, unsigned jobs = 1);
 
 }  // namespace choose

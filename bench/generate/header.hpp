@@ -38,14 +38,6 @@ struct Spec {
 ///         identifier, and a design that the kernel refuses.
 [[nodiscard]] std::string make_header(const Spec& spec);
 
-/// Against reordered, fused and wider arithmetic: what a floating-point header begins with. It defines `<NAME>_KEEP`,
-/// for single precision, which lets nobody fuse what made its argument. \param name  of the header
-[[nodiscard]] std::string floating_guard(const std::string& name);
-
-/// The prefix of a header in this file: its name, so that two files of one program go together, and one that is made
-/// again for another design keeps its callers.
-[[nodiscard]] std::string prefix_of_file(const std::filesystem::path& file);
-
 /// The inputs of every self-check, as reals.
 [[nodiscard]] std::vector<double> check_signal();
 

@@ -4,26 +4,40 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
-
-#include "bench/generate/kernel_data.hpp"
 
 namespace generate {
 
-/// Decimal with the digits of a round trip, since hex floats are not C++11. \param type  "float" or "double"
-[[nodiscard]] std::string real_literal(const std::string& type, double value);
+template <class T>
+[[nodiscard]] constexpr const char* c_type() {
+    return std::is_same_v<T, double>          ? "double"
+           : std::is_same_v<T, float>         ? "float"
+           : std::is_same_v<T, std::uint64_t> ? "uint64_t"
+           : std::is_same_v<T, std::uint32_t> ? "uint32_t"
+           : std::is_same_v<T, std::int64_t>  ? "int64_t"
+           : std::is_same_v<T, std::int32_t>  ? "int32_t"
+                                              : "int16_t";
+}
 
-/// Bits as an unsigned constant. \param wide  of 64 bits, else of 32
-[[nodiscard]] std::string bits_literal(std::uint64_t bits, bool wide);
+/// Reals in decimal with the digits of a round trip, since hex floats are not C++11; unsigned ones are bits.
+[[nodiscard]] std::string literal(double value);
+[[nodiscard]] std::string literal(float value);
+[[nodiscard]] std::string literal(std::int32_t value);
+[[nodiscard]] std::string literal(std::uint32_t bits);
+[[nodiscard]] std::string literal(std::uint64_t bits);
 
-[[nodiscard]] std::vector<std::string> literals(const Numbers& numbers);
-[[nodiscard]] std::vector<std::string> literals(std::span<const std::uint64_t> bits, bool wide);
-
-/// Two coefficients a word, the first in the lower half.
-[[nodiscard]] std::vector<std::string> words_of_pairs(const std::vector<std::int64_t>& coefficients);
-
-/// The definition of a constant array, in lines of at most 118 letters.
+/// The definition of a constant array, in lines of at most 118 letters, without the end of its last line.
 [[nodiscard]] std::string array(const std::string& type, const std::string& name,
-                                const std::vector<std::string>& literals);
+                                std::span<const std::string> literals);
+
+template <class T>
+[[nodiscard]] std::vector<std::string> literals(std::span<const T> values) {
+    std::vector<std::string> texts;
+    for (const T value : values) {
+        texts.push_back(literal(value));
+    }
+    return texts;
+}
 
 }  // namespace generate

@@ -4,11 +4,11 @@
 #include <string>
 
 #include "bench/generate/header.hpp"
-#include "bench/generate/kernel_data.hpp"
-#include "bench/generate/text.hpp"
+#include "bench/texts/template.hpp"
 
 namespace generate {
 
-[[nodiscard]] std::string opening_comment(const Spec& spec, const KernelData& data, const Places& places);
+/// \param header  of `kernel_text`, which is given the places of this comment
+[[nodiscard]] std::string opening_comment(const Spec& spec, HeaderText& header);
 
 }  // namespace generate

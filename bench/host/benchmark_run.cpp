@@ -3,7 +3,10 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <iterator>
 #include <sstream>
 
 #include "base/failure.hpp"
@@ -38,12 +41,23 @@ private:
     std::ostringstream errors_;
 };
 
+// "--benchmark_min_time=0.02" as this Google Benchmark wants it.
+std::string with_unit(const std::string& flag) {
+#ifdef GLSUM_TIMES_HAVE_UNITS
+    const bool bare =
+        flag.starts_with("--benchmark_min_time=") && std::isdigit(static_cast<unsigned char>(flag.back()));
+    return bare ? flag + "s" : flag;
+#else
+    return flag;
+#endif
+}
+
 }  // namespace
 
 void set_benchmark_flags(const std::vector<std::string>& flags) {
     static std::vector<std::string> words;  // Google Benchmark keeps the pointer to the first
     words = {"glsum bench"};
-    words.insert(words.end(), flags.begin(), flags.end());
+    std::ranges::transform(flags, std::back_inserter(words), with_unit);
     std::vector<char*> argv;
     for (std::string& word : words) {
         argv.push_back(word.data());

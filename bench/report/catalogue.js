@@ -1,18 +1,21 @@
-// What the files hold, whatever is chosen: errors, axes, orders, signals, lengths, kernels and the words of their names.
+// What the files hold, whatever is chosen: errors, axes, orders, signals, lengths, kernels and their words.
 
 import {countersOf} from "./counters.js";
-import {axesOf, joinFile, textOf, wordsOf} from "./data.js";
+import {axesOf, joinFile, textOf} from "./data.js";
 
 export const union = lists => [...new Set(lists.flat())];
 
 const signalsOf = file => union(file.tables.filter(table => table.aspect === "accuracy" && table.text.signal)
   .map(table => Array.from({length: table.rows}, (_, row) => textOf(table, "signal", row))));
 
+const unknown = {history: "unknown", technique: "unknown", format: "unknown", fixed: false};
+
 // Each word's place, by which it has its colour and mark.
 const placesOf = names => new Map(names.map((name, index) => [name, index]));
 
 export function catalogueOf(data) {
   const counters = countersOf(data.counters);
+  const wordsOf = kernel => Object.hasOwn(data.kernels, kernel) ? data.kernels[kernel] : unknown;
   const files = data.files.map(file => joinFile(file, counters.ofTheClock));
   const kernels = union(files.map(file => file.kernels));
   const measured = kernels.filter(kernel => files.some(file => [...file.cases.values()].some(byKernel =>
@@ -25,7 +28,7 @@ export function catalogueOf(data) {
     places[word] = placesOf(word === "format" ? formats : used);
   }
   const all = {
-    version: data.version, d3: data.d3, counters, files, measured, words, places, axes: axesOf(files),
+    version: data.version, d3: data.d3, counters, wordsOf, files, measured, words, places, axes: axesOf(files),
     errors: counters.drawn.filter(error => files.some(file => file.tables.some(table => table.number[error.id]))),
     orders: union(files.map(file => [...file.cases.keys()])),
     signals: union(files.map(signalsOf)),

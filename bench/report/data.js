@@ -59,13 +59,6 @@ export const numberOf = (table, name, row) => table.number[name] ? table.number[
 export const tapsNumber = (taps, samples, longest) =>
   taps === "full" ? samples || longest * 1.7 : d3.sum(taps.split("+"), part => /^\d+$/.test(part) ? Number(part) : NaN) || NaN;
 
-// The three words of a kernel's name; peers and others are their own.
-export function wordsOf(kernel) {
-  const words = kernel.split("_");
-  return words.length === 3 ? {history: words[0], technique: words[1], format: words[2]}
-                            : {history: kernel, technique: kernel, format: kernel};
-}
-
 const wholeSignal = signal => !signal.includes(",");  // the amplitude sweep is another question
 
 /// What each kernel does at each order and length of one file, whatever the signal: cases[order][kernel][taps] =

@@ -158,12 +158,16 @@ public:
         if (!ratios.empty()) {
             std::ranges::sort(ratios);
             const double median = ratios[ratios.size() / 2];
-            parts_.push_back(fmt::format("{:.{}f} times the {}", median, median < 10.0 ? 1 : 0, base::gnuplot_text(cost.title)));
+            parts_.push_back(
+                fmt::format("{}: {:.{}f} times", base::gnuplot_text(cost.title), median, median < 10.0 ? 1 : 0));
         }
     }
     [[nodiscard]] std::string text() const {
-        return parts_.empty() ? "" : fmt::format("At an error of 1e-4 the best window takes {}, in the median of the orders\\n",
-                                                 fmt::join(parts_, " and "));
+        return parts_.empty() ? ""
+                              : fmt::format(
+                                    "What the best window costs beside the best kernel at an error of 1e-4, "
+                                    "median of the orders: {}\\n",
+                                    fmt::join(parts_, "; "));
     }
 
 private:

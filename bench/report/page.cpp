@@ -9,6 +9,7 @@
 #include "bench/report/columns.hpp"
 #include "bench/report/page_parts.hpp"
 #include "bench/rows/counters.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace bench::report {
 namespace {
@@ -40,6 +41,20 @@ Json shown_counters() {
         counter["title"] = facts.title;
         counter["meaning"] = facts.meaning;
         all.push_back(std::move(counter));
+    }
+    return all;
+}
+
+// What the catalogue says of each kernel's name: {name: {history, technique, format, fixed: whether in fixed point}}.
+Json words_of_kernels() {
+    Json all;
+    for (const glsum::CatalogueEntry& entry : glsum::catalogue) {
+        if (!entry.format.empty()) {
+            all[std::string(entry.name)] = {{"history", entry.history},
+                                            {"technique", entry.technique},
+                                            {"format", entry.format},
+                                            {"fixed", entry.exact_sums}};
+        }
     }
     return all;
 }
@@ -104,6 +119,7 @@ std::string make_page(const Input& input, const Input* other) {
     data["version"] = build_info::version;
     data["d3"] = page_parts::d3_version;
     data["counters"] = shown_counters();
+    data["kernels"] = words_of_kernels();
     data["files"] = Json::array({to_json(input)});
     if (other != nullptr) {
         data["files"].push_back(to_json(*other));

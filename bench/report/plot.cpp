@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/gnuplot.hpp"
+#include "bench/report/plot_message.hpp"
 #include "bench/rows/key.hpp"
 
 namespace bench {
@@ -13,33 +14,52 @@ namespace {
 
 using Value = std::function<std::optional<double>(const Group&, const Entry&)>;
 
+// What is drawn of some entries: what each of them has, or at each length of a window the least.
+enum class Drawn { lines, points, least };
+
 struct Series {
     Value value;
-    std::string kernel;  // empty: any (the truncation is the same for all)
-    std::string title;   // empty: not in the key
-    std::string colour;
-    int shape;     // of the points; none: -1
-    int dash = 1;  // gnuplot's dash types; 1 is a whole line
+    std::function<bool(const Entry&)> takes;
+    std::string title;  // empty: not in the key
+    std::string style;  // gnuplot's
+    Drawn drawn = Drawn::lines;
 };
 
-// Up to eight kernels have a colour each; of more, those of one number format share theirs.
-std::string label_of(const std::string& kernel, std::size_t kernels) {
-    return kernels <= std::size(base::palette) ? kernel : number_format_of(kernel);
+Value value_of(std::optional<double> Entry::*member) {
+    return [member](const Group&, const Entry& entry) { return entry.*member; };
 }
 
-std::vector<Series> series_of(const std::vector<std::string>& kernels, std::optional<double> Entry::*member) {
-    const auto value = [member](const Group&, const Entry& entry) { return entry.*member; };
+std::string marked(std::size_t index, const char* faint = "") {
+    const std::string colour = base::palette[index % std::size(base::palette)];
+    return fmt::format("pt {} ps 0.6 lc rgb \"#{}{}\"", 4 + index, faint, colour.substr(1));
+}
+
+// Each kernel has its line.
+std::vector<Series> series_of_kernels(const std::vector<std::string>& kernels, const Value& value) {
     std::vector<Series> series;
-    std::vector<std::string> labels;
     for (const std::string& kernel : kernels) {
-        const std::string label = label_of(kernel, kernels.size());
-        const auto found = std::find(labels.begin(), labels.end(), label);
-        const auto index = static_cast<std::size_t>(found - labels.begin());
-        series.push_back({value, kernel, found == labels.end() ? label : "",
-                          base::palette[index % std::size(base::palette)], 4 + static_cast<int>(index)});
-        if (found == labels.end()) {
-            labels.push_back(label);
+        series.push_back({value, [kernel](const Entry& entry) { return entry.kernel == kernel; }, kernel,
+                          "with linespoints lw 1.5 dt 1 " + marked(series.size())});
+    }
+    return series;
+}
+
+// Of more kernels than there are colours nobody follows the lines: those of one number format are points, faint, and
+// the best window among them is a line.
+std::vector<Series> series_of_formats(const std::vector<std::string>& kernels, const Value& value) {
+    std::vector<std::string> formats;
+    for (const std::string& kernel : kernels) {
+        if (std::find(formats.begin(), formats.end(), number_format_of(kernel)) == formats.end()) {
+            formats.push_back(number_format_of(kernel));
         }
+    }
+    std::vector<Series> series;
+    for (std::size_t i = 0; i < formats.size(); ++i) {
+        const auto takes = [format = formats[i]](const Entry& entry) {
+            return entry.error_max && number_format_of(entry.kernel) == format;
+        };
+        series.push_back({value, takes, "", "with points " + marked(i, "90"), Drawn::points});
+        series.push_back({value, takes, formats[i], "with linespoints lw 1.5 dt 1 " + marked(i), Drawn::least});
     }
     return series;
 }
@@ -90,25 +110,33 @@ std::optional<double> bound_of(const WorstBounds& bounds, const Group& group) {
 struct Range {
     double smallest = 1e300;
     double largest = 0.0;
+    void add(double value) {
+        smallest = std::min(smallest, value);
+        largest = std::max(largest, value);
+    }
 };
 
 std::string data_block(const std::vector<Group>& groups, const std::string& order, const Series& series, Range& range) {
     std::string block;
     for (const Group& group : groups) {
-        // A line of windows alone: a design's modes have another truncation.
-        const bool is_of_line = !series.kernel.empty() || is_window(group.taps);
-        const auto taps = is_of_line ? taps_of(group, groups) : std::nullopt;
+        const auto taps = taps_of(group, groups);
+        // A design's modes have another truncation, and no line joins two designs.
+        if (!taps || group.order != order || (series.drawn == Drawn::least && !is_window(group.taps))) {
+            continue;
+        }
+        std::vector<double> values;
         for (const Entry& entry : group.entries) {
-            if (taps && group.order == order && (series.kernel.empty() || entry.kernel == series.kernel)) {
-                if (const auto value = series.value(group, entry); value && *value > 0.0) {
-                    block += fmt::format("{} {:.6e}\n", *taps, *value);
-                    range.smallest = std::min(range.smallest, *value);
-                    range.largest = std::max(range.largest, *value);
-                    if (series.kernel.empty()) {
-                        break;
-                    }
-                }
+            if (const auto value = series.takes(entry) ? series.value(group, entry) : std::nullopt;
+                value && *value > 0.0) {
+                values.push_back(*value);
             }
+        }
+        if (series.drawn == Drawn::least && !values.empty()) {
+            values = {*std::min_element(values.begin(), values.end())};
+        }
+        for (const double value : values) {
+            block += fmt::format("{} {:.6e}\n", *taps, value);
+            range.add(value);
         }
     }
     return block;
@@ -148,8 +176,7 @@ std::string panel(const std::vector<Group>& groups, const std::string& order, co
                                           ? "notitle"
                                           : fmt::format("title \"{}\" noenhanced", base::gnuplot_text(series[i].title));
         blocks += fmt::format("$d{} << EOD\n{}EOD\n", i, data);
-        lines.push_back(fmt::format("$d{} using 1:2 with linespoints lw 1.5 dt {} pt {} ps 0.6 lc rgb \"{}\" {}", i,
-                                    series[i].dash, series[i].shape, series[i].colour, key_entry));
+        lines.push_back(fmt::format("$d{} using 1:2 {} {}", i, series[i].style, key_entry));
     }
     if (lines.empty()) {
         return "set multiplot next\n";
@@ -171,22 +198,26 @@ std::string script(const std::vector<Group>& groups, const std::vector<std::stri
         }
     }
     std::string text = fmt::format(
-        "set multiplot layout {},2 margins 0.06,0.82,{:.3f},{:.3f} spacing 0.06,{:.3f} title \"Grünwald-Letnikov sum: "
+        "set multiplot layout {},2 margins 0.06,0.82,{:.3f},{:.3f} spacing 0.06,{:.3f} title \"{}Grünwald-Letnikov "
+        "sum: "
         "error against memory length (worst over the signals, relative to the largest exact sum)\"\n"
         "set logscale xy\nset format y \"10^{{%L}}\"\nset xrange [{}:{}]\nset xtics {} nomirror rotate by -45\n"
         "set ytics nomirror\nset mytics 1\nset grid lc rgb \"#dddddd\"\nset xlabel \"terms of the sum: taps, or taps + "
         "modes\"\n",
-        orders.size(), 75.0 / height, 1.0 - 65.0 / height, 110.0 / height, shortest / 1.25, longest * 1.25,
-        tics(groups));
+        orders.size(), 75.0 / height, 1.0 - 85.0 / height, 110.0 / height, plot_message(groups), shortest / 1.25,
+        longest * 1.25, tics(groups));
     bool key = true;
     for (const std::string& order : orders) {
         for (const bool rounding : {false, true}) {
-            auto series = series_of(kernels, rounding ? &Entry::rounding_error_max : &Entry::error_max);
+            const Value value = value_of(rounding ? &Entry::rounding_error_max : &Entry::error_max);
+            auto series = kernels.size() <= std::size(base::palette) ? series_of_kernels(kernels, value)
+                                                                     : series_of_formats(kernels, value);
             if (!rounding) {
-                series.push_back({[](const Group&, const Entry& entry) { return entry.truncation_error_max; }, "",
-                                  "truncation alone", "#000000", -1, 2});
-                series.push_back({[&bounds](const Group& group, const Entry&) { return bound_of(bounds, group); }, "",
-                                  bounds.empty() ? "" : "truncation bound", "#000000", -1, 4});
+                const auto any = [](const Entry&) { return true; };
+                series.push_back({value_of(&Entry::truncation_error_max), any, "truncation alone",
+                                  "with lines lw 1.5 dt 2 lc rgb \"#000000\"", Drawn::least});
+                series.push_back({[&bounds](const Group& group, const Entry&) { return bound_of(bounds, group); }, any,
+                                  "truncation bound", "with lines lw 1.5 dt 4 lc rgb \"#000000\"", Drawn::least});
             }
             text += panel(
                 groups, order, series,

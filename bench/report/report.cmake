@@ -9,8 +9,8 @@ add_custom_command(OUTPUT ${parts}
     COMMAND ${CMAKE_COMMAND} -D OUT=${parts} -D FOLDER=${report} -D SCRIPTS=${script_list} -P ${report}/embed.cmake
     DEPENDS ${report}/embed.cmake ${report}/page.html ${report}/page.css ${script_files} VERBATIM)
 # What a run ends with: tables on the terminal and the picture of errors.
-add_library(glsum_shown STATIC report/best.cpp report/curves.cpp report/discretisation_table.cpp report/front_table.cpp report/plot.cpp
-    report/table.cpp)
+add_library(glsum_shown STATIC report/best.cpp report/curves.cpp report/discretisation_table.cpp report/front_table.cpp
+    report/plot.cpp report/plot_message.cpp report/table.cpp)
 target_link_libraries(glsum_shown PUBLIC glsum_sweep PRIVATE fmt::fmt glsum_warnings)
 target_compile_options(glsum_shown PRIVATE ${GLSUM_COLD})
 glsum_unite(glsum_shown)

@@ -1,7 +1,7 @@
 // What is shown of the files under the choices of now: plain values, which draw.js lays out. Nothing here knows the page.
 
 import {union} from "./catalogue.js";
-import {accuracyOf, atFirstSignal, bytesOf, errorOf, wordsOf} from "./data.js";
+import {accuracyOf, atFirstSignal, bytesOf, errorOf} from "./data.js";
 import {onFront} from "./front.js";
 import {show, tick} from "./numbers.js";
 import {listOf} from "./state.js";
@@ -9,14 +9,14 @@ import {listOf} from "./state.js";
 // ---- What passes the filters.
 
 export function passes(all, now, kernel) {
-  const own = wordsOf(kernel);
+  const own = all.wordsOf(kernel);
   return Object.keys(all.words).every(word => !listOf(now, "no-" + word).includes(own[word])) && kernel.includes(now.find);
 }
 
 export const shownTaps = (now, taps) => !listOf(now, "no-taps").includes(taps);
 export const pinned = now => new Set(listOf(now, "lit"));
 /// The place by which a kernel has its colour and mark.
-export const placeFor = (all, now, kernel) => all.places[now.colour].get(wordsOf(kernel)[now.colour]) || 0;
+export const placeFor = (all, now, kernel) => all.places[now.colour].get(all.wordsOf(kernel)[now.colour]) || 0;
 
 const shownAxes = (all, now) =>
   all.axes.filter(axis => listOf(now, "axes").includes(axis.id) && !(axis.aspect && listOf(now, "no-targets").includes(axis.aspect)));
@@ -177,7 +177,7 @@ export function curvesOf(all, now) {
     .filter(([, points]) => points.length > 0).map(([order, points]) => orderShown(all, now, order, points));
   const fronts = new Set(orders.flatMap(one => [...one.front]));
   const shown = all.measured.filter(kernel => passes(all, now, kernel));
-  const place = kernel => all.words[now.colour].indexOf(wordsOf(kernel)[now.colour]);
+  const place = kernel => all.words[now.colour].indexOf(all.wordsOf(kernel)[now.colour]);
   return {
     title: error ? capital(error.title) + " of the sum" : "No accuracy in this file",
     text: error ? `${capital(error.text)}, relative to the largest exact sum` +
@@ -205,7 +205,7 @@ export function effectiveOf(all, now) {
   for (const order of shownOrders(all, now)) {
     const series = [];
     for (const [kernel, byTaps] of file.cases.get(order) || []) {
-      if (!passes(all, now, kernel) || !wordsOf(kernel).format.startsWith("q")) continue;
+      if (!passes(all, now, kernel) || !all.wordsOf(kernel).fixed) continue;
       const points = [...byTaps.values()]
         .filter(found => !found.fault && shownTaps(now, found.taps) && atFirstSignal(found, "effective_taps") !== undefined)
         .map(found => ({kernel, taps: found.taps, x: found.at, y: atFirstSignal(found, "effective_taps"), second: false}))

@@ -4,6 +4,11 @@ import {grouped} from "./numbers.js";
 
 const pageRows = 100;
 
+// A narrow screen breaks a kernel's name between its words.
+function write(cell, text) {
+  String(text ?? "").split(/(?<=_)/).forEach((word, index) => cell.append(...(index ? [document.createElement("wbr"), word] : [word])));
+}
+
 /// columns: {title, text(row), number(row) or none}; rows: any list; the order of the list stands until a head is clicked.
 export function drawTable(node, label, columns, rows) {
   const root = d3.select(node);
@@ -37,7 +42,7 @@ export function drawTable(node, label, columns, rows) {
     for (const row of list.slice(0, shown)) {
       const line = body.append("tr").attr("class", row.mark || null);
       for (const column of columns) {
-        line.append("td").attr("class", column.number ? "number" : null).text(column.text(row));
+        write(line.append("td").attr("class", column.number ? "number" : null).node(), column.text(row));
       }
     }
     more.selectAll("*").remove();

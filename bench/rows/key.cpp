@@ -62,6 +62,8 @@ constexpr Part error{&RowKey::error, "error:", is_number};
 constexpr Part samples{&RowKey::samples, "samples:", is_number};
 constexpr Part poles{&RowKey::poles, "poles:", is_number};
 constexpr Part hz{&RowKey::hz, "hz:", is_band};
+constexpr Part hz_if_any{&RowKey::hz, "hz:", is_band, true};
+constexpr Part until_if_any{&RowKey::until, "until:", is_number, true};
 constexpr Part aspect{&RowKey::aspect, "", is_aspect};
 constexpr Part targets_aspect_if_any{&RowKey::aspect, "", is_targets_aspect, true};
 constexpr Part signal{&RowKey::signal, "signal:", is_word};
@@ -77,6 +79,8 @@ constexpr Part parts_of_horizon[] = {part::kernel, part::order, part::error, par
                                      part::targets_aspect_if_any};
 constexpr Part parts_of_filter[] = {part::kernel, part::order, part::poles, part::aspect, part::signal};
 constexpr Part parts_of_band[] = {part::kernel, part::order, part::taps, part::hz};
+constexpr Part parts_of_derivative[] = {part::kernel, part::order,     part::taps,
+                                        part::aspect, part::hz_if_any, part::until_if_any};
 
 struct Form {
     RowKind kind;
@@ -85,9 +89,13 @@ struct Form {
 };
 
 constexpr Form forms[] = {
-    {RowKind::sum, "gl", parts_of_sum},           {RowKind::model, "drive", parts_of_model},
-    {RowKind::record, "record", parts_of_record}, {RowKind::horizon, "horizon", parts_of_horizon},
-    {RowKind::filter, "filter", parts_of_filter}, {RowKind::band, "band", parts_of_band},
+    {RowKind::sum, "gl", parts_of_sum},
+    {RowKind::model, "drive", parts_of_model},
+    {RowKind::record, "record", parts_of_record},
+    {RowKind::horizon, "horizon", parts_of_horizon},
+    {RowKind::filter, "filter", parts_of_filter},
+    {RowKind::band, "band", parts_of_band},
+    {RowKind::derivative, "derivative", parts_of_derivative},
 };
 
 std::string written(const RowKey& key, std::size_t most_parts) {
@@ -157,7 +165,7 @@ std::optional<RowKey> parse_key(std::string_view name) {
 
 std::string number_format_of(const std::string& kernel) {
     const glsum::CatalogueEntry* const entry = glsum::find_kernel(kernel);
-    return entry != nullptr ? std::string(entry->format) : kernel.substr(kernel.rfind('_') + 1);
+    return entry != nullptr && !entry->format.empty() ? std::string(entry->format) : "unknown";
 }
 
 bool is_window(std::string_view taps) { return taps.find('+') == taps.npos; }

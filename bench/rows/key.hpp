@@ -11,12 +11,13 @@ namespace bench {
 
 /// What is measured in a row; each kind has a name of its own form, which begins with the kind's word.
 enum class RowKind {
-    sum,      ///< gl/<kernel>/order:<v>/taps:<L>/<aspect>[/signal:<s>[/amplitude:<a>]]
-    model,    ///< drive/<model>/<kernel>/taps:<L>/<aspect>
-    record,   ///< record/<kernel>/order:<v>/samples:<N>/<aspect>
-    horizon,  ///< horizon/<kernel>/order:<v>/error:<e>/samples:<N>[/<aspect of a target>]
-    filter,   ///< filter/<kernel>/order:<v>/poles:<P>/<aspect>/signal:<s>
-    band,     ///< band/<kernel>/order:<v>/taps:<L>/hz:<low>..<high>
+    sum,         ///< gl/<kernel>/order:<v>/taps:<L>/<aspect>[/signal:<s>[/amplitude:<a>]]
+    model,       ///< drive/<model>/<kernel>/taps:<L>/<aspect>
+    record,      ///< record/<kernel>/order:<v>/samples:<N>/<aspect>
+    horizon,     ///< horizon/<kernel>/order:<v>/error:<e>/samples:<N>[/<aspect of a target>]
+    filter,      ///< filter/<kernel>/order:<v>/poles:<P>/<aspect>/signal:<s>
+    band,        ///< band/<kernel>/order:<v>/taps:<L>/hz:<low>..<high>
+    derivative,  ///< derivative/<kernel>/order:<v>/taps:<L>/<aspect>[/hz:<low>..<high>][/until:<s>]
 };
 
 /// The parts of a name, as they are written in it; those that its kind has not are empty.
@@ -30,6 +31,7 @@ struct RowKey {
     std::string samples;
     std::string poles;
     std::string hz;      ///< "0.05..80"
+    std::string until;   ///< of a step, in seconds
     std::string aspect;  ///< accuracy, host, m7:<core>, m4:<core>
     std::string signal;
     std::string amplitude;  ///< empty: 1
@@ -64,8 +66,8 @@ inline constexpr const char* count_only = "count";
 /// The same of a sum's row alone: what tables, fronts and choices are made of.
 [[nodiscard]] std::optional<RowKey> parse_key(std::string_view name);
 
-/// The word of a kernel's number format: the catalogue's; of a peer and of another program's kernel, which are not
-/// there, the last word of the name.
+/// The word of a kernel's number format: the catalogue's, which alone knows; "unknown" of a kernel that is not there,
+/// such as another program's or another version's.
 [[nodiscard]] std::string number_format_of(const std::string& kernel);
 
 /// "gl/<kernel>/order:<v>/taps:<L>": what all rows of a kernel, order and length share.

@@ -100,38 +100,28 @@ Roots roots_of(RationalRule rule, double order, std::size_t poles, Band band) {
     return roots;
 }
 
-std::complex<double> response_of(const Roots& roots, Mapping mapping, double step_s, double angle) {
-    const std::complex<double> delay = std::polar(1.0, -angle);
-    std::complex<double> response = 1.0;
-    if (mapping == Mapping::impulse_invariant) {
-        // d + sum r / (s + p), d = 1 with as many zeros as poles.
-        response = roots.zeros.size() == roots.poles.size() ? 1.0 : 0.0;
-        for (std::size_t k = 0; k < roots.poles.size(); ++k) {
-            double residue = 1.0;
-            for (const double zero : roots.zeros) {
-                residue *= zero - roots.poles[k];
-            }
-            for (std::size_t j = 0; j < roots.poles.size(); ++j) {
-                residue /= j == k ? 1.0 : roots.poles[j] - roots.poles[k];
-            }
-            response += residue * step_s * (1.0 / (1.0 - std::exp(-roots.poles[k] * step_s) * delay) - 0.5);
-        }
-        return response;
-    }
-    const auto factor = [&](double root) {
-        return mapping == Mapping::matched ? 1.0 - std::exp(-root * step_s) * delay
-                                           : root + 2.0 / step_s * (1.0 - delay) / (1.0 + delay);
-    };
-    for (const double zero : roots.zeros) {
-        response *= factor(zero);
-    }
-    for (const double pole : roots.poles) {
-        response /= factor(pole);
-    }
-    return response;
-}
-
 namespace {
+
+// Of d + sum r / (s + p): its residues, and d, 1 with as many zeros as poles.
+struct Partial {
+    double direct;
+    std::vector<double> residues;
+};
+
+Partial partial_of(const Roots& roots) {
+    Partial of{roots.zeros.size() == roots.poles.size() ? 1.0 : 0.0, {}};
+    for (std::size_t k = 0; k < roots.poles.size(); ++k) {
+        double residue = 1.0;
+        for (const double zero : roots.zeros) {
+            residue *= zero - roots.poles[k];
+        }
+        for (std::size_t j = 0; j < roots.poles.size(); ++j) {
+            residue /= j == k ? 1.0 : roots.poles[j] - roots.poles[k];
+        }
+        of.residues.push_back(residue);
+    }
+    return of;
+}
 
 // Of H(q), q = z^-1: zeros and poles, whose factors are 1 - root q, and H(0).
 struct Sampled {
@@ -164,6 +154,27 @@ Sampled sampled(const Roots& roots, Mapping mapping, double step_s) {
 
 }  // namespace
 
+std::complex<double> response_of(const Roots& roots, Mapping mapping, double step_s, double angle) {
+    const std::complex<double> delay = std::polar(1.0, -angle);
+    if (mapping == Mapping::impulse_invariant) {
+        const Partial of = partial_of(roots);
+        std::complex<double> response = of.direct;
+        for (std::size_t k = 0; k < roots.poles.size(); ++k) {
+            response += of.residues[k] * step_s * (1.0 / (1.0 - std::exp(-roots.poles[k] * step_s) * delay) - 0.5);
+        }
+        return response;
+    }
+    const Sampled of = sampled(roots, mapping, step_s);
+    std::complex<double> response = of.first;
+    for (const double zero : of.zeros) {
+        response *= 1.0 - zero * delay;
+    }
+    for (const double pole : of.poles) {
+        response /= 1.0 - pole * delay;
+    }
+    return response;
+}
+
 glsum::design::FittedFilter as_modes(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles,
                                      const TunedRational& tuned) {
     const bool increments = goal.order > 1.0;
@@ -172,18 +183,13 @@ glsum::design::FittedFilter as_modes(RationalRule rule, const glsum::design::Der
     std::vector<glsum::design::Mode> modes;
     if (tuned.mapping == Mapping::impulse_invariant) {
         // r h (1/(1 - e q) - 1/2) = r h / 2 + r h e q / (1 - e q), and d before.
-        first = roots.zeros.size() == roots.poles.size() ? 1.0 : 0.0;
+        const Partial of = partial_of(roots);
+        first = of.direct;
         for (std::size_t k = 0; k < roots.poles.size(); ++k) {
-            double residue = goal.step_s;
-            for (const double zero : roots.zeros) {
-                residue *= zero - roots.poles[k];
-            }
-            for (std::size_t j = 0; j < roots.poles.size(); ++j) {
-                residue /= j == k ? 1.0 : roots.poles[j] - roots.poles[k];
-            }
-            first += 0.5 * residue;
+            const double weight = of.residues[k] * goal.step_s;
+            first += 0.5 * weight;
             modes.push_back(
-                {-std::expm1(-roots.poles[k] * goal.step_s), residue * std::exp(-roots.poles[k] * goal.step_s)});
+                {-std::expm1(-roots.poles[k] * goal.step_s), weight * std::exp(-roots.poles[k] * goal.step_s)});
         }
     } else {
         const Sampled of = sampled(roots, tuned.mapping, goal.step_s);

@@ -1,6 +1,7 @@
 #include "bench/sweep/designs.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -149,6 +150,17 @@ glsum::Design design_of(const std::string& kernel, double order, const Length& l
                                     [&] { return named_weights(weights, order, named.of_increments, count); });
     }
     return design;
+}
+
+double design_error(const std::string& kernel, double order, const glsum::Design& design, std::size_t samples) {
+    if (!design.modes.empty()) {
+        const double of_weights = order_of_weights(kernel, order);
+        const double largest = of_weights != order ? 2.0 : 1.0;  // of what is kept
+        return largest * glsum::design::error_of(
+                             glsum::design::weights_to(of_weights, samples), design.taps - 2 * design.modes.size(),
+                             {design.modes.begin(), design.modes.end()}, std::numeric_limits<double>::infinity());
+    }
+    return has_blocks(kernel) ? glsum::design::design_blocks({order, samples}, design.taps).error : 0.0;
 }
 
 std::string named(const Length& length, const glsum::Design& design) {

@@ -58,6 +58,11 @@ namespace bench {
 [[nodiscard]] glsum::Design design_of(const std::string& kernel, double order, const Length& length,
                                       std::size_t samples, Discretisation weights = Discretisation::gl);
 
+/// What a design of `design_of` errs by against full memory over so many samples from rest, for |x| <= 1: with modes or
+/// blocks as they were designed, in double; of a window, which errs by truncation, 0.
+[[nodiscard]] double design_error(const std::string& kernel, double order, const glsum::Design& design,
+                                  std::size_t samples);
+
 /// The length with what else tells designs of one order and length apart: blocks, or an integrator.
 [[nodiscard]] std::string named(const Length& length, const glsum::Design& design);
 

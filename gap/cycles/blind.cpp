@@ -8,7 +8,10 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "base/failure.hpp"
+#include "gap/cycles/diagnose.hpp"
 #include "gap/cycles/evidence.hpp"
+#include "qemu/emulate/silicon_loops.hpp"
 
 namespace gap::cycles {
 namespace {
@@ -55,11 +58,15 @@ void add_cost(Secret& secret, Draw& draw) {
 }
 
 // Where rules of a set act: those of the floating-point unit, whose stores are late for the next load of a bank; and
-// those of branches and what is fetched behind them.
+// those of branches and what is fetched behind them. Likewise the mechanisms that no core has: a line that another
+// replacement keeps is read from no memory behind its cache.
 const std::map<std::string, std::vector<std::string>> touched_by{
     {"barred", {"fpu_latency", "load_bank_conflict"}},
     {"chain", {"fpu_latency", "load_bank_conflict"}},
     {"unfolded", {"branch_mispredict", "fetch_alignment", "single_issue"}},
+    {"history_predictor", {"branch_mispredict"}},
+    {"random_replacement", {"dcache_misses", "icache_misses", "flash_wait_states"}},
+    {"serial_fpu", {"fpu_latency", "load_bank_conflict"}},
 };
 
 std::vector<std::string> effects_of(const std::vector<Step>& steps) {
@@ -72,7 +79,7 @@ std::vector<std::string> effects_of(const std::vector<Step>& steps) {
 
 bool is_right_of_other_rules(const Explanation& found, const Secret& secret) {
     std::vector<std::string> named = effects_of(found.steps);
-    const std::vector<std::string>& touched = touched_by.at(secret.set);
+    const std::vector<std::string>& touched = touched_by.at(secret.other_rules());
     std::erase_if(named, [&](const std::string& effect) {
         return std::find(touched.begin(), touched.end(), effect) != touched.end();
     });
@@ -142,13 +149,36 @@ std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed, const st
     return secrets;
 }
 
-bool has_place(const std::string& set) { return touched_by.contains(set); }
+bool has_place(const std::string& rules) { return touched_by.contains(rules); }
 
-std::vector<Secret> draw_other_rules(std::size_t cases, std::uint64_t seed, const std::vector<std::string>& sets) {
+std::vector<std::string> other_rules_of(const std::string& core, const std::filesystem::path& cores) {
+    const Question question = question_about({}, {core}, cores);
+    std::vector<std::string> rules = question.fitting.at(core);
+    rules.erase(rules.begin());
+    std::erase_if(rules, [](const std::string& set) { return !has_place(set); });
+    if (rules.empty()) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("{}: expected a core file with rival rules of a Cortex-M7", core));
+    }
+    for (const std::string& mechanism : timing::mechanism_names()) {
+        rules.push_back(mechanism);
+    }
+    return rules;
+}
+
+std::string core_with(const std::string& core, const std::string& mechanism) {
+    return fmt::format("base = \"{}\"\nmechanisms = [\"{}\"]\n", core, mechanism);
+}
+
+std::vector<Secret> draw_other_rules(std::size_t cases, std::uint64_t seed, const std::vector<std::string>& rules) {
+    const std::vector<std::string> mechanisms = timing::mechanism_names();
     Draw draw(seed);
     std::vector<Secret> secrets;
     while (secrets.size() < cases) {
-        Secret secret{.kind = "rules", .set = sets[draw.below(sets.size())]};
+        Secret secret{.kind = "rules"};
+        const std::string& other = rules[draw.below(rules.size())];
+        const bool is_mechanism = std::ranges::find(mechanisms, other) != mechanisms.end();
+        (is_mechanism ? secret.mechanism : secret.set) = other;
         if (draw.below(2) == 0) {
             secret.kind = "rules and cost";
             add_cost(secret, draw);
@@ -167,7 +197,7 @@ std::string seal(const std::vector<Secret>& secrets) {
         truths.push_back({{"case", name_of_case(c + 1)},
                           {"kind", secret.kind},
                           {"effects", secret.effects},
-                          {"rules", secret.set.empty() ? "nominal" : secret.set},
+                          {"rules", secret.other_rules().empty() ? "nominal" : secret.other_rules()},
                           {"ratio", secret.ratio},
                           {"overhead", secret.overhead},
                           {"maintenance", secret.maintenance},
@@ -177,12 +207,16 @@ std::string seal(const std::vector<Secret>& secrets) {
     return truths.dump(2) + "\n";
 }
 
-std::vector<qemu::MeasuredCycles> blind_rows() {
+std::vector<qemu::MeasuredCycles> blind_rows(bool beyond_caches) {
     std::vector<qemu::MeasuredCycles> rows;
     for (const char* kernel : {"shift_fir_q31", "shift_firfma_f32", "ring_plain_q31", "ring_plain_f32",
                                "mirror_multi_f32", "mirror_smlald_q15"}) {
         for (const bool on_bus : {false, true}) {
-            for (const std::uint32_t taps : {10U, 20U, 40U, 64U, 100U, 128U}) {
+            for (const std::uint32_t taps : {10U, 20U, 40U, 64U, 100U, 128U, 600U, 1000U}) {
+                const bool is_long = taps > 128;
+                if (is_long && (!beyond_caches || !on_bus || qemu::find_loop(kernel) != nullptr)) {
+                    continue;  // a loop of published measurements has no more taps than they
+                }
                 rows.push_back({kernel, on_bus ? "flash_cached" : "itcm", on_bus ? "axi" : "dtcm", on_bus, taps, 0.0,
                                 static_cast<unsigned>(rows.size() + 2)});
             }
@@ -211,7 +245,7 @@ bool names(const Explanation& found, const Secret& secret) {
     if (secret.kind == "unlisted") {
         return found.outcome == Outcome::unknown;
     }
-    if (!secret.set.empty()) {
+    if (!secret.other_rules().empty()) {
         return is_right_of_other_rules(found, secret);
     }
     std::vector<std::string> named = effects_of(found.steps);

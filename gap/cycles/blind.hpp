@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,15 @@ struct Secret {
     std::vector<std::string> effects = {};  ///< that the diagnosis is to name, sorted; of `unlisted` none
     std::vector<std::string> without = {};  ///< effects of the model that it does not pay
     std::string set = {};                   ///< rule set of the core file that made the cycles; empty: the nominal one
+    std::string mechanism = {};             ///< that made them, one that the core has not (timing::Mechanisms)
     double ratio = 1.0;                     ///< of the clocks: all cycles
     double overhead = 0.0;                  ///< cycles a call
     double maintenance = 0.0;               ///< and beside them where caches are maintained
     double contention = 0.0;                ///< a part of the call's cycles where it is on the bus
     double sawtooth = 0.0;                  ///< of the cycles of lengths 3 n + 1: what no listed effect does
+
+    /// The set or mechanism that made the cycles, where it is not the judge's; empty: it is.
+    [[nodiscard]] const std::string& other_rules() const { return mechanism.empty() ? set : mechanism; }
 };
 
 /// Effects without which the rows' cycles differ by more than what is taken for no gap: what a switch takes away.
@@ -32,13 +37,20 @@ struct Secret {
 [[nodiscard]] std::vector<Secret> draw_secrets(std::size_t cases, std::uint64_t seed,
                                                const std::vector<std::string>& switches);
 
-/// Whether it is known where the rules of a set act.
-[[nodiscard]] bool has_place(const std::string& set);
+/// Whether it is known where the rules of a set, or a mechanism, act.
+[[nodiscard]] bool has_place(const std::string& rules);
+
+/// The rules that may make a core's cycles in its place: its rival sets that fit silicon, and every mechanism.
+/// \throws glsum::Failure (bad input) for a core file without rival rules of a Cortex-M7
+[[nodiscard]] std::vector<std::string> other_rules_of(const std::string& core, const std::filesystem::path& cores);
+
+/// A core file of that core with a mechanism that it has not.
+[[nodiscard]] std::string core_with(const std::string& core, const std::string& mechanism);
 
 /// Cores whose cycles other rules made than those that judge: another mechanism, not other numbers of the same one.
-/// Half of them have a cost beside it. \param sets  of rules that have a place, one at least
+/// Half of them have a cost beside it. \param rules  sets and mechanisms that have a place, one at least
 [[nodiscard]] std::vector<Secret> draw_other_rules(std::size_t cases, std::uint64_t seed,
-                                                   const std::vector<std::string>& sets);
+                                                   const std::vector<std::string>& rules);
 
 /// `case-001`, ...
 [[nodiscard]] std::string name_of_case(std::size_t number);
@@ -48,7 +60,8 @@ struct Secret {
 
 /// The rows of a blind case: kernels of each number format, loops of published measurements among them, in the fastest
 /// memory and over the bus with caches maintained, six lengths each. Their cycles are 0.
-[[nodiscard]] std::vector<qemu::MeasuredCycles> blind_rows();
+/// \param beyond_caches  also lengths whose data a cache of 4 KB does not hold
+[[nodiscard]] std::vector<qemu::MeasuredCycles> blind_rows(bool beyond_caches = false);
 
 /// Sets the rows' cycles: what a core predicts without the secret's switches, its costs, and a counter that is a cycle
 /// off in either direction two times of three.

@@ -1,5 +1,5 @@
 // A sum is written once: what stands between "// C99: NAME" and the next "// C99" is compiled here, in C++, and is what
-// a generated header holds, in C99 (bench/generate/shared.hpp says which words change). In a header the compiler knows
+// a generated header holds, in C99 (bench/texts/shared.hpp says which words change). In a header the compiler knows
 // lengths and scales, and its flags are not ours. What must be kept from it is said by these words, which here do
 // nothing.
 #pragma once

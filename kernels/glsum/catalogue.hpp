@@ -17,6 +17,8 @@ struct CatalogueEntry {
     std::string_view history;  ///< the name's words; empty for `null`, which has none
     std::string_view technique;
     std::string_view format;
+    bool fused = false;             ///< product and addition are rounded once
+    std::string_view unfused = {};  ///< the technique of the same order that rounds both; its own if it does
     Family family = {"", "nothing: the time of a call"};
     Forgotten forgotten = Forgotten::zero;
     bool modes = false;       ///< a design has modes for it
@@ -43,6 +45,8 @@ template <Kernel K>
         entry.history = History::word;
         entry.technique = K::TechniquePart::word;
         entry.format = K::FormatPart::word;
+        entry.fused = K::TechniquePart::fused;
+        entry.unfused = unfused_word_of<typename K::TechniquePart>();
         entry.floating_point = !K::FormatPart::fixed_point;
         entry.exact_sums = K::FormatPart::fixed_point;
         entry.takes_order = K::order_in_range;

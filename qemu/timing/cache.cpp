@@ -5,7 +5,7 @@
 
 namespace timing {
 
-Cache::Cache(std::int64_t bytes, std::int64_t ways, std::int64_t line_bytes) {
+Cache::Cache(std::int64_t bytes, std::int64_t ways, std::int64_t line_bytes, bool at_random) : at_random_(at_random) {
     if (bytes > 0) {
         ways_ = static_cast<std::uint32_t>(std::max<std::int64_t>(ways, 1));
         line_shift_ = static_cast<std::uint32_t>(std::countr_zero(static_cast<std::uint32_t>(line_bytes)));
@@ -22,8 +22,13 @@ Cache::Touch Cache::touch_older(Line* first, std::uint32_t tag, bool store) {
         first->modified = first->modified || store;
         return {true, false};
     }
-    const bool writes_back = last[-1].modified;
-    std::rotate(first, last - 1, last);
+    Line* victim = last - 1;
+    if (at_random_) {
+        random_ = random_ * 1664525U + 1013904223U;  // Numerical Recipes, 7.1
+        victim = first + (random_ >> 16) % ways_;
+    }
+    const bool writes_back = victim->modified;
+    std::rotate(first, victim, victim + 1);
     *first = {tag, store};
     return {false, writes_back};
 }

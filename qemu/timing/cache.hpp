@@ -1,4 +1,4 @@
-// Tags of a set-associative cache: hit or miss, least recently used line replaced.
+// Tags of a set-associative cache: hit or miss. The line used longest ago is replaced, or one at random.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,9 @@ namespace timing {
 
 class Cache {
 public:
-    /// \param bytes  0: no cache, every touch misses
-    Cache(std::int64_t bytes, std::int64_t ways, std::int64_t line_bytes);
+    /// \param bytes      0: no cache, every touch misses
+    /// \param at_random  which line is replaced: the same ones in every run
+    Cache(std::int64_t bytes, std::int64_t ways, std::int64_t line_bytes, bool at_random = false);
 
     struct Touch {
         bool hit;
@@ -50,6 +51,8 @@ private:
     std::uint32_t line_shift_ = 0;
     std::uint32_t sets_ = 1;  // a power of two: the index is a field of the address
     std::uint32_t ways_ = 1;
+    bool at_random_ = false;
+    std::uint32_t random_ = 1;
     std::vector<Line> lines_;  // of each set together, the most recently used first
 };
 

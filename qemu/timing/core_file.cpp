@@ -32,6 +32,14 @@ constexpr Key keys[] = {
 #include "qemu/timing/rows.def"
 #undef ROW
 };
+struct MechanismName {
+    const char* name;
+    bool Mechanisms::*mechanism;
+};
+constexpr MechanismName mechanisms[] = {{"history_predictor", &Mechanisms::history_predictor},
+                                        {"random_replacement", &Mechanisms::random_replacement},
+                                        {"serial_fpu", &Mechanisms::serial_fpu}};
+
 bool is_of(const Key& key, Core core) { return !key.core || *key.core == core; }
 
 const Key* find_key(const std::string& name) {
@@ -120,6 +128,7 @@ struct Collected {
     std::optional<Placement> placement;
     Core core = Core::cortex_m7;
     std::vector<std::string> off;
+    Mechanisms mechanisms;
     std::string note;
     std::string text;
 };
@@ -169,6 +178,22 @@ void read_rivals(const toml::node& node, Collected& into) {
             }
         }
         into.rivals.insert_or_assign(std::string(name.str()), std::move(rival));
+    }
+}
+
+void read_mechanisms(const toml::node& node, Mechanisms& into) {
+    const toml::array* names = node.as_array();
+    if (names == nullptr) {
+        reject(node, "expected mechanisms = [\"..\"]");
+    }
+    for (const toml::node& one : *names) {
+        const std::string name = one.value_or(std::string("?"));
+        const auto* const found = std::find_if(std::begin(mechanisms), std::end(mechanisms),
+                                               [&](const MechanismName& known) { return known.name == name; });
+        if (found == std::end(mechanisms)) {
+            reject(one, "mechanisms: no such mechanism: " + name);
+        }
+        into.*found->mechanism = true;
     }
 }
 
@@ -227,6 +252,8 @@ void collect(const std::filesystem::path& file, const std::filesystem::path& fol
                     reject(one, "effects_off: no such effect: " + into.off.back());
                 }
             }
+        } else if (word == "mechanisms") {
+            read_mechanisms(node, into.mechanisms);
         } else if (word == "rows") {
             if (node.as_table() == nullptr) {
                 reject(node, "expected [rows.SECTION]");
@@ -235,7 +262,8 @@ void collect(const std::filesystem::path& file, const std::filesystem::path& fol
         } else if (word == "set") {
             read_rivals(node, into);
         } else {
-            reject(node, word + ": no such key; expected base, core, note, placement, effects_off, rows, set");
+            reject(node,
+                   word + ": no such key; expected base, core, note, placement, effects_off, mechanisms, rows, set");
         }
     }
 }
@@ -285,6 +313,14 @@ std::string name_of(CodePlace place) {
     return place == CodePlace::itcm ? "itcm" : place == CodePlace::flash ? "flash" : "axi";
 }
 std::string name_of(DataPlace place) { return place == DataPlace::dtcm ? "dtcm" : "axi"; }
+
+std::vector<std::string> mechanism_names() {
+    std::vector<std::string> names;
+    for (const MechanismName& known : mechanisms) {
+        names.emplace_back(known.name);
+    }
+    return names;
+}
 
 std::vector<std::string> core_names(const std::filesystem::path& folder) {
     std::vector<std::string> names;
@@ -372,6 +408,7 @@ CoreFile read_core_file(const std::filesystem::path& file, const std::filesystem
         core.sets[0].figures.*key.figure = row->second.value;
         core.origins.push_back(row->second);
     }
+    core.sets[0].figures.mechanisms = collected.mechanisms;
     for (const auto& [rival_name, rival] : collected.rivals) {
         check_rows_are_of(core.core, rival.rows);
         RuleSet set{rival_name, rival.note, core.sets[0].figures, rival.fits};

@@ -12,6 +12,16 @@
 
 namespace timing {
 
+/// Mechanisms that the core does not have as far as anybody knows: of cores that differ by more than numbers, whose
+/// cycles the diagnosis is tried on. A core file names them in `mechanisms`; none of the folder's does.
+struct Mechanisms {
+    bool history_predictor = false;   ///< directions by 4096 counters, chosen by the last eight of them (predictor.hpp)
+    bool random_replacement = false;  ///< of a cache's line, instead of the one used longest ago
+    bool serial_fpu = false;          ///< arithmetic waits for the result of the arithmetic before
+};
+/// The words of `mechanisms`.
+[[nodiscard]] std::vector<std::string> mechanism_names();
+
 /// The figures of all cores, named <section>_<name> as in the rows; a core file has those of its own.
 struct Figures {
 #define ROW(section, name) std::int64_t section##_##name = 0;
@@ -19,6 +29,7 @@ struct Figures {
 #include "qemu/timing/m7_rows.def"
 #include "qemu/timing/rows.def"
 #undef ROW
+    Mechanisms mechanisms;
 };
 
 /// Which model a core file has figures for.

@@ -17,8 +17,9 @@ Memory::Memory(const Figures& f, const Placement& placement)
       code_place_(place_named(name_of(placement.code))),
       data_place_(place_named(name_of(placement.data))),
       ranges_(placement.ranges),
-      instructions_(f.cache_instruction_bytes, f.cache_instruction_ways, f.cache_line_bytes),
-      data_(f.cache_data_bytes, f.cache_data_ways, f.cache_line_bytes),
+      instructions_(f.cache_instruction_bytes, f.cache_instruction_ways, f.cache_line_bytes,
+                    f.mechanisms.random_replacement),
+      data_(f.cache_data_bytes, f.cache_data_ways, f.cache_line_bytes, f.mechanisms.random_replacement),
       accelerator_(accelerator_of(f)),
       wait_states_((f.memory_clock_hz / std::max<std::int64_t>(1, f.memory_bus_clocks) - 1) /
                    std::max<std::int64_t>(1, f.memory_flash_hz_per_wait_state)),

@@ -5,12 +5,24 @@
 
 namespace timing {
 
-Predictor::Predictor(std::int64_t targets, std::int64_t returns)
+namespace {
+
+constexpr std::uint32_t history_counters = 4096;
+constexpr std::uint32_t remembered = 0xFF;
+
+}  // namespace
+
+Predictor::Predictor(std::int64_t targets, std::int64_t returns, bool history)
     : entries_(std::bit_floor(
                    static_cast<std::size_t>(std::max<std::int64_t>(1, targets / static_cast<std::int64_t>(ways)))) *
                ways),
       last_set_(entries_.size() / ways - 1),
-      returns_(static_cast<std::size_t>(std::clamp<std::int64_t>(returns, 0, 1024))) {}
+      returns_(static_cast<std::size_t>(std::clamp<std::int64_t>(returns, 0, 1024))),
+      counters_(history ? history_counters : 0, 2) {}
+
+int& Predictor::counter_of(std::uint32_t address, Entry& entry) {
+    return counters_.empty() ? entry.confidence : counters_[(address >> 1 ^ past_ << 4) % history_counters];
+}
 
 Prediction Predictor::meet(const Decoded& branch, std::uint32_t address, std::uint32_t next) {
     const bool taken = next != address + branch.bytes;
@@ -44,7 +56,7 @@ Prediction Predictor::meet_in_table(const Decoded& branch, std::uint32_t address
 
     Prediction prediction = Prediction::right;
     if (known) {
-        const bool says_taken = !conditional || entry.confidence >= 2;
+        const bool says_taken = !conditional || counter_of(address, entry) >= 2;
         if (says_taken != taken || (taken && entry.target != next)) {
             prediction = Prediction::wrong;
         }
@@ -58,12 +70,16 @@ Prediction Predictor::meet_in_table(const Decoded& branch, std::uint32_t address
     }
 
     if (known) {
-        entry.confidence = std::clamp(entry.confidence + (taken ? 1 : -1), 0, 3);
+        int& counter = counter_of(address, entry);
+        counter = std::clamp(counter + (taken ? 1 : -1), 0, 3);
         if (taken) {
             entry.target = next;
         }
     } else if (taken) {
         entry = {address, next, 2};
+    }
+    if (conditional) {
+        past_ = (past_ << 1 | (taken ? 1U : 0U)) & remembered;
     }
     return prediction;
 }

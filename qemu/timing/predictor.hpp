@@ -20,7 +20,10 @@ class Predictor {
 public:
     /// \param targets  branches that the table holds
     /// \param returns  calls under way that the stack holds; what it does not hold is guessed as any indirect branch is
-    Predictor(std::int64_t targets, std::int64_t returns);
+    /// \param history  directions of conditional branches by 4096 two-bit counters, chosen by the branch's address and
+    /// the
+    ///                 last eight directions, not by the counter beside the target
+    Predictor(std::int64_t targets, std::int64_t returns, bool history = false);
     /// What the predictor would have said; then it learns.
     /// \param next  address of the instruction that was executed next
     Prediction meet(const Decoded& branch, std::uint32_t address, std::uint32_t next);
@@ -31,6 +34,7 @@ private:
         std::uint32_t target = 0;
         int confidence = 0;  // 0 to 3; from 2 on: taken
     };
+    [[nodiscard]] int& counter_of(std::uint32_t address, Entry& entry);
     Prediction meet_in_table(const Decoded& branch, std::uint32_t address, std::uint32_t next);
 
     static constexpr std::size_t ways = 4;
@@ -39,6 +43,8 @@ private:
     std::vector<std::uint32_t> returns_;  // a ring
     std::size_t newest_ = 0;              // of it
     std::size_t held_ = 0;
+    std::vector<int> counters_;  // by history; empty without
+    std::uint32_t past_ = 0;     // directions, the last in bit 0
 };
 
 }  // namespace timing

@@ -26,7 +26,7 @@ Surroundings::Surroundings(const Figures& figures, const Placement& placement, C
       predicts_(core == Core::cortex_m7),
       fetch_shift_(static_cast<unsigned>(std::countr_zero(static_cast<std::uint32_t>(figures.fetch_bytes)))),
       memory_(figures_, placement),
-      predictor_(figures.branch_target_entries, figures.branch_return_entries) {}
+      predictor_(figures.branch_target_entries, figures.branch_return_entries, figures.mechanisms.history_predictor) {}
 
 const Event& Surroundings::meet(const Decoded& d, std::uint32_t address, std::span<const qemu::Access> accesses,
                                 std::uint32_t next) {

@@ -16,6 +16,7 @@
 #include "base/failure.hpp"
 #include "base/gnuplot.hpp"
 #include "bench/report/curves.hpp"
+#include "bench/report/plot_message.hpp"
 #include "bench/studies/equal_cost.hpp"
 
 namespace {
@@ -166,8 +167,8 @@ TEST_F(Drawing, OfErrorsHasAPanelForEachOrderAndKind) {
     // One key, in the first panel; the two lines of truncation are black, without points, and told apart.
     EXPECT_EQ(count_of(text, "set key at"), 1U);
     EXPECT_LT(text.find("set key at"), text.find("unset key"));
-    EXPECT_THAT(text, HasSubstr("dt 2 pt -1 ps 0.6 lc rgb \"#000000\" title \"truncation alone\""));
-    EXPECT_THAT(text, HasSubstr("dt 4 pt -1 ps 0.6 lc rgb \"#000000\" title \"truncation bound\""));
+    EXPECT_THAT(text, HasSubstr("with lines lw 1.5 dt 2 lc rgb \"#000000\" title \"truncation alone\""));
+    EXPECT_THAT(text, HasSubstr("with lines lw 1.5 dt 4 lc rgb \"#000000\" title \"truncation bound\""));
     for (const auto& [kernel, i] : {std::pair("a_f32", 0), std::pair("b_q15", 1), std::pair("c_f64", 2)}) {
         EXPECT_THAT(text, HasSubstr("dt 1 pt " + std::to_string(4 + i) + " ps 0.6 lc rgb \"" + base::palette[i] +
                                     "\" title \"" + kernel + "\""));
@@ -177,27 +178,57 @@ TEST_F(Drawing, OfErrorsHasAPanelForEachOrderAndKind) {
     // Marks: windows first, then what has room.
     EXPECT_THAT(text, HasSubstr("set xtics (\"50\" 50, \"full\" 85, \"2+7\" 9)"));
     EXPECT_THAT(text, HasSubstr("set xrange [7.2:106.25]"));
+    EXPECT_THAT(
+        text,
+        HasSubstr("title \"The best window of 50 taps forgets 0.062 to 0.12 of the largest sum, by the order; the best "
+                  "of at most 9 taps and modes errs by 0.001 to 0.001\\nGrünwald-Letnikov sum"));
     bench::plot_error(groups(), {}, stem());
     EXPECT_THAT(sent(), Not(HasSubstr("truncation bound")));
 }
 
-TEST_F(Drawing, OfMoreKernelsThanColoursHasAColourForEachFormat) {
+// Of an order the best counts, of orders the range; designs no shorter than a window, and faults, do not.
+TEST(PlotMessage, SaysWhatTheLongestWindowForgetsAndShortDesignsLeave) {
+    Entry wrong = entry("w_f32", 1e-12, {}, 0.0);
+    wrong.fault = "wrong";
+    EXPECT_EQ(
+        bench::plot_message({{"0.5", "50", {entry("a_f32", 0.5, {}, 0.5)}},
+                             {"0.5", "600", {entry("a_f32", 0.25, {}, 0.25), entry("b_f32", 0.1, {}, 0.1)}},
+                             {"0.9", "600", {entry("a_f32", 0.02, {}, 0.02)}},
+                             {"0.9", "full", {entry("a_f32", 1e-15, {}, 1e-15)}},
+                             {"0.5", "2+7", {entry("c_f32", 1e-3, {}, 0.0), entry("d_f32", 1e-4, {}, 0.0), wrong}},
+                             {"0.9", "2+9", {entry("c_f32", 1e-5, {}, 0.0)}},
+                             {"0.9", "20+30", {entry("c_f32", 1e-9, {}, 0.0)}}}),
+        "The best window of 600 taps forgets 0.02 to 0.1 of the largest sum, by the order; the best of at most 11 "
+        "taps and modes errs by 1e-05 to 0.0001\\n");
+}
+
+// Their points are faint; the line is the best window's, and no line joins a design with modes.
+TEST_F(Drawing, OfMoreKernelsThanColoursHasForEachFormatTheBestWindowAsALine) {
     Group many{"0.5", "50", {}};
-    for (const char* kernel : {"a_f32", "b_f32", "c_q15", "d_q15", "e_f64", "f_f32", "g_f32", "h_f32", "i_f64"}) {
-        many.entries.push_back(entry(kernel, 0.5, 0.25, 0.125));
+    double error = 0.5;
+    for (const char* kernel :
+         {"ring_plain_f32", "ring_oldest_f32", "ring_plain_q15", "shift_fir_q15", "shift_plain_f64", "ring_multi_f32",
+          "mirror_multi_f32", "shift_plain_f32", "ring_horner_f64"}) {
+        many.entries.push_back(entry(kernel, error, error / 2.0, 0.125));
+        error /= 2.0;
     }
-    Group close{"0.5", "20+20", {entry("a_f32", 0.5, 0.25, 0.125)}};  // 60: too near to 50 for a mark
+    Group close{"0.5", "20+20", {entry("ring_plain_f32", 1e-3, 0.25, 0.25)}};  // 40: too near to 50 for a mark
     bench::plot_error({many, close}, {}, stem());
     const std::string text = sent();
     EXPECT_EQ(count_of(text, "title \"f32\""), 2U);  // once a panel
     EXPECT_EQ(count_of(text, "title \"q15\""), 2U);
     EXPECT_EQ(count_of(text, "title \"f64\""), 2U);
-    EXPECT_EQ(count_of(text, " notitle"), 12U);
-    EXPECT_EQ(count_of(text, std::string("lc rgb \"") + base::palette[2] + "\""), 4U);  // the two in double
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n50 5.000000e-01\n50 2.500000e-01\n50 1.562500e-02\n50 7.812500e-03\n50 "
+                                "3.906250e-03\n40 1.000000e-03\nEOD\n$d1 << EOD\n50 3.906250e-03\nEOD\n"));
+    EXPECT_THAT(text, HasSubstr("$d0 using 1:2 with points pt 4 ps 0.6 lc rgb \"#900072B2\" notitle"));
+    EXPECT_THAT(text, HasSubstr("$d1 using 1:2 with linespoints lw 1.5 dt 1 pt 4 ps 0.6 lc rgb \"#0072B2\" title"));
+    EXPECT_EQ(count_of(text, " notitle"), 6U);
     EXPECT_THAT(text, HasSubstr("set xtics (\"50\" 50)"));
     many.entries.pop_back();  // eight have one each
     bench::plot_error({many}, {}, stem());
-    EXPECT_EQ(count_of(sent(), "title \"h_f32\""), 2U);
+    const std::string few = sent();
+    EXPECT_EQ(count_of(few, "title \"shift_plain_f32\""), 2U);
+    EXPECT_THAT(few, Not(HasSubstr("best window of")));
 }
 
 TEST_F(Drawing, OfEqualCostHasAPanelForEachOrderAndSignal) {
@@ -251,12 +282,12 @@ TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
         made.bytes = bytes;
         return made;
     };
-    Entry wrong = costed("a_f32", 1e-9, 1.0, 1.0);
+    Entry wrong = costed("ring_plain_f32", 1e-9, 1.0, 1.0);
     wrong.fault = "wrong";
     const std::vector<Group> all = {
-        {"0.5", "50", {costed("a_f32", 0.25, 20.0, 400.0), costed("b_q15", 0.5, 30.0, 100.0), wrong}},
-        {"0.5", "100", {costed("a_f32", 0.125, 40.0, 800.0)}},
-        {"0.9", "50", {costed("a_f32", 0.75, 20.0, 400.0), entry("c_f64", 0.5, 0.5, 0.0)}}};
+        {"0.5", "50", {costed("ring_plain_f32", 0.25, 20.0, 400.0), costed("ring_plain_q15", 0.5, 30.0, 100.0), wrong}},
+        {"0.5", "100", {costed("ring_plain_f32", 0.125, 40.0, 800.0)}},
+        {"0.9", "50", {costed("ring_plain_f32", 0.75, 20.0, 400.0), entry("shift_plain_f64", 0.5, 0.5, 0.0)}}};
     const auto costs = bench::report::costs_of(all);
     std::vector<std::string> names;
     for (const auto& cost : costs) {

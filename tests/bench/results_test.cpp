@@ -39,6 +39,14 @@ const bench::Entry& entry(const std::vector<bench::Group>& groups, const std::st
     throw std::runtime_error("no entry " + kernel);
 }
 
+TEST(Results, TheCatalogueAloneKnowsTheFormatOfAKernel) {
+    EXPECT_EQ(bench::number_format_of("ring_plain_q31"), "q31");
+    EXPECT_EQ(bench::number_format_of("mirror_smlaldshaped_q15"), "q15");
+    for (const char* foreign : {"null", "fir", "another_program_q31", "ring_plain_f33", "ring_plain_f32_", ""}) {
+        EXPECT_EQ(bench::number_format_of(foreign), "unknown") << foreign;
+    }
+}
+
 TEST(Results, NamesAreShortestRoundTripAndReadBack) {
     EXPECT_EQ(to_name(bench::row_key("ring_plain_f32", 0.98319, {600}, "host")),
               "gl/ring_plain_f32/order:0.98319/taps:600/host");
@@ -73,7 +81,10 @@ TEST(Results, EveryKindOfNameIsReadAsItIsWritten) {
           "gl/a/order:1/taps:50/accuracy/amplitude:0.5", "drive/niopdt/ringdelta_plain_f32/taps:2+7/m7:count",
           "record/peer_fftw_f64/order:0.5/samples:1000/host", "horizon/nested/order:0.5/error:1e-06/samples:600",
           "horizon/modes/order:0.5/error:1e-06/samples:600/m4:cortex-m4-zerowait",
-          "filter/oustaloup_f64/order:0.5/poles:7/accuracy/signal:step"}) {
+          "filter/oustaloup_f64/order:0.5/poles:7/accuracy/signal:step", "band/charef_f32/order:0.5/taps:1+3/hz:8..80",
+          "derivative/modes_plain_f32/order:0.5/taps:1+5/m7:stm32f746-itcm/hz:0.05..80/until:60",
+          "derivative/modes_plain_f32/order:0.5/taps:1+5/host/until:60",
+          "derivative/modes_plain_f32/order:0.5/taps:1+5/accuracy/hz:0.05..80"}) {
         const auto key = bench::parse_any_key(name);
         ASSERT_TRUE(key) << name;
         EXPECT_EQ(to_name(*key), name);
@@ -96,7 +107,8 @@ TEST(Results, EveryKindOfNameIsReadAsItIsWritten) {
     EXPECT_TRUE(filter.is_accuracy());
     for (const char* name : {"filter/oustaloup_f64/order:0.5/poles:7/accuracy", "drive/a/b/taps:x/host",
                              "drive/a/taps:50/host", "horizon/nested/order:0.5/error:1e-06/samples:600/host", "gl", "",
-                             "gl/", "other/a/order:1", "record/a/order:0.5/samples:/host"}) {
+                             "gl/", "other/a/order:1", "derivative/a/order:1/taps:5/host/hz:80",
+                             "derivative/a/order:1/taps:5/host/until:60/hz:1..2", "record/a/order:0.5/samples:/host"}) {
         EXPECT_FALSE(bench::parse_any_key(name)) << name;
     }
     EXPECT_EQ(subject_of(*bench::parse_key("gl/a/order:1/taps:50/accuracy/signal:step")), "gl/a/order:1/taps:50");

@@ -121,6 +121,15 @@ TEST(Trend, LevelsAreOfAllRowsAndCarryOn) {
     EXPECT_THAT(found.series[0].changed, ElementsAre(false, true, false));
 }
 
+// Of two that moved as far the order is that of their names.
+TEST(Trend, SeriesThatMovedAsFarStandByName) {
+    const Trend found =
+        trend_of({run("one", {100}, 50, 0, 100.0), run("two", {200}, 100, 0, 100.0)}, {"model_cycles*"});
+    ASSERT_EQ(found.series.size(), 2U);
+    EXPECT_EQ(found.series[0].kernel, "a");
+    EXPECT_EQ(found.series[1].kernel, "b");
+}
+
 TEST(Trend, HostTimesOfNoMoreThanTheirNoiseDoNotChange) {
     EXPECT_TRUE(trend_of({run("one", {1}, 1, 0, 100.0), run("two", {1}, 1, 0, 100.02)}, {"cpu_time"}).changes.empty());
     EXPECT_EQ(trend_of({run("one", {1}, 1, 0, 100.0), run("two", {1}, 1, 0, 110.0)}, {"cpu_time"}).changes.size(), 1U);

@@ -6,6 +6,7 @@
 #include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/derivative_text.hpp"
 #include "bench/choose/kernel_run.hpp"
+#include "bench/choose/question.hpp"
 #include "bench/choose/would_do.hpp"
 
 namespace {
@@ -134,6 +135,58 @@ TEST(DerivativeErrors, LeavesOutWhatIsNoFilterOfItsOwn) {
     EXPECT_NE(errors.error("nested_plain_f32", 9).fault, "");
     EXPECT_FALSE(errors.meets("nested_plain_f32", 9, 1e9));
     EXPECT_NE(DerivativeErrors(goal_of(-0.5, 0.0)).error("modesdelta_plain_f32", 9).fault, "");
+}
+
+TEST(DerivativeErrors, KernelsOfOneGroupShareWhatIsFitted) {
+    DerivativeErrors errors(goal_of(0.5, 0.0));
+    EXPECT_EQ(errors.group("modes_plain_f32"), errors.group("modes_plain_q31"));
+    EXPECT_EQ(errors.group("ring_plain_f32"), errors.group("mirror_smlad_q15"));
+    EXPECT_NE(errors.group("modes_plain_f32"), errors.group("ring_plain_f32"));
+    EXPECT_NE(errors.group("modes_plain_f32"), errors.group("modesdelta_plain_f32"));
+    EXPECT_NE(errors.group("mirrordelta_plain_f32"), errors.group("ring_plain_f32"));
+    // What floating point has room for is never worse than what fixed point takes, and the same without a pole.
+    const FittedFilter& swinging = errors.filter_of("modes_plain_f32", 7);
+    const FittedFilter& decaying = errors.filter_of("modes_plain_q31", 7);
+    EXPECT_LE(swinging.error.largest(), decaying.error.largest());
+    EXPECT_EQ(&swinging, &errors.filter_of("modes_compensated_f32", 7));
+    EXPECT_EQ(
+        swinging.error.largest(),
+        fit_filter(goal_of(0.5, 0.0), 1, 3, FilterKind::samples, glsum::design::Poles::one_may_swing).error.largest());
+    EXPECT_EQ(errors.filter_of("modes_plain_f32", 1).error.largest(),
+              errors.filter_of("modes_plain_q31", 1).error.largest());
+}
+
+TEST(DerivativeErrors, AWindowForAnIntegralIsSoonFoundToBeNoUse) {
+    // Its coefficients are large and of both signs: a near bound of what errs by all of it would take minutes.
+    DerivativeErrors errors({-1.0, 0.001, Band{0.5, 40.0}, {}});
+    std::size_t judged = 0;
+    for (std::size_t taps = 1; taps <= 16; ++taps) {
+        const auto one = errors.error("ring_oldest_f64", taps);
+        if (one.fault.empty()) {
+            ++judged;
+            EXPECT_GT(one.error, 0.5) << taps;
+            EXPECT_GE(one.error, errors.filter_of("ring_oldest_f64", taps).error.largest()) << taps;
+            EXPECT_NEAR(errors.error("mirror_multi_f64", taps).error, one.error, 1e-6 * one.error) << taps;
+        }
+    }
+    EXPECT_GE(judged, 3U);
+    EXPECT_LT(errors.error("modes_plain_f64", 3).error, 0.006);
+}
+
+TEST(DerivativeErrors, EachFormatIsCertifiedForWhatItHolds) {
+    const DerivativeGoal goal = goal_of(0.5, 0.0);
+    DerivativeErrors errors(goal);
+    for (const char* kernel : {"modes_plain_q31", "modes_plain_f32", "modes_plain_f64", "ring_oldest_f64"}) {
+        const auto report = choose::report_on(kernel, 9, goal, errors.filter_of(kernel, 9));
+        EXPECT_EQ(errors.error(kernel, 9).error, report.certified.largest()) << kernel;
+    }
+}
+
+TEST(WholeOrders, AreToldInASentence) {
+    EXPECT_EQ(choose::what_a_whole_order_is(0.5), "");
+    EXPECT_NE(choose::what_a_whole_order_is(2.0).find("has 3 weights"), std::string::npos);
+    EXPECT_NE(choose::what_a_whole_order_is(0.0).find("has 1 weight "), std::string::npos);
+    EXPECT_NE(choose::what_a_whole_order_is(-1.0).find("all samples so far"), std::string::npos);
 }
 
 TEST(DerivativeErrors, LengthsAreThoseThatAFilterIsFittedTo) {

@@ -466,4 +466,30 @@ TEST(Relax, TheLongestLengthWithinTheOtherLimitsIsFound) {
     EXPECT_TRUE(steep.choose({1e-4, 9.0, {}}).relaxed.empty());
 }
 
+// Errors of kernels that share work, whose group is their first letter.
+class GroupedErrors : public MadeErrors {
+public:
+    using MadeErrors::MadeErrors;
+    [[nodiscard]] std::string group(const std::string& kernel) const override { return kernel.substr(0, 1); }
+    [[nodiscard]] std::optional<std::vector<std::size_t>> lengths(const std::string& kernel) const override {
+        asked.push_back(kernel);
+        return std::vector<std::size_t>{1};
+    }
+    mutable std::vector<std::string> asked;
+};
+
+TEST(Search, ThreadsBeginWithKernelsThatShareNoWork) {
+    std::map<std::string, Made> made;
+    for (const char* name : {"a1", "a2", "a3", "b1", "c1", "c2"}) {
+        made[name] = {1e-7, 0.3, 6.0, 1.0, 8.0};
+    }
+    GroupedErrors errors(made);
+    MadeCosts costs(made);
+    const Choice found = choose::choose(errors, costs, {"a1", "a2", "a3", "b1", "c1", "c2"}, {2.0, {}, {}}, 1, false);
+    ASSERT_GE(errors.asked.size(), 6U);
+    errors.asked.resize(6);
+    EXPECT_EQ(errors.asked, (std::vector<std::string>{"a1", "b1", "c1", "a2", "c2", "a3"}));
+    EXPECT_EQ(found.kernels[1].kernel, "a2");  // told in the order given
+}
+
 }  // namespace

@@ -26,6 +26,16 @@ TEST(Coverage, OfTwoRunsIsTheirMeanAndSpread) {
         EXPECT_NEAR(two.spread[i], std::sqrt(2.0) * std::fabs(two.mean[i] - one.mean[i]), 1e-12);
         EXPECT_NEAR(two.claimed[i] / one.claimed[i], 1.0, 0.2);  // of as much noise
     }
+    // Each of the first runs is known by what a run more moves the mean by; the spread is of one less than they are.
+    const auto three = drive::measure_coverage(plants::sopdt(), Kind::sopdt, {}, 3, 5, 1);
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double first = one.mean[i];
+        const double second = 2.0 * two.mean[i] - first;
+        const double third = 3.0 * three.mean[i] - 2.0 * two.mean[i];
+        const double square = std::pow(first - three.mean[i], 2) + std::pow(second - three.mean[i], 2) +
+                              std::pow(third - three.mean[i], 2);
+        EXPECT_NEAR(three.spread[i] / std::sqrt(square / 2.0), 1.0, 1e-6);
+    }
     // Of another set another log; of the same the same.
     EXPECT_NE(drive::measure_coverage(plants::sopdt(), Kind::sopdt, {}, 1, 6, 1).mean, one.mean);
     EXPECT_NE(drive::measure_coverage(plants::sopdt(), Kind::sopdt, {}, 1, 5 + (1ULL << 32U), 1).mean, one.mean);

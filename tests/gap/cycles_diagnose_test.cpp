@@ -140,19 +140,31 @@ TEST(CyclesBlind, SwitchesThatShowChangeMoreThanThreePercent) {
 }
 
 TEST(CyclesBlind, OtherRulesMakeTheCyclesOfEachCase) {
-    const auto secrets = gap::cycles::draw_other_rules(200, 3, {"chain", "unfolded"});
+    const auto secrets = gap::cycles::draw_other_rules(200, 3, {"chain", "serial_fpu"});
     std::map<std::string, int> kinds;
     std::map<std::string, int> sets;
+    std::map<std::string, int> mechanisms;
     for (const auto& secret : secrets) {
         ++kinds[secret.kind];
         ++sets[secret.set];
+        ++mechanisms[secret.mechanism];
+        EXPECT_EQ(secret.other_rules(), secret.set + secret.mechanism);
         EXPECT_EQ(secret.effects.size(), secret.kind == "rules" ? 0U : 1U);
         EXPECT_TRUE(secret.without.empty());
     }
     EXPECT_NEAR(kinds["rules"], 100, 25);
     EXPECT_NEAR(kinds["rules and cost"], 100, 25);
     EXPECT_NEAR(sets["chain"], 100, 25);
-    EXPECT_NEAR(sets["unfolded"], 100, 25);
+    EXPECT_NEAR(mechanisms["serial_fpu"], 100, 25);
+    EXPECT_EQ(sets["chain"], mechanisms[""]);
+    EXPECT_EQ(sets[""], mechanisms["serial_fpu"]);
+}
+
+TEST(CyclesBlind, EveryMechanismHasAPlaceAndACoreFile) {
+    for (const std::string& mechanism : timing::mechanism_names()) {
+        EXPECT_TRUE(gap::cycles::has_place(mechanism)) << mechanism;
+        EXPECT_EQ(gap::cycles::core_with("some", mechanism), "base = \"some\"\nmechanisms = [\"" + mechanism + "\"]\n");
+    }
 }
 
 // What other rules do may go by the name of where they act, or by none; a cost beside them has its own.
@@ -181,6 +193,10 @@ TEST(CyclesBlind, OtherRulesAreRightByAllButANameForWhatTheyDoNotTouch) {
     found.alternatives = {{"interrupt_load", {}, {}, 0, 0, 0}, {"clock_ratio", {}, {}, 0, 0, 0}};
     EXPECT_TRUE(is_right(Outcome::ambiguous, {"fpu_latency"}, "chain", {"clock_ratio"}));
     EXPECT_FALSE(is_right(Outcome::ambiguous, {"fpu_latency"}, "chain", {"call_overhead"}));
+    found.outcome = Outcome::attributed;
+    found.steps = {{"dcache_misses", {}, {}, 0, 0, 0}};
+    EXPECT_TRUE(names(found, {.kind = "rules", .mechanism = "random_replacement"}));
+    EXPECT_FALSE(names(found, {.kind = "rules", .mechanism = "history_predictor"}));
 }
 
 TEST(CyclesBlind, TheSealedTruthHasAllThatWasDone) {

@@ -344,6 +344,16 @@ TEST(BlindCyclesParts, RowsAreOfBothPlacementsAndSixLengths) {
         EXPECT_TRUE(name.ends_with("code=itcm data=dtcm") || name.ends_with("code=flash_cached data=axi maintenance"))
             << name;
     }
+    // A kernel over the bus also at lengths that a cache of 4 KB does not hold; a published loop has no such lengths.
+    lengths.clear();
+    for (const auto& one : gap::cycles::blind_rows(true)) {
+        lengths[one.kernel + " " + gap::cycles::placement_of(one)].push_back(one.taps);
+    }
+    for (const auto& [name, taps] : lengths) {
+        const bool is_long = name.ends_with("maintenance") && !name.starts_with("shift_fir");
+        EXPECT_EQ(taps.size(), is_long ? 8U : 6U) << name;
+        EXPECT_EQ(taps.back(), is_long ? 1000U : 128U) << name;
+    }
 }
 
 }  // namespace

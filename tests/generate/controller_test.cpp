@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "base/failure.hpp"
-#include "bench/generate/controller/certificate.hpp"
-#include "bench/generate/controller/controller_header.hpp"
-#include "bench/generate/controller/report.hpp"
-#include "bench/generate/controller/written.hpp"
-#include "bench/generate/stepper/verify.hpp"
+#include "bench/steppers/controller/certificate.hpp"
+#include "bench/steppers/controller/controller_header.hpp"
+#include "bench/steppers/controller/report.hpp"
+#include "bench/steppers/controller/written.hpp"
+#include "bench/steppers/stepper/verify.hpp"
 #include "bench/target/target_rows.hpp"
 #include "drive/tune/margins.hpp"
 #include "tests/drive/plants.hpp"

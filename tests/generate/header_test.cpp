@@ -12,9 +12,10 @@
 
 #include "base/failure.hpp"
 #include "base/rounded_up.hpp"
-#include "bench/generate/provenance.hpp"
+#include "bench/choose/provenance.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/host_line.hpp"
+#include "bench/texts/text.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/design/blocks.hpp"
 #include "glsum/design/modes.hpp"
@@ -165,7 +166,7 @@ TEST(Provenance, SaysWhatWasMeasuredWhereAndHow) {
                       {"target_compiler", "GNU 12.2"}, {"target_flags", "-Os"}, {"qemu_version", "QEMU 9"}};
     answer.choice.chosen = {"ring_plain_f32", 50, {0.0125, "sine5", ""}, {400.0, 420.0, 0.25, 408.0, ""}};
     EXPECT_EQ(
-        generate::provenance(answer, "glsum generate"),
+        choose::provenance(answer, "glsum generate"),
         (std::vector<std::string>{
             "Measured error 0.0125 (sine5): the largest of S_k over 700 samples at h = 0.002 s,",
             "relative to the largest exact full-memory sum, the worst of step, sine5",
@@ -176,19 +177,19 @@ TEST(Provenance, SaysWhatWasMeasuredWhereAndHow) {
     answer.context["dirty"] = "false";
     answer.choice.runner_up = {"modes_plain_f32", 16, {0.02, "step", ""}, {500.0, 500.0, 0.0, 320.0, ""}};
     answer.choice.kernels.resize(7);
-    auto lines = generate::provenance(answer, "c");
+    auto lines = choose::provenance(answer, "c");
     EXPECT_THAT(lines[2], HasSubstr("420, on an emulated Cortex-M7: no cycles"));
     EXPECT_EQ(lines[3], "Runner-up of 7 kernels: modes_plain_f32 with 2+7 taps, 500 instructions");
     EXPECT_EQ(lines[6], "glsum 1.2, commit c0ffee");
     answer.question.target = choose::Target::host;
     answer.choice.runner_up.reset();
     answer.context.erase("flags");
-    lines = generate::provenance(answer, "c");
+    lines = choose::provenance(answer, "c");
     EXPECT_THAT(lines[2], HasSubstr("420 cycles on a processor"));
     EXPECT_EQ(lines.back(), "Errors and expected bits: GNU 12, unknown");
     answer.question.target = choose::Target::m7;
     answer.choice.chosen->cost.fault = "no board";
-    lines = generate::provenance(answer, "c");
+    lines = choose::provenance(answer, "c");
     EXPECT_EQ(lines[2], "Cost not measured: no board");
     EXPECT_THAT(lines.back(), HasSubstr("Errors and expected bits"));
 }

@@ -1,16 +1,25 @@
-# Statements of C in the string literals of C++ files that add or multiply what a sum is made of: FILE: STATEMENT each. Exit 1 where
-# there is one. A literal that is put together from several is read as one, with @ for what stands between its parts.
+# Statements of C in the string literals of C++ files, and in the texts of headers (NAME.h.in), that add or multiply what a sum is made
+# of: FILE: STATEMENT each. Exit 1 where there is one. A literal that is put together from several is read as one, with @ for what
+# stands between its parts.
 use strict;
 use warnings;
 
 my $data = qr/\b(?:sum|lost|total|average|step|newest|increment|tail|mean|first|oldest|younger|block|ready|coming|carried|moving|kept
                 |inner|term|product|coefficients?|samples?|weight|table|past|[acstx]\d*)\b/x;
-my $call = qr/_(?:fused_)?(?:multiply_add|multiply|product|nest|add|carry|smlald|smlad)\(/;
+my $call = qr/(?<!_)_(?:fused_)?(?:multiply_add|multiply|product|nest|add|carry|smlald|smlad)\(/;
 my $found = 0;
 for my $file (@ARGV) {
     open(my $in, '<', $file) or die "$file: cannot be read\n";
     my $text = do { local $/; <$in> };
     my $literals = '';
+    if ($file =~ /\.h\.in$/) {
+        $text =~ s/^%section (?:opening|formula|scaling|summary|sum summary)\n(?:(?!%section).*\n)*//gm;  # prose
+        $text =~ s/^ *%(?!text|optional).*\n//gm;
+        $text =~ s/^ *%.*\n/;\n/gm;
+        $text =~ s/\@[\w .]+\@/\@/g;
+        judge($file, $text);
+        next;
+    }
     while ($text =~ m{\G(?: //[^\n]*
                         | '(?:[^'\\]|\\.)+'
                         | R"(\w*)\((.*?)\)\g{1}"

@@ -1,5 +1,5 @@
 #!/bin/sh
-# A sum is written once: no string literal of bench/generate states one. Argument: the source folder.
+# A sum is written once: no string literal of what writes headers states one, and no text of a header. Argument: the source folder.
 set -u
 root=$1
 here=$root/tests/generate
@@ -8,8 +8,9 @@ trap 'rm -rf "$folder"' EXIT
 failures=0
 fail() { echo "$*"; failures=$((failures + 1)); }
 
-find "$root/bench/generate" -name '*.cpp' -o -name '*.hpp' -o -name '*.in' >"$folder/files"
-[ "$(wc -l <"$folder/files")" -gt 20 ] || fail "expected the files of bench/generate"
+{ echo "$root/bench/generate/header.h.in"; find "$root/kernels" -name '*.h.in'; } >"$folder/files"
+[ "$(wc -l <"$folder/files")" -gt 15 ] || fail "expected the texts of headers"
+find "$root/bench/generate" "$root/bench/texts" "$root/bench/steppers" "$root/bench/verify" -name '*.cpp' -o -name '*.hpp' -o -name '*.cpp.in' >>"$folder/files"
 xargs perl "$here/literals.pl" <"$folder/files" >"$folder/found" ||
     fail "a sum is stated in a literal and in kernels/glsum: $(cat "$folder/found")"
 
@@ -25,6 +26,11 @@ finds 'const char* const step = R"(    return lost + (total - grown);
 )";'
 finds 'text += "    sum += " + product + ";\n";'
 finds 'text = "    const @sample@ block = younger + past[at];\n";'
+
+printf '%%section sum\n%%if past\n    sum = @name@_multiply_add(sum, table[i], x[i]);\n%%end\n' >"$folder/planted.h.in"
+perl "$here/literals.pl" "$folder/planted.h.in" >/dev/null && fail "not found in a text of headers"
+printf '    %%text plain\n    const @sample@ held = before + past[at];\n' >"$folder/planted.h.in"
+perl "$here/literals.pl" "$folder/planted.h.in" >/dev/null && fail "not found behind a kernel's statement"
 
 # And what is none.
 passes() {

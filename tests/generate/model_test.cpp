@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "base/failure.hpp"
-#include "bench/generate/model/model_choice.hpp"
-#include "bench/generate/model/model_header.hpp"
-#include "bench/generate/model/report.hpp"
+#include "bench/steppers/model/model_choice.hpp"
+#include "bench/steppers/model/model_header.hpp"
+#include "bench/steppers/model/report.hpp"
 #include "bench/target/target_rows.hpp"
 #include "drive/response.hpp"
 #include "tests/generate/board_here.hpp"

@@ -1,5 +1,5 @@
 // Statements of the kernels in the words of a header: what is taken, what is left out, what is called otherwise.
-#include "bench/generate/shared.hpp"
+#include "bench/texts/shared.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

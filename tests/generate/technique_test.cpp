@@ -10,9 +10,8 @@
 
 #include "base/failure.hpp"
 #include "bench/generate/header.hpp"
-#include "bench/generate/kernel_data.hpp"
-#include "bench/generate/parts.hpp"
-#include "bench/generate/text.hpp"
+#include "bench/texts/template.hpp"
+#include "bench/texts/text.hpp"
 
 namespace {
 
@@ -66,15 +65,23 @@ TEST(Technique, SumsInSoftwareAreToldApart) {
 
 // Whole, as long as that is short.
 TEST(Technique, FewModesAreUnrolled) {
-    const auto text = [](std::size_t modes, bool compensated, bool in_software = false) {
-        return generate::modes_text(2, modes, compensated, false, in_software).sum;
+    const auto text = [](long modes, bool compensated, bool in_software = false) {
+        generate::HeaderText made;
+        made.facts = {{"past", 2}, {"decaying", modes}, {"compensated", compensated}, {"in_software", in_software}};
+        for (const char* place : {"name", "sample", "coefficient", "accumulator", "accumulate", "rolled"}) {
+            made.places[place] = "";
+        }
+        made.places["NAME"] = "MY";
+        made.chains = {{"history", {"modes", "history"}}, {"header", {"header"}}};
+        return made.section("history", "sum");
     };
     EXPECT_THAT(text(17, false), HasSubstr("#pragma GCC unroll 8\n"));
     EXPECT_THAT(text(17, true), HasSubstr("#pragma GCC unroll 8\n"));
     EXPECT_THAT(text(18, false), HasSubstr("#pragma GCC unroll 2\n"));
     EXPECT_THAT(text(18, true), HasSubstr("#pragma GCC unroll 10\n"));
-    EXPECT_THAT(text(18, true, true), Not(HasSubstr("unroll")));
-    const std::string pairs = "for (i = @NAME@_MODES / 2U; i > 0U; --i) {";
+    EXPECT_THAT(text(18, true, true), Not(HasSubstr("unroll 10")));
+    EXPECT_THAT(text(18, true, true), HasSubstr("for (i = MY_MODES; i > 0U; --i) {"));
+    const std::string pairs = "for (i = MY_MODES / 2U; i > 0U; --i) {";
     EXPECT_THAT(text(1, false), Not(HasSubstr(pairs)));
     EXPECT_THAT(text(2, false), HasSubstr(pairs));
     EXPECT_THAT(text(1, true), HasSubstr("            table += 2;\n            average += 2;\n"));

@@ -1,5 +1,5 @@
 // Headers on the target, where no target is needed: what is compiled there, what counts, when a header has passed.
-#include "bench/generate/verify.hpp"
+#include "bench/verify/verify.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

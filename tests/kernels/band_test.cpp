@@ -91,6 +91,35 @@ TEST(FittedFilter, OnePoleThatSwingsIsWorthSeveral) {
     }
 }
 
+TEST(FittedFilter, WhatAmplifiesTooMuchIsNotTheBetterOne) {
+    FittedFilter calm{1.0, {}, {}, {0.1, 1.0, 0.0, 0.0}, FilterKind::samples, 2.0};
+    FittedFilter loud{1.0, {}, {}, {0.01, 1.0, 0.0, 0.0}, FilterKind::samples, 9.0};
+    EXPECT_EQ(&better_of(calm, loud), &calm);
+    loud.amplification = 7.0;
+    EXPECT_EQ(&better_of(calm, loud), &loud);
+    EXPECT_EQ(&better_of(loud, calm), &loud);
+    const FittedFilter fitted = fit_filter(goal_of(0.5, 0.8, 80.0, 0.0), 1, 4, FilterKind::samples);
+    EXPECT_GT(fitted.amplification, 0.5);
+    EXPECT_LE(fitted.amplification, 8.0);
+}
+
+TEST(DesignedFilter, IsTheShortestOfWhatKeepsTheError) {
+    // As the header's example asks.
+    const DerivativeGoal goal{.order = 0.5, .step_s = 1e-3, .band = Band{0.05, 80}, .step_until_s = 60};
+    const auto found = design_filter(goal, 0.05);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(found->length(), 1 + found->weights.size() + 2 * found->modes.size());
+    EXPECT_LE(certified_error(found->filter(), goal).largest(), 0.05);
+    const std::size_t shorter = found->length() - 1;
+    const std::size_t near_taps = shorter % 2 == 1 ? 1 : 2;
+    const FittedFilter before = fit_filter(goal, near_taps, (shorter - near_taps) / 2, FilterKind::samples);
+    EXPECT_GT(certified_error(before.filter(), goal).largest(), 0.05);
+    EXPECT_FALSE(design_filter(goal, 1e-9));
+    const auto integral = design_filter(goal_of(-0.5, 0.5, 80.0, 0.0), 0.05, FilterKind::integrator);
+    ASSERT_TRUE(integral);
+    EXPECT_EQ(integral->modes.front().decay, 0.0);
+}
+
 TEST(FittedFilter, IsWhatItsErrorSays) {
     const DerivativeGoal goal = goal_of(0.5, 0.05, 80.0, 60.0);
     const FittedFilter fitted = fit_filter(goal, 1, 5, FilterKind::samples);

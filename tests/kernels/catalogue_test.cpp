@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -72,6 +73,43 @@ TEST(Catalogue, SaysWhatIsKeptAndWhatIsForgotten) {
     EXPECT_EQ(histories_of(Forgotten::held), Words{"mirrorhold"});
     EXPECT_EQ(histories_of(Forgotten::line), Words{"mirrorlinear"});
     EXPECT_EQ(histories_of([](const CatalogueEntry& entry) { return entry.integrator; }), Words{"modessum"});
+}
+
+// Of those that round a product and its addition once, the technique that rounds both.
+TEST(Catalogue, SaysWhatIsFused) {
+    std::map<std::string, std::string> unfused;
+    for (const CatalogueEntry& entry : glsum::catalogue) {
+        if (entry.fused) {
+            unfused[std::string(entry.technique)] = entry.unfused;
+        } else {
+            EXPECT_EQ(entry.unfused, entry.technique) << entry.name;
+        }
+    }
+    unfused.erase("simdfma");  // not of every build
+    EXPECT_EQ(unfused, (std::map<std::string, std::string>{{"firfma", "fir"},
+                                                           {"hornerfma", "horner"},
+                                                           {"hornersplitfma", "hornersplit"},
+                                                           {"multifma", "multi"},
+                                                           {"oldestfma", "oldest"},
+                                                           {"plainfma", "plain"}}));
+}
+
+// By what its technique says, whatever its word looks like.
+struct Sofma : glsum::Plain {
+    static constexpr std::string_view word = "sofma";
+};
+struct OnceRounded : glsum::Fused<Sofma> {
+    static constexpr std::string_view word = "once";
+};
+
+TEST(Catalogue, RecognisesNothingByAPartOfAWord) {
+    constexpr CatalogueEntry rounds_both = glsum::catalogue_entry<glsum::Sum<glsum::Ring, Sofma, glsum::F32>>();
+    EXPECT_EQ(rounds_both.name, "ring_sofma_f32");
+    EXPECT_FALSE(rounds_both.fused);
+    EXPECT_EQ(rounds_both.unfused, "sofma");
+    constexpr CatalogueEntry once = glsum::catalogue_entry<glsum::Sum<glsum::Ring, OnceRounded, glsum::F32>>();
+    EXPECT_TRUE(once.fused);
+    EXPECT_EQ(once.unfused, "sofma");
 }
 
 TEST(Catalogue, SaysWhichNumbersAKernelComputesIn) {

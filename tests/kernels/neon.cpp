@@ -44,7 +44,7 @@ int wrong_in_blocks() {
     std::vector<T> record;
     for (int k = 0; k < 120; ++k) {
         record.push_back(static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5));
-        constexpr bool fused = std::is_same_v<Technique, glsum::SimdFma>;
+        constexpr bool fused = Technique::fused;
         wrong += line.step(record.back()) != test::in_blocks_in_the_stated_order<fused>(weights, record) ? 1 : 0;
     }
     return wrong;

@@ -182,7 +182,7 @@ TEST_F(Page, FiltersByClickAndKeepsThemInTheAddress) {
     const auto check = [&] {
         EXPECT_EQ(count("#panels g[data-kernel$=_f32], #kernels button[data-kernel$=_f32]"), 0);
         EXPECT_EQ(count("#panels g[data-kernel^=ring_]"), 0);
-        EXPECT_GT(count("#panels g[data-kernel=shift_plain_q15]"), 0);
+        EXPECT_GT(count("#panels g[data-kernel=shift_fir_q15]"), 0);
         EXPECT_EQ(count("svg.panel[data-order='0.2']"), 0);
         EXPECT_EQ(count("svg.panel[data-axis=bytes]"), 0);
         EXPECT_EQ(run("return [...document.querySelectorAll('#row-table tbody tr')].some(row => "
@@ -219,7 +219,7 @@ TEST_F(Page, EverythingIsReachedByKeys) {
     EXPECT_TRUE(visible) << "an element has the focus and does not show it";
     for (const char* name :
          {"theme", "ask-order", "ask-error", "ask-target", "panel answer", "error", "signal", "0.5", "host", "linear",
-          "fronts", "reset", "colour", "q31", "find", "ring_plain_f64", "panel taps"}) {
+          "fronts", "reset", "colour", "q31", "find", "ring_plain_f32", "panel taps"}) {
         EXPECT_TRUE(reached.contains(name)) << name;
     }
     // In the first panel, over the memory length: along a kernel and across.

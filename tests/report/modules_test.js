@@ -43,7 +43,13 @@ const counters = [
   counter("effective_taps", {better: "higher"}), counter("state_bytes"), counter("coefficient_bytes"), counter("model_cycles_per_sample"),
   counter("real_time", {is_time: true, unit: "ns", layer: "host_time"}), counter("stall_", {family: true, compared: false})
 ];
-const page = data => { const all = catalogueOf({version: "1", d3: "5", counters, ...data}); return {all, state: makeState(choicesOf(all))}; };
+// As the catalogue says it, which no name need show.
+const kernels = {
+  ring_plain_f32: {history: "ring", technique: "plain", format: "f32", fixed: false},
+  ring_plain_q15: {history: "ring", technique: "plain", format: "q15", fixed: true},
+  mirror_odd: {history: "mirror", technique: "odd", format: "q31", fixed: true}
+};
+const page = data => { const all = catalogueOf({version: "1", d3: "5", counters, kernels, ...data}); return {all, state: makeState(choicesOf(all))}; };
 
 const tests = {
   theStateChangesInOneWay() {
@@ -110,6 +116,15 @@ const tests = {
     assert.ok(!passes(all, {...state.now, find: "f32"}, "ring_plain_q15"));
     assert.ok(!passes(all, {...state.now, "no-format": "f32,q15"}, "ring_plain_q15"));
     assert.ok(!passes(all, {...state.now, "no-history": "ring"}, "ring_plain_q15"));
+  },
+  wordsAreTheCatalogues() {
+    const {all, state} = page({files: [a]});
+    assert.ok(!passes(all, {...state.now, "no-format": "q31"}, "mirror_odd"));
+    assert.ok(!passes(all, {...state.now, "no-technique": "odd"}, "mirror_odd"));
+    assert.ok(passes(all, {...state.now, "no-format": "q15", "no-history": "ring"}, "ring_other_q15"), "no part of a name says anything");
+    assert.ok(!passes(all, {...state.now, "no-format": "unknown"}, "ring_other_q15"));
+    assert.equal(all.wordsOf("ring_other_q15").fixed, false);
+    assert.equal(all.wordsOf("toString").format, "unknown");
   },
   pointsAreTheWorstSignalAndNothingWrong() {
     const {all, state} = page({files: [a]});

@@ -1,20 +1,17 @@
 #include "tests/report/pretend_results.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <iterator>
 #include <random>
 
 #include "bench/sweep/signals.hpp"
 #include "bench/sweep/sweep.hpp"
+#include "glsum/catalogue.hpp"
 
 namespace test {
 namespace {
 
-constexpr const char* histories[] = {"shift", "ring", "mirror", "block"};
-constexpr const char* techniques[] = {"plain", "oldest"};
-constexpr const char* formats[] = {"f64", "f32", "q31", "q15", "f32a64"};
+constexpr std::size_t kernels = 40;  // the registry's first
 constexpr double orders[] = {0.2, 0.3, 0.5, 0.7, 0.9, 0.98319, 1.5, 1.9909, -0.5};
 
 }  // namespace
@@ -29,47 +26,47 @@ bench::Results pretend_results(std::size_t rows, std::uint64_t seed) {
     for (std::size_t taps = 50; results.rows.size() < rows; taps = taps * 5 / 4) {
         const bench::Length length{taps};
         for (const double order : orders) {
-            for (const char* history : histories) {
-                for (const char* technique : techniques) {
-                    for (const char* format : formats) {
-                        const std::string kernel = fmt::format("{}_{}_{}", history, technique, format);
-                        const auto at = static_cast<double>(taps);
-                        const double truncation = std::pow(at, -1.0 - order);
-                        for (const std::string_view signal : bench::signal_names) {
-                            bench::RowKey key = bench::row_key(kernel, order, length, bench::RowKey::accuracy);
-                            key.signal = signal;
-                            auto& row = results.rows.emplace_back(bench::make_row(to_name(key), 5000));
-                            row["rounding_error_max"] = 1e-6 * noise(random);
-                            row["truncation_error_max"] = truncation * noise(random);
-                            row["error_max"] = truncation * noise(random) + 1e-6;
-                            row["error_rms"] = truncation * noise(random) / 3.0;
-                            row["effective_taps"] = format[0] == 'q' ? std::min<std::size_t>(taps, 300) : taps;
-                            row["macs_per_sample"] = taps - 1;
-                            row["coefficient_bytes"] = 4 * taps;
-                            row["state_bytes"] = 4 * taps + 24;
-                        }
-                        auto& counted = results.rows.emplace_back(
-                            bench::make_row(to_name(bench::row_key(kernel, order, length, "m7:pretend")), 32));
-                        const double instructions = std::round(5.0 * at * noise(random));
-                        const double load_use = at;
-                        const double fpu_latency = std::round(2.0 * at * noise(random));
-                        const double cycles = instructions / 2.0 + load_use + fpu_latency;
-                        counted["instructions_per_sample"] = instructions;
-                        counted["worst_instructions"] = instructions + 1.0;
-                        counted["code_bytes"] = 120;
-                        counted["stack_bytes"] = 40;
-                        counted["model_cycles_per_sample"] = cycles;
-                        counted["model_cycles_low"] = 0.97 * cycles;
-                        counted["model_cycles_high"] = 1.04 * cycles;
-                        counted["stall_load_use"] = load_use;
-                        counted["stall_fpu_latency"] = fpu_latency;
+            std::size_t number = 0;
+            for (const glsum::CatalogueEntry& entry : glsum::catalogue) {
+                if (!entry.format.empty() && !entry.host_only && number++ < kernels) {
+                    const std::string kernel(entry.name);
+                    const auto at = static_cast<double>(taps);
+                    const double truncation = std::pow(at, -1.0 - order);
+                    for (const std::string_view signal : bench::signal_names) {
+                        bench::RowKey key = bench::row_key(kernel, order, length, bench::RowKey::accuracy);
+                        key.signal = signal;
+                        auto& row = results.rows.emplace_back(bench::make_row(to_name(key), 5000));
+                        row["rounding_error_max"] = 1e-6 * noise(random);
+                        row["truncation_error_max"] = truncation * noise(random);
+                        row["error_max"] = truncation * noise(random) + 1e-6;
+                        row["error_rms"] = truncation * noise(random) / 3.0;
+                        row["effective_taps"] = entry.floating_point ? taps : std::min<std::size_t>(taps, 300);
+                        row["macs_per_sample"] = taps - 1;
+                        row["coefficient_bytes"] = 4 * taps;
+                        row["state_bytes"] = 4 * taps + 24;
                     }
+                    auto& counted = results.rows.emplace_back(
+                        bench::make_row(to_name(bench::row_key(kernel, order, length, "m7:pretend")), 32));
+                    const double instructions = std::round(5.0 * at * noise(random));
+                    const double load_use = at;
+                    const double fpu_latency = std::round(2.0 * at * noise(random));
+                    const double cycles = instructions / 2.0 + load_use + fpu_latency;
+                    counted["instructions_per_sample"] = instructions;
+                    counted["worst_instructions"] = instructions + 1.0;
+                    counted["code_bytes"] = 120;
+                    counted["stack_bytes"] = 40;
+                    counted["model_cycles_per_sample"] = cycles;
+                    counted["model_cycles_low"] = 0.97 * cycles;
+                    counted["model_cycles_high"] = 1.04 * cycles;
+                    counted["stall_load_use"] = load_use;
+                    counted["stall_fpu_latency"] = fpu_latency;
                 }
             }
         }
-        for (const char* format : formats) {
-            auto& timed = results.rows.emplace_back(bench::make_row(
-                to_name(bench::row_key(fmt::format("ring_plain_{}", format), orders[0], length, "host")), 1000));
+        for (const char* kernel :
+             {"shift_plain_f64", "ring_plain_f32", "ring_plain_q31", "ring_plain_q15", "ring_plain_f32a64"}) {
+            auto& timed = results.rows.emplace_back(
+                bench::make_row(to_name(bench::row_key(kernel, orders[0], length, "host")), 1000));
             timed["real_time"] = static_cast<double>(taps) * noise(random);
             timed["cycles_per_sample"] = timed["real_time"].get<double>() * 2.5;
         }

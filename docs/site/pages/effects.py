@@ -30,9 +30,9 @@ def _change(effect):
 def _picture(effect, path):
     change = [one - other for one, other in zip(effect["with"], effect["without"])]
     most = max(map(abs, change)) or 1.0
-    draw.svg(path, (760, 470), draw.block("log", effect["time_s"], effect["input"], effect["without"], effect["with"], change) + f"""
+    draw.svg(path, (560, 420), draw.block("log", effect["time_s"], effect["input"], effect["without"], effect["with"], change) + f"""
 set multiplot
-set lmargin 9
+set lmargin 8
 set rmargin 2
 set xrange [{effect['time_s'][0]}:{effect['time_s'][-1]}]
 set format x ""

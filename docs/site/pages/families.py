@@ -41,7 +41,7 @@ def points(results):
 def _picture(word, names, all_points, path):
     mine = [point for point in all_points if point[0] in names]
     rest = [point for point in all_points if point[0] not in names]
-    draw.svg(path, (760, 400), draw.block("rest", [one[2] for one in rest], [one[3] for one in rest]) +
+    draw.svg(path, (560, 380), draw.block("rest", [one[2] for one in rest], [one[3] for one in rest]) +
              draw.block("mine", [one[2] for one in mine], [one[3] for one in mine]) + f"""
 set logscale xy
 set format y "10^{{%T}}"
@@ -49,7 +49,7 @@ set xlabel "modelled cycles a sample, {CORE}"
 set ylabel "largest error of the sum"
 set key outside top right horizontal
 plot $rest with points pt 7 ps 0.35 lc rgb "{draw.COLOURS['rest']}" title "other families", \\
-     $mine with points pt 7 ps 0.7 lc rgb "{draw.COLOURS['family']}" title "{word}"
+     $mine with points pt 7 ps 0.6 lc rgb "{draw.COLOURS['family']}" title "{word}"
 """)
 
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "glsum/design/band_fit_body.hpp"
@@ -151,22 +152,28 @@ Filter FittedFilter::filter() const {
     return kind == FilterKind::increments ? of_samples(filter) : filter;
 }
 
+const FittedFilter& better_of(const FittedFilter& decaying, const FittedFilter& swinging) {
+    const auto error = [](const FittedFilter& filter) {
+        return filter.amplification <= largest_amplification ? filter.error.largest()
+                                                             : std::numeric_limits<double>::infinity();
+    };
+    return error(swinging) < error(decaying) ? swinging : decaying;
+}
+
 FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, FilterKind kind,
                         Poles poles) {
-    const double most = largest_amplification * absolute_sum(order_of(goal, kind), goal.horizon() + 1);
-    const auto moving = static_cast<Eigen::Index>(modes) - (kind == FilterKind::integrator ? 1 : 0);
-    const Search search{goal, near_taps, moving, kind, most};
-    Found best = search.decaying();
+    const std::size_t moving = moving_poles(modes, kind);
     if (poles == Poles::one_may_swing && moving > 0) {
-        Found other = search.swinging();
-        if (other.error < best.error) {
-            best = std::move(other);
-        }
+        return better_of(fit_filter(goal, near_taps, modes, kind, Poles::decaying),
+                         fit_filter(goal, near_taps, modes, kind, Poles::one_swings));
     }
-    Filter& filter = best.filter;
+    const double unit = absolute_sum(order_of(goal, kind), goal.horizon() + 1);
+    const Search search{goal, near_taps, static_cast<Eigen::Index>(moving), kind, largest_amplification * unit};
+    Filter filter = (poles == Poles::one_swings ? search.swinging() : search.decaying()).filter;
     std::sort(filter.modes.begin(), filter.modes.end(), [](const Mode& a, const Mode& b) { return a.decay < b.decay; });
     const Filter whole = kind == FilterKind::increments ? of_samples(filter) : filter;
-    FittedFilter found{filter.taps.front(), {}, filter.modes, error_at_points(whole, goal), kind};
+    FittedFilter found{filter.taps.front(),          {},   filter.modes,
+                       error_at_points(whole, goal), kind, amplification(filter) / unit};
     for (std::size_t j = 1; j < filter.taps.size(); ++j) {
         found.weights.push_back(filter.taps[j] / found.factor);
     }
@@ -174,6 +181,25 @@ FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::
         mode.weight /= found.factor;
     }
     return found;
+}
+
+std::optional<FittedFilter> design_filter(const DerivativeGoal& goal, double error, FilterKind kind, Poles poles) {
+    constexpr double gain = 0.95;
+    constexpr int patience = 6;
+    const std::size_t least_modes = kind == FilterKind::integrator ? 1 : 0;
+    double least = std::numeric_limits<double>::infinity();
+    int without_gain = 0;
+    for (std::size_t length = 1 + 2 * least_modes; length <= longest_filter && without_gain < patience; ++length) {
+        const std::size_t near_taps = length % 2 == 1 ? 1 : 2;
+        FittedFilter fitted = fit_filter(goal, near_taps, (length - near_taps) / 2, kind, poles);
+        const double now = certified_error(fitted.filter(), goal).largest();
+        if (now <= error && fitted.amplification <= largest_amplification) {
+            return fitted;
+        }
+        without_gain = now < gain * least ? 0 : without_gain + 1;
+        least = std::min(least, now);
+    }
+    return std::nullopt;
 }
 
 }  // namespace glsum::design

@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "glsum/design/derivative.hpp"
@@ -19,7 +20,8 @@ namespace glsum::design {
 /// Which poles a filter may have.
 enum class Poles {
     decaying,       ///< in [0, 1): what every kernel with modes holds
-    one_may_swing,  ///< one may lie in (-0.9, 0): floating point alone. Of v towards 1 it is worth several others
+    one_swings,     ///< one lies in (-0.9, 0): floating point alone. Of v towards 1 it is worth several others
+    one_may_swing,  ///< the better of both
 };
 
 /// A filter for a goal, as what a kernel's design names: D_k = factor S_k with S_k of these weights and modes.
@@ -29,7 +31,11 @@ struct FittedFilter {
     std::vector<Mode> modes;      ///< slowest first; of an integrator the first does not decay
     DerivativeError error;        ///< of the filter in double, at the points of a search
     FilterKind kind = FilterKind::samples;
+    /// What rounding is multiplied by: the magnitudes of all coefficients, in units of the order's own weights'.
+    double amplification = 0.0;
 
+    /// K + 2M: what a design calls taps.
+    [[nodiscard]] std::size_t length() const { return 1 + weights.size() + 2 * modes.size(); }
     /// Of the samples, in units of the derivative.
     [[nodiscard]] Filter filter() const;
 };
@@ -37,7 +43,32 @@ struct FittedFilter {
 /// \param near_taps  K >= 1
 /// \param modes      M; none: a window fitted to the goal; of an integrator M >= 1
 /// A tap that no point of the goal shows is that of the order's own weights. The same arguments give the same filter.
+/// \pre of `one_swings` a mode that may move: M >= 1, of an integrator M >= 2
 [[nodiscard]] FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes,
                                       FilterKind kind, Poles poles = Poles::decaying);
+
+/// The shortest filter, of one near tap or two and modes, whose certified error in double is at most `error`: a
+/// half-order derivative within 5 % from 0.05 to 80 Hz and of a step until a minute, at 1 kHz:
+///
+///     const auto found = design_filter({.order = 0.5, .step_s = 1e-3, .band = Band{0.05, 80}, .step_until_s = 60},
+///                                      0.05);
+///     line.prepare({.order = 0.5, .taps = found->length(), .modes = found->modes, .weights = found->weights});
+///     double derivative = found->factor * line.step(x);
+///
+/// What a kernel holds of it adds the rounding of its table (held.hpp), certified again by `certified_error`, and the
+/// noise of its arithmetic. Empty where none of `longest_filter` coefficients is that near, or where six lengths in a
+/// row gained nothing.
+[[nodiscard]] std::optional<FittedFilter> design_filter(const DerivativeGoal& goal, double error,
+                                                        FilterKind kind = FilterKind::samples,
+                                                        Poles poles = Poles::decaying);
+inline constexpr std::size_t longest_filter = 40;
+
+/// How many of a filter's poles are sought: all modes but an integrator's running sum.
+[[nodiscard]] constexpr std::size_t moving_poles(std::size_t modes, FilterKind kind) {
+    return modes - (kind == FilterKind::integrator ? 1 : 0);
+}
+
+/// The one that errs less, of those that do not amplify too much.
+[[nodiscard]] const FittedFilter& better_of(const FittedFilter& decaying, const FittedFilter& swinging);
 
 }  // namespace glsum::design

@@ -32,6 +32,8 @@ public:
         for (const double hz : frequencies_of(goal)) {
             angles_.push_back(2.0 * std::numbers::pi * hz * goal.step_s);
             exact_.push_back(exact_response(goal.order, hz));
+            differences_.push_back(difference_response(angles_.back()));
+            delayed_.push_back(std::polar(1.0, -angles_.back() * static_cast<double>(near_taps)));
         }
         for (const std::size_t k : samples_) {
             exact_step_.push_back(exact_step(goal.order, static_cast<double>(k) * goal.step_s));
@@ -41,7 +43,7 @@ public:
         own_ = Vector(static_cast<Eigen::Index>(near_taps));
         double weight = std::pow(goal.step_s, -goal.order);
         for (std::size_t j = 0; j < near_taps; ++j) {
-            const auto at = [&](double angle) { return std::polar(1.0, -angle * static_cast<double>(j)); };
+            const auto at = [&](std::size_t i) { return std::polar(1.0, -angles_[i] * static_cast<double>(j)); };
             const auto step = [&](std::size_t k) { return k >= j ? 1.0 : 0.0; };
             taps_.col(static_cast<Eigen::Index>(j)) = column(at, step);
             own_(static_cast<Eigen::Index>(j)) = weight;
@@ -52,44 +54,56 @@ public:
     // Starts with poles whose decays these are, of a negative pole the logit of its part of the largest; the running
     // sum is apart.
     void set(Vector log_decays) {
-        log_decays_ = parted(std::move(log_decays));
-        solve(log_decays_, solution_, residual_);
-        error_ = error_of(residual_);
+        const Eigen::Index modes = log_decays.size() + (integrator() ? 1 : 0);
+        now_.matrix = Matrix(2 * points(), taps_.cols() + modes);
+        now_.matrix.leftCols(taps_.cols()) = taps_;
+        now_.decays = Vector::Constant(modes, std::numeric_limits<double>::quiet_NaN());
+        now_ = solve(parted(std::move(log_decays)));
+        error_ = error_of(now_.residual);
     }
 
     [[nodiscard]] double error() const { return error_; }
-    [[nodiscard]] const Vector& log_decays() const { return log_decays_; }
+    [[nodiscard]] const Vector& log_decays() const { return now_.log_decays; }
 
     // A step of the poles for the present weights, then new weights from the errors that are left.
     void improve(bool move_poles) {
-        if (move_poles && log_decays_.size() > 0) {
+        if (move_poles && now_.log_decays.size() > 0) {
             step_poles();
         }
         Vector factor(points());
         double mean = 0.0;
         for (Eigen::Index i = 0; i < points(); ++i) {
-            factor(i) = size_at(residual_, i);
+            factor(i) = size_at(now_.residual, i);
             mean += weights_(i) * factor(i) / weights_.sum();
         }
         // Never to nothing: a point that is met exactly may come back.
         weights_ = weights_.cwiseProduct((factor / mean).cwiseMax(0.2).cwiseMin(5.0));
         weights_ /= weights_.mean();
-        solve(log_decays_, solution_, residual_);
-        error_ = error_of(residual_);
+        now_ = solve(now_.log_decays);
+        error_ = error_of(now_.residual);
     }
 
     [[nodiscard]] Filter filter() const {
         Filter filter;
         for (std::size_t j = 0; j < near_taps_; ++j) {
-            filter.taps.push_back(solution_(static_cast<Eigen::Index>(j)));
+            filter.taps.push_back(now_.solution(static_cast<Eigen::Index>(j)));
         }
-        for (Eigen::Index m = 0; m < solution_.size() - static_cast<Eigen::Index>(near_taps_); ++m) {
-            filter.modes.push_back({decay_of(log_decays_, m), solution_(static_cast<Eigen::Index>(near_taps_) + m)});
+        for (Eigen::Index m = 0; m < now_.decays.size(); ++m) {
+            filter.modes.push_back({now_.decays(m), now_.solution(static_cast<Eigen::Index>(near_taps_) + m)});
         }
         return filter;
     }
 
 private:
+    // The least squares of some poles. What a pole adds at the points takes most of the time and changes with it alone.
+    struct Solved {
+        Vector log_decays;
+        Vector decays;    // of these, and of the running sum
+        Matrix matrix;    // a column for each tap and mode
+        Vector solution;  // taps and weights of the modes
+        Vector residual;  // before the points' weights
+    };
+
     [[nodiscard]] bool integrator() const { return kind_ == FilterKind::integrator; }
 
     static constexpr double largest_decay = 0.95;  // beyond it a mode is but another tap
@@ -108,16 +122,14 @@ private:
 
     [[nodiscard]] Eigen::Index points() const { return static_cast<Eigen::Index>(angles_.size() + samples_.size()); }
 
-    // What a coefficient adds to the relative errors: by its answers to a sine and to a step of what is summed.
+    // What a coefficient adds to the relative errors: by its answers to the sines and to a step of what is summed.
     template <class AtAngle, class AtSample>
     Vector column(const AtAngle& at_angle, const AtSample& at_sample) const {
         const bool increments = kind_ == FilterKind::increments;
         Vector column = Vector::Zero(2 * points());
         Eigen::Index row = 0;
         for (std::size_t i = 0; i < angles_.size(); ++i, row += 2) {
-            const double half = std::sin(0.5 * angles_[i]);
-            const std::complex<double> difference(2.0 * half * half, std::sin(angles_[i]));
-            const std::complex<double> relative = at_angle(angles_[i]) * (increments ? difference : 1.0) / exact_[i];
+            const std::complex<double> relative = at_angle(i) * (increments ? differences_[i] : 1.0) / exact_[i];
             column(row) = relative.real();
             column(row + 1) = relative.imag();
         }
@@ -148,16 +160,18 @@ private:
         return largest;
     }
 
-    // Taps and weights of the modes for these poles. \param residual  before the points' weights
-    void solve(const Vector& log_decays, Vector& solution, Vector& residual) const {
-        const Eigen::Index modes = log_decays.size() + (integrator() ? 1 : 0);
+    [[nodiscard]] Solved solve(const Vector& log_decays) const {
+        Solved found{log_decays, now_.decays, now_.matrix, {}, {}};
+        Matrix& matrix = found.matrix;
         const auto near = static_cast<Eigen::Index>(near_taps_);
-        Matrix matrix(2 * points(), near + modes);
-        matrix.leftCols(near) = taps_;
-        for (Eigen::Index m = 0; m < modes; ++m) {
+        for (Eigen::Index m = 0; m < found.decays.size(); ++m) {
             const double decay = decay_of(log_decays, m);
-            matrix.col(near + m) = column([&](double angle) { return mode_response(decay, near_taps_, angle); },
-                                          [&](std::size_t k) { return mode_step_response(decay, near_taps_, k); });
+            if (decay != now_.decays(m)) {
+                found.decays(m) = decay;
+                matrix.col(near + m) =
+                    column([&](std::size_t i) { return mode_response(decay, differences_[i], delayed_[i]); },
+                           [&](std::size_t k) { return mode_step_response(decay, near_taps_, k); });
+            }
         }
         const Vector scale = matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
         const Vector root = row_weights();
@@ -171,13 +185,14 @@ private:
         const Vector ones = wanted();
         Vector right = Vector::Zero(weighted.rows());
         right.head(ones.size()) = root.cwiseProduct(ones);
-        solution = qr.solve(right).cwiseQuotient(scale);
-        residual = matrix * solution - ones;
+        found.solution = qr.solve(right).cwiseQuotient(scale);
+        found.residual = matrix * found.solution - ones;
         for (Eigen::Index j = 0; j < near; ++j) {
             if (matrix.col(j).isZero(0.0)) {
-                solution(j) = own_(j);
+                found.solution(j) = own_(j);
             }
         }
+        return found;
     }
 
     [[nodiscard]] Vector wanted() const {
@@ -197,16 +212,13 @@ private:
 
     void step_poles() {
         const Vector root = row_weights();
-        const Vector now = root.cwiseProduct(residual_);
-        Matrix jacobian(now.size(), log_decays_.size());
+        const Vector now = root.cwiseProduct(now_.residual);
+        Matrix jacobian(now.size(), now_.log_decays.size());
         constexpr double difference = 1e-4;
-        Vector solution;
-        Vector residual;
-        for (Eigen::Index m = 0; m < log_decays_.size(); ++m) {
-            Vector moved = log_decays_;
+        for (Eigen::Index m = 0; m < now_.log_decays.size(); ++m) {
+            Vector moved = now_.log_decays;
             moved(m) -= difference;
-            solve(moved, solution, residual);
-            jacobian.col(m) = (now - root.cwiseProduct(residual)) / difference;
+            jacobian.col(m) = (now - root.cwiseProduct(solve(moved).residual)) / difference;
         }
         const Matrix normal = jacobian.transpose() * jacobian;
         const Vector gradient = jacobian.transpose() * now;
@@ -214,12 +226,9 @@ private:
             const Matrix damped = normal + damping_ * Matrix(normal.diagonal().asDiagonal()) +
                                   1e-12 * normal.trace() * Matrix::Identity(normal.rows(), normal.cols());
             const Vector step = damped.ldlt().solve(gradient).cwiseMax(-1.0).cwiseMin(1.0);
-            const Vector moved = parted(log_decays_ - step);
-            solve(moved, solution, residual);
-            if (root.cwiseProduct(residual).squaredNorm() < now.squaredNorm()) {
-                log_decays_ = moved;
-                solution_ = solution;
-                residual_ = residual;
+            Solved moved = solve(parted(now_.log_decays - step));
+            if (root.cwiseProduct(moved.residual).squaredNorm() < now.squaredNorm()) {
+                now_ = std::move(moved);
                 damping_ = std::max(1e-6, damping_ / 4.0);
                 return;
             }
@@ -233,14 +242,14 @@ private:
     double ridge_;
     std::vector<double> angles_;
     std::vector<std::complex<double>> exact_;
+    std::vector<std::complex<double>> differences_;  // 1 - z^-1
+    std::vector<std::complex<double>> delayed_;      // z^-K
     std::vector<std::size_t> samples_;
     std::vector<double> exact_step_;
     Matrix taps_;
     Vector own_;  // the taps of the order's own weights, what is summed taken into account
     Vector weights_;
-    Vector log_decays_;
-    Vector solution_;
-    Vector residual_;
+    Solved now_;
     double error_ = 0.0;
     double damping_ = 1e-2;
 };

@@ -66,7 +66,9 @@ void certify_band(const Filter& filter, const DerivativeGoal& goal, DerivativeEr
         bool operator<(const Interval& other) const { return bound < other.bound; }
     };
     constexpr double margin = 1.005;
-    constexpr std::size_t most_intervals = 2'000'000;
+    // What errs by half of the derivative is of no use to anybody: its bound need not be near. Windows for an integral
+    // have coefficients of both signs there that would take all of them.
+    const auto most_intervals = [&] { return found.band < 0.5 ? std::size_t{2'000'000} : std::size_t{2'000}; };
     const Curvature curvature(filter, goal);
     const double v = goal.order;
     const double to_hz = 1.0 / (2.0 * std::numbers::pi * goal.step_s);
@@ -94,7 +96,7 @@ void certify_band(const Filter& filter, const DerivativeGoal& goal, DerivativeEr
         error_before = error;
     }
     // A band of one frequency has no interval.
-    while (!intervals.empty() && intervals.top().bound > margin * found.band && intervals.size() < most_intervals) {
+    while (!intervals.empty() && intervals.top().bound > margin * found.band && intervals.size() < most_intervals()) {
         const Interval widest = intervals.top();
         intervals.pop();
         const double middle = 0.5 * (widest.low + widest.high);

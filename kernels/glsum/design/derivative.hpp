@@ -63,8 +63,9 @@ struct DerivativeError {
 /// The largest error at those points.
 [[nodiscard]] DerivativeError error_at_points(const Filter& filter, const DerivativeGoal& goal);
 
-/// Not exceeded anywhere, by 0.5 % at most above what is reached: between points of the band the error is bounded by
-/// its second derivative, and intervals are halved until that costs no more; of the step every sample counts.
+/// Not exceeded anywhere, by 0.5 % at most above what is reached, if that is below a half: between points of the band
+/// the error is bounded by its second derivative, and intervals are halved until that costs no more; of the step every
+/// sample counts.
 [[nodiscard]] DerivativeError certified_error(const Filter& filter, const DerivativeGoal& goal);
 
 }  // namespace glsum::design

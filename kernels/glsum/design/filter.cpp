@@ -20,11 +20,13 @@ Filter of_samples(const Filter& of_increments) {
     return filter;
 }
 
-std::complex<double> mode_response(double decay, std::size_t near_taps, double angle) {
+std::complex<double> difference_response(double angle) {
     const double half = std::sin(0.5 * angle);
-    // 1 - (1-d) z^-1 = d + (1-d) (1 - z^-1): slow modes at low angles keep their digits.
-    const std::complex<double> difference(2.0 * half * half, std::sin(angle));
-    return std::polar(1.0, -angle * static_cast<double>(near_taps)) / (decay + (1.0 - decay) * difference);
+    return {2.0 * half * half, std::sin(angle)};
+}
+
+std::complex<double> mode_response(double decay, std::size_t near_taps, double angle) {
+    return mode_response(decay, difference_response(angle), std::polar(1.0, -angle * static_cast<double>(near_taps)));
 }
 
 std::complex<double> frequency_response(const Filter& filter, double angle) {

@@ -31,6 +31,15 @@ enum class FilterKind {
 /// The part of one mode in it, for w = 1: z^-K / (1 - (1-d) z^-1).
 [[nodiscard]] std::complex<double> mode_response(double decay, std::size_t near_taps, double angle);
 
+/// The same where 1 - z^-1 and z^-K are known.
+[[nodiscard]] inline std::complex<double> mode_response(double decay, const std::complex<double>& difference,
+                                                        const std::complex<double>& delayed) {
+    // 1 - (1-d) z^-1 = d + (1-d) (1 - z^-1): slow modes at low angles keep their digits.
+    return delayed / (decay + (1.0 - decay) * difference);
+}
+/// 1 - z^-1
+[[nodiscard]] std::complex<double> difference_response(double angle);
+
 /// D_k for x_0 = x_1 = ... = x_k = 1, from rest.
 [[nodiscard]] double step_response(const Filter& filter, std::size_t k);
 

@@ -25,8 +25,15 @@ namespace glsum {
 
 struct Integrator {
     static constexpr std::string_view word = "modessum";
+    static constexpr std::string_view text = "integrator";
+    using kept = Modes;
     static constexpr Family family = exponentials_family;
     static constexpr bool contiguous = true;
+
+    template <class State, class Says>
+    static void constants(const State& state, Says&& says) {
+        says("weight", state.weight);
+    }
 };
 
 template <>

@@ -39,6 +39,11 @@ struct Block {
 
     /// G: groups of samples that a past of so many needs.
     static constexpr std::size_t groups(std::size_t past) { return (past + phases - 1) / phases; }
+
+    template <class State, class Says>
+    static void constants(const State& state, Says&& says) {
+        says("groups", state.groups);
+    }
 };
 
 /// The same idea on the host's vector unit, eight outputs at a time: lookahead/simd_block.hpp.

@@ -16,8 +16,8 @@ namespace glsum {
 
 template <class Technique, class Format>
 struct Sum<Block, Technique, Format> : SumOf<Block, Technique, Format> {
-    static constexpr bool fused = std::is_same_v<Technique, OldestFma>;
-    static_assert(fused || (std::is_same_v<Technique, Plain> && Format::fixed_point),
+    static constexpr bool fused = Technique::fused;
+    static_assert(std::is_same_v<Technique, OldestFma> || (std::is_same_v<Technique, Plain> && Format::fixed_point),
                   "what waits is oldest first; in fixed point no order shows");
 
     using Sample = typename Format::Sample;

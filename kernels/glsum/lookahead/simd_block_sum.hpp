@@ -28,7 +28,7 @@ struct Sum<HostBlock, Technique, Format> : SumOf<HostBlock, Technique, Format> {
         [[no_unique_address]] typename Format::Scale scale;
     };
 
-    static constexpr bool fused = std::is_same_v<Technique, SimdFma>;
+    static constexpr bool fused = Technique::fused;
 
     static constexpr std::size_t table_count(std::size_t taps) {
         return entering_count +

@@ -46,7 +46,7 @@ protected:
     }
 };
 
-struct FirFma : Fir {
+struct FirFma : Fused<Fir> {
     static constexpr std::string_view word = "firfma";
 
     template <class Format>

@@ -97,7 +97,7 @@ protected:
     }
 };
 
-struct HornerFma : Horner {
+struct HornerFma : Fused<Horner> {
     static constexpr std::string_view word = "hornerfma";
 
     template <class Format>

@@ -104,7 +104,7 @@ protected:
     }
 };
 
-struct HornerSplitFma : HornerSplit {
+struct HornerSplitFma : Fused<HornerSplit> {
     static constexpr std::string_view word = "hornersplitfma";
 
     template <class Format>

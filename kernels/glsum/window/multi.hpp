@@ -104,7 +104,7 @@ protected:
     }
 };
 
-struct MultiFma : Multi {
+struct MultiFma : Fused<Multi> {
     static constexpr std::string_view word = "multifma";
 
     template <class Format>

@@ -52,7 +52,7 @@ protected:
     }
 };
 
-struct OldestFma : Oldest {
+struct OldestFma : Fused<Oldest> {
     static constexpr std::string_view word = "oldestfma";
 
     template <class Format>

@@ -25,6 +25,7 @@ namespace glsum {
 /// \tparam shaped  whether the rounding of the table is
 template <class Sum, bool shaped>
 struct Paired : WeightTable {
+    static constexpr std::string_view text = "paired";
     static constexpr bool contiguous_only = true;
 
     template <class Format>
@@ -97,6 +98,13 @@ struct Paired : WeightTable {
     template <class Format>
     static double fixed_error(const Design& design, const typename Format::Scale& scale, double peak) {
         return (shaped ? 2.0 : 1.0) * WeightTable::fixed_error<Format>(design, scale, peak);
+    }
+
+    template <class Coefficient, class Says>
+    static void constants(const Coefficient*, std::size_t past, Says&& says) {
+        says("aligned", aligned_words(past));
+        says("shifted", shifted_words(past));
+        says("bits", 8 * sizeof(Sum));
     }
 
 private:

@@ -51,7 +51,7 @@ protected:
     }
 };
 
-struct PlainFma : Plain {
+struct PlainFma : Fused<Plain> {
     static constexpr std::string_view word = "plainfma";
 
     template <class Format>

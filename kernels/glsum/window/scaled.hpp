@@ -85,6 +85,18 @@ struct Scaled : WeightTable {
         return units * peak * power_of_two(scale.table_exponent - Format::coefficient_bits - 1);
     }
 
+    template <class Coefficient, class Says>
+    static void constants(const Coefficient* table, std::size_t past, Says&& says) {
+        int before = 0;
+        for (std::size_t octave = 0; octave < octaves(past); ++octave) {
+            const int shift = table[past + octave];
+            says("octave", octave, "up", shift - before);
+            says("octave", octave, "end", end_of(octave, past) - 1);
+            before = shift;
+        }
+        says("coefficients", past);
+    }
+
 private:
     static constexpr std::size_t octaves(std::size_t past) { return static_cast<std::size_t>(std::bit_width(past)); }
     static constexpr std::size_t end_of(std::size_t octave, std::size_t past) {

@@ -98,7 +98,7 @@ protected:
     }
 };
 
-struct SimdFma : Simd {
+struct SimdFma : Fused<Simd> {
     static constexpr std::string_view word = "simdfma";
 
     template <class Format>

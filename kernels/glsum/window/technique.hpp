@@ -4,6 +4,12 @@
 //   summary                           how it sums, in the words of a generated header's comment; with it a header holds
 //                                     its texts "// C99: WORD", "WORD newer", "WORD older" and "WORD closing" as they
 //                                     stand there, and bench/generate need not know it
+//   text                              the name of its text for generated headers (NAME.h.in), where it is not its word
+//   constants(table, past, says)      what a generated header knows of its table: says(name, number), and of the items
+//   of
+//                                     a list says(list, index, name, number)
+//   fused                             whether product and addition are rounded once
+//   unfused_word                      of such a one (Fused): the word of the same order with both rounded
 //   host_only                         whether it needs the host's vector unit
 //   contiguous_only                   whether it needs a history that gives one contiguous piece
 //   horner_form                       whether its coefficients are factors, each of all that is older
@@ -25,6 +31,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "glsum/c99.hpp"
 #include "glsum/kernel.hpp"
@@ -35,6 +42,7 @@ namespace glsum {
 
 /// What most techniques share: the table a_1 ... a_past, in this order, and 64-bit sums in fixed point.
 struct WeightTable {
+    static constexpr bool fused = false;
     static constexpr bool host_only = false;
     static constexpr bool contiguous_only = false;
     static constexpr bool horner_form = false;
@@ -78,6 +86,23 @@ struct WeightTable {
                power_of_two(scale.table_exponent - Format::coefficient_bits - 1);
     }
 };
+
+/// `Unfused` with product and addition rounded once: its order of summation, and so its text.
+template <class Unfused>
+struct Fused : Unfused {
+    static constexpr bool fused = true;
+    static constexpr std::string_view unfused_word = Unfused::word;
+};
+
+/// The word under which a technique's texts stand.
+template <class Technique>
+[[nodiscard]] constexpr std::string_view unfused_word_of() {
+    if constexpr (Technique::fused) {
+        return Technique::unfused_word;
+    } else {
+        return Technique::word;
+    }
+}
 
 /// The step sum + a x of a technique, by product and addition or fused.
 template <class Format, bool fused>

@@ -30,6 +30,8 @@ template <class Kept>
 struct Delta {
     static_assert(std::is_same_v<Kept, Mirror> || std::is_same_v<Kept, Modes>);
     static constexpr std::string_view word = std::is_same_v<Kept, Mirror> ? "mirrordelta" : "modesdelta";
+    static constexpr std::string_view text = "delta";
+    using kept = Kept;
     static constexpr Family family = Kept::family;
     static constexpr Forgotten forgotten = Forgotten::increments;
     static constexpr bool contiguous = Kept::contiguous;

@@ -38,9 +38,17 @@ template <bool to_first_>
 struct Guess {
     static constexpr bool to_first = to_first_;
     static constexpr std::string_view word = to_first ? "mirrorlinear" : "mirrorhold";
+    static constexpr std::string_view text = "tail";
+    using kept = Mirror;
     static constexpr Family family = Mirror::family;
     static constexpr Forgotten forgotten = to_first ? Forgotten::line : Forgotten::held;
     static constexpr bool contiguous = true;
+
+    template <class State, class Says>
+    static void constants(const State& state, Says&& says) {
+        says("in_window", state.in_window);
+        says("minus_order", state.minus_order);
+    }
 };
 using MirrorHold = Guess<false>;
 using MirrorLinear = Guess<true>;

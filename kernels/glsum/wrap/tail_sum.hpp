@@ -24,18 +24,18 @@ struct Sum<Guess<to_first>, Technique, Format> : SumOf<Guess<to_first>, Techniqu
                   "the recurrences are in the format's own precision");
 
     /// H_k, and the sample at the other end of the line.
-    struct Line {
+    struct ToFirst {
         Carried<Coefficient> mean;
         Sample first;
     };
-    struct NoLine {};
+    struct Alone {};
 
     struct State : Inner::State {
         Coefficient minus_order;    // -v
         Coefficient in_window;      // A = a_0 + ... + a_(L-1)
         std::uint32_t count;        // k: samples so far
         Carried<Coefficient> tail;  // T_k
-        [[no_unique_address]] std::conditional_t<to_first, Line, NoLine> line;
+        [[no_unique_address]] std::conditional_t<to_first, ToFirst, Alone> line;
     };
 
     static constexpr std::uint32_t last_count = std::numeric_limits<std::uint32_t>::max();

@@ -112,6 +112,11 @@ TEST(CoreFile, DamageIsNamedWithFileAndLine) {
     EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "effects_off = [\"friction\"]\nnote")
                   .find("no such effect: friction"),
               std::string::npos);
+    EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "mechanisms = [\"oracle\"]\nnote")
+                  .find("stm32f746-itcm.toml:2: mechanisms: no such mechanism: oracle"),
+              std::string::npos);
+    EXPECT_NE(message_after("stm32f746-itcm.toml", "note", "mechanisms = 1\nnote").find("expected mechanisms = ["),
+              std::string::npos);
 }
 
 // A file names its core, and has the rows of that core and no others'.

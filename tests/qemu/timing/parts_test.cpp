@@ -30,6 +30,21 @@ TEST(Cache, AModifiedLineIsWrittenBackWhenItLeaves) {
     EXPECT_FALSE(cache.touch(128, false).writes_back);
 }
 
+// Five lines in turn in a set of four: the oldest is always the next one to be missed, one at random is not.
+TEST(Cache, AtRandomKeepsSomeOfALoopThatDoesNotFit) {
+    const auto hits = [](bool at_random) {
+        timing::Cache cache(128, 4, 32, at_random);
+        int found = 0;
+        for (std::uint32_t turn = 0; turn < 400; ++turn) {
+            found += cache.touch(turn % 5 * 32, false).hit ? 1 : 0;
+        }
+        return found;
+    };
+    EXPECT_EQ(hits(false), 0);
+    EXPECT_GT(hits(true), 100);
+    EXPECT_EQ(hits(true), hits(true));
+}
+
 TEST(Cache, OfNoBytesIsOff) {
     timing::Cache cache(0, 4, 32);
     EXPECT_FALSE(cache.on());
@@ -62,6 +77,22 @@ TEST(Predictor, AForwardBranchIsNotTakenAtFirst) {
     const auto beq = branch(timing::Branch::conditional);
     EXPECT_EQ(predictor.meet(beq, 0x110, 0x112), timing::Prediction::right);
     EXPECT_EQ(predictor.meet(beq, 0x110, 0x120), timing::Prediction::wrong);
+}
+
+// What comes back every third time follows from what was before it, and not from how often it was.
+TEST(Predictor, OfAHistoryForeseesWhatCountersCannot) {
+    const auto wrong = [](bool history) {
+        timing::Predictor predictor(64, 0, history);
+        const auto beq = branch(timing::Branch::conditional);
+        int count = 0;
+        for (int turn = 0; turn < 300; ++turn) {
+            const bool taken = turn % 3 == 0;
+            count += predictor.meet(beq, 0x110, taken ? 0x120 : 0x112) == timing::Prediction::wrong ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GT(wrong(false), 90);
+    EXPECT_LT(wrong(true), 15);
 }
 
 // Of four states two say taken: one that was taken once is turned by one miss, one that never was by two.

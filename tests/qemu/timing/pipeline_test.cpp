@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "listing.hpp"
+#include "probe.hpp"
 #include "qemu/timing/decode.hpp"
 #include "qemu/timing/model.hpp"
 
@@ -46,6 +47,20 @@ TEST(Pipeline, LoadsMeetInABankWhereBothAreCarriedOut) {
     EXPECT_EQ(lost(two, {0, 0, 0x20000000, 0x20000004, 0, 0, 0}, conflict), 0);
     EXPECT_EQ(lost(two, {0, 0, 0, 0x20000008, 0, 0, 0}, conflict), 0);
     EXPECT_EQ(lost(two, {0, 0, 0x20000000, 0, 0, 0, 0}, conflict), 0);
+}
+
+// Additions that do not need each other: the unit takes one after the other, or each in its turn.
+TEST(Pipeline, ASerialUnitOverlapsNothing) {
+    const timing::CoreFile core = timing::read_core(TEST_CORES, "stm32f746-itcm");
+    probe::Setting setting = probe::core("stm32f746-itcm");
+    const std::string apart = "vadd.f32 s0,s1,s2\nvadd.f32 s3,s4,s5\nvadd.f32 s6,s7,s8\nvadd.f32 s9,s10,s11\n";
+    const double overlapping = probe::steady_cycles(apart, setting);
+    setting.figures.mechanisms.serial_fpu = true;
+    const double serial = probe::steady_cycles(apart, setting);
+    EXPECT_DOUBLE_EQ(serial, 4.0 * static_cast<double>(core.sets[0].figures.fp_add_to_operand));
+    EXPECT_LT(overlapping, serial);
+    const std::string integer = "add r0,r1,r2\nadd r3,r4,r5\n";
+    EXPECT_DOUBLE_EQ(probe::steady_cycles(integer, setting), 1.0);
 }
 
 // While the core waits, fetching goes on until the queue is full; how many words then follow at once tells its length.

@@ -1,0 +1,17 @@
+// A fractional PID controller as one C99 header: its two sums as `make_header` writes them, and the statements of
+// glsum/model/pid.h around them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bench/steppers/controller/stepped.hpp"
+
+namespace generate {
+
+/// \param prefix  begins every identifier \param lines  of the opening comment: where it comes from, what was measured
+/// \throws glsum::Failure (bad input) for a prefix that is no identifier, (check failed) as `integral_sum`
+[[nodiscard]] std::string make_controller_header(const ControllerSpec& spec, const std::string& prefix,
+                                                 const std::string& licence, const std::vector<std::string>& lines);
+
+}  // namespace generate

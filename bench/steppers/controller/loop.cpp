@@ -1,0 +1,131 @@
+#include "bench/steppers/controller/loop.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/failure.hpp"
+#include "drive/fast_memory.hpp"
+#include "drive/simulation.hpp"
+#include "drive/whole_record.hpp"
+
+namespace generate {
+namespace {
+
+#define GLSUM_REAL double
+#define GLSUM_PID_KEEP(value) ((void)(value))
+#include "glsum/model/pid.h"
+#undef GLSUM_PID_KEEP
+#undef GLSUM_REAL
+
+// A sum whose newest sample comes last, all of its past in memory.
+class FullSum {
+public:
+    FullSum(double order, std::size_t count) : FullSum(drive::record_weights(order, count)) {}
+    double step(double newest) {
+        const double sum = newest + memory_.past();
+        memory_.push(newest);
+        return sum;
+    }
+
+private:
+    explicit FullSum(const std::vector<double>& weights) : memory_(weights) {}
+    drive::FastMemory memory_;
+};
+
+class FullController {
+public:
+    FullController(const drive::Fopid& controller, std::size_t count)
+        : weight_(controller.setpoint_weight),
+          integral_(1.0 - controller.gains.integral_order, count),
+          derivative_(controller.gains.derivative_order, controller.gains.kd != 0.0 ? count : 1),
+          derives_(controller.gains.kd != 0.0) {
+        const Factors factors = factors_of(controller);
+        pid_ = {controller.gains.kp,
+                controller.gains.ki * factors.integral,
+                controller.gains.kd * factors.derivative,
+                factors.passes,
+                controller.low,
+                controller.high,
+                0.0,
+                0.0,
+                0.0,
+                0.0};
+        glsum_pid_start(&pid_, 0.0, 0.0);
+        (void)glsum_pid_change;
+    }
+    double step(double setpoint, double measured) {
+        const double weighted = glsum_pid_product(weight_, setpoint) - measured;
+        const double integral = integral_.step(setpoint - measured);
+        return glsum_pid_step(&pid_, weighted, integral, derives_ ? derivative_.step(weighted) : 0.0);
+    }
+
+private:
+    glsum_pid pid_{};
+    double weight_;
+    FullSum integral_;
+    FullSum derivative_;
+    bool derives_;
+};
+
+// The plant's output in a loop with whatever puts out u for set point and reading.
+template <class Controller>
+std::vector<double> outputs_of(const drive::Model& plant, double step_s, std::size_t count, Controller&& controller) {
+    const auto delay = static_cast<std::size_t>(std::ceil(plant.delay_s / step_s - 1e-9));
+    const std::vector<double> weights = drive::merged_weights(plant.denominator, step_s, count, true);
+    const double constant = drive::constant_coefficient(plant.denominator);
+    drive::FastMemory memory(weights);
+    std::vector<double> output(count, 0.0);
+    std::vector<double> input(count, 0.0);
+    for (std::size_t k = 0; k < count; ++k) {
+        double increment = 0.0;
+        if (k > 0) {
+            const double forcing =
+                k >= delay + 1 ? plant.gain * plant.numerator[0].coefficient * input[k - delay - 1] : 0.0;
+            increment = (forcing - memory.past() - constant * output[k - 1]) / (weights[0] + constant);
+            output[k] = output[k - 1] + increment;
+        }
+        memory.push(increment);
+        if (!std::isfinite(output[k])) {
+            throw glsum::Failure(glsum::Exit::check_failed, "the loop does not stay finite");
+        }
+        input[k] = controller(2 * k < count ? 1.0 : 0.4, output[k]);
+    }
+    return output;
+}
+
+double largest_difference(const std::vector<double>& one, const std::vector<double>& other, std::size_t stride) {
+    double largest = 0.0;
+    for (std::size_t k = 0; k < one.size(); ++k) {
+        largest = std::max(largest, std::fabs(one[k] - other[stride * k]));
+    }
+    return largest;
+}
+
+}  // namespace
+
+LoopDeviation measure_loop(const ControllerSpec& spec, const drive::Model& plant, std::size_t samples) {
+    if (plant.numerator.size() != 1 || plant.numerator[0].order != 0.0) {
+        throw glsum::Failure(glsum::Exit::bad_input, "--plant: expected a numerator without derivatives");
+    }
+    const double step_s = spec.controller.sample_time_s;
+    const auto full = [&](const drive::Fopid& controller, std::size_t count) {
+        FullController stepped(controller, count);
+        return outputs_of(plant, controller.sample_time_s, count,
+                          [&](double setpoint, double measured) { return stepped.step(setpoint, measured); });
+    };
+    const std::vector<double> exact = full(spec.controller, samples);
+    double peak = 0.0;
+    for (const double value : exact) {
+        peak = std::max(peak, std::fabs(value));
+    }
+    SteppedController own(spec);
+    const std::vector<double> header = outputs_of(plant, step_s, samples, [&](double setpoint, double measured) {
+        return static_cast<double>(own.step(static_cast<float>(setpoint), static_cast<float>(measured)));
+    });
+    drive::Fopid finer = spec.controller;
+    finer.sample_time_s = 0.5 * step_s;
+    return {largest_difference(exact, header, 1) / peak, largest_difference(exact, full(finer, 2 * samples), 2) / peak};
+}
+
+}  // namespace generate
