@@ -8,11 +8,11 @@
 
 namespace generate {
 
-class SteppedModel::Stepper {
+class SteppedModel::Stepping {
 public:
-    explicit Stepper(const ModelSpec& spec)
+    explicit Stepping(const ModelSpec& spec)
         : design(spec.model, spec.writing, spec.memory, spec.step_s, spec.samples) {}
-    virtual ~Stepper() = default;
+    virtual ~Stepping() = default;
     virtual float step(float input) = 0;
     const drive::RealtimeModel design;
 
@@ -21,11 +21,11 @@ public:
 };
 
 template <class K>
-class SteppedModel::Stepper::With : public SteppedModel::Stepper {
+class SteppedModel::Stepping::With : public SteppedModel::Stepping {
     using Stepper = glsum::Stepper<K>;
 
 public:
-    explicit With(const ModelSpec& spec) : Stepper(spec) {
+    explicit With(const ModelSpec& spec) : Stepping(spec) {
         const glsum::ModelDesign& numbers = design.design();
         std::size_t coefficients = 0;
         std::size_t samples = 0;
@@ -52,9 +52,9 @@ private:
 
 SteppedModel::SteppedModel(const ModelSpec& spec) {
     if (spec.compensated) {
-        stepper_ = std::make_unique<Stepper::With<glsum::modes_compensated_f32>>(spec);
+        stepper_ = std::make_unique<Stepping::With<glsum::modes_compensated_f32>>(spec);
     } else {
-        stepper_ = std::make_unique<Stepper::With<glsum::modes_plain_f32>>(spec);
+        stepper_ = std::make_unique<Stepping::With<glsum::modes_plain_f32>>(spec);
     }
 }
 

@@ -33,8 +33,8 @@ public:
     [[nodiscard]] const drive::RealtimeModel& design() const;
 
 private:
-    class Stepper;
-    std::unique_ptr<Stepper> stepper_;
+    class Stepping;
+    std::unique_ptr<Stepping> stepper_;
 };
 
 }  // namespace generate
