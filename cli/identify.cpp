@@ -129,10 +129,7 @@ void run(const Options& given) {
     }
     warn_if_unstable(fit.model, "the fitted model");
     if (!options.plot.empty()) {
-        const std::vector<drive::Curve> curves{{"measured", record.time_s, record.output, true},
-                                               {"start", record.time_s, drive::respond_to(start, record)},
-                                               {"fitted", record.time_s, fitted}};
-        base::draw(drive::picture_of_curves(curves, "fitted: " + drive::short_text(fit.model), "output"), options.plot);
+        base::draw(drive::picture_of_fit(record, drive::respond_to(start, record), fitted, fit.model), options.plot);
     }
 }
 

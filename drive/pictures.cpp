@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive/indices.hpp"
+
 namespace drive {
 namespace {
 
@@ -43,6 +45,27 @@ Key key_of(const std::vector<Curve>& curves) {
     return {columns, (curves.size() + columns - 1) / columns};
 }
 
+// How far the roots keep from the unstable sector, or how many lie in it.
+std::string roots_message(const StabilityVerdict& judged) {
+    if (judged.roots.empty()) {
+        return "Stable: there is no root";
+    }
+    const double share = judged.smallest_angle_rad / judged.limit_rad;
+    switch (judged.verdict) {
+        case Stability::stable:
+            return fmt::format(
+                "Stable: no root (of {}) comes nearer than {:.3g} times the angle of the unstable sector",
+                judged.roots.size(), share);
+        case Stability::borderline:
+            return fmt::format("Borderline: the nearest root (of {}) lies on the edge of the unstable sector",
+                               judged.roots.size());
+        case Stability::unstable:
+            break;
+    }
+    return fmt::format("Unstable: roots in the unstable sector, {} of {}, the farthest in at {:.3g} of its angle",
+                       judged.unstable_by_roots, judged.roots.size(), share);
+}
+
 }  // namespace
 
 base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::string& title, const std::string& unit,
@@ -74,6 +97,20 @@ base::Picture picture_of_curves(const std::vector<Curve>& curves, const std::str
     return {script, 900, 460 + 20 * key.rows};
 }
 
+base::Picture picture_of_fit(const Record& record, const std::vector<double>& start, const std::vector<double>& fitted,
+                             const Model& model) {
+    const Indices before = compute_indices(record.time_s, record.output, start);
+    const Indices after = compute_indices(record.time_s, record.output, fitted);
+    const double unexplained = (1.0 - after.nrmse_fit) * (1.0 - after.nrmse_fit);
+    const std::string message =
+        fmt::format("The fit explains {:.5g} % of the variance: a residual of {:.3g} rms, the start's is {:.3g}",
+                    100.0 * (1.0 - unexplained), after.rmse, before.rmse);
+    return picture_of_curves({{"measured", record.time_s, record.output, true},
+                              {"start", record.time_s, start},
+                              {"fitted", record.time_s, fitted}},
+                             message + "\\n" + short_text(model), "output");
+}
+
 std::string short_text(Model model) {
     const auto round = [](double value) { return std::stod(fmt::format("{:.4g}", value)); };
     model.gain = round(model.gain);
@@ -86,7 +123,7 @@ std::string short_text(Model model) {
     return to_text(model);
 }
 
-base::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& title) {
+base::Picture picture_of_roots(const StabilityVerdict& judged, const std::string& model) {
     std::string roots = "$roots << EOD\n";
     double largest = 0.0;
     double nearest = 1.0;
@@ -119,10 +156,10 @@ base::Picture picture_of_roots(const StabilityVerdict& judged, const std::string
     const double height = std::max(3.0 * close * std::sin(std::min(judged.limit_rad, 1.0)),
                                    1.6 * nearest * std::sin(std::min(nearest_angle, 1.5)));
     const bool whole_plane = judged.limit_rad > 0.5;  // nothing more to see at close range
-    const std::string all = fmt::format("all {} roots, q = {}", judged.roots.size(), judged.base_order);
+    const std::string all = fmt::format("roots of P(s^q), q = {}", judged.base_order);
     std::string script = roots + "EOD\n" +
-                         fmt::format("set multiplot layout 1,{} title \"{}: {}\" noenhanced\n", whole_plane ? 1 : 2,
-                                     title, name_of(judged.verdict)) +
+                         fmt::format("set multiplot layout 1,{} title \"{}\\n{}\" noenhanced\n", whole_plane ? 1 : 2,
+                                     roots_message(judged), model) +
                          axes + panel(-reach, reach, reach, all + (whole_plane ? "; shaded: |arg| < q pi/2" : ""));
     if (!whole_plane) {
         script += panel(-0.05 * close, close, height, "near the positive axis; shaded: |arg| < q pi/2");

@@ -79,21 +79,22 @@ base::Picture picture_of(const Tuned& tuned, const std::string& name) {
             units, y1);
     };
     script += fmt::format(
-        "set multiplot layout 2,3 title \"{}: {}\" noenhanced\nset grid lc rgb \"#dddddd\"\nset border 3\nset tics "
-        "nomirror\nset logscale x\nset format x \"10^{{%L}}\"\nset xrange [{:.6e}:{:.6e}]\nset xlabel \"rad/s\" offset "
-        "0,0.5\nset key bottom left\n",
-        base::gnuplot_text(name), wish_text(tuned), low, high);
+        "set multiplot layout 2,3 title \"{}\\n{}: {}\" noenhanced\nset grid lc rgb \"#dddddd\"\nset border 3\nset "
+        "tics nomirror\nset logscale x\nset format x \"10^{{%L}}\"\nset xrange [{:.6e}:{:.6e}]\nset xlabel \"rad/s\" "
+        "offset 0,0.5\nset key bottom left\n",
+        conclusion(tuned), base::gnuplot_text(name), wish_text(tuned), low, high);
     script += "set title \"open loop: gain\"\nset logscale y\nset yrange [0.01:100]\n" +
               line(low, 1, high, 1, "first") + plot("f", 2);
-    script += "set title \"open loop: phase, degrees\"\nunset logscale y\nset yrange [-360:0]\nset ytics 60\n" +
-              line(low, -180, high, -180, "first") + plot("f", 3);
-    script += fmt::format("set title \"|S|\"\nset key top left\nset ytics autofreq\nset yrange [0:{:.4g}]\n{}{}",
-                          1.3 * tuned.wish.sensitivity,
-                          line(low, tuned.wish.sensitivity, high, tuned.wish.sensitivity, "first"), plot("f", 4));
+    script +=
+        "unset key\nset title \"open loop: phase, degrees\"\nunset logscale y\nset yrange [-360:0]\nset ytics 60\n" +
+        line(low, -180, high, -180, "first") + plot("f", 3);
+    script +=
+        fmt::format("set title \"|S|\"\nset ytics autofreq\nset yrange [0:{:.4g}]\n{}{}", 1.3 * tuned.wish.sensitivity,
+                    line(low, tuned.wish.sensitivity, high, tuned.wish.sensitivity, "first"), plot("f", 4));
     script +=
         "unset arrow 1\nunset logscale x\nset format x \"%g\"\nset xrange [0:*]\nset yrange [*:*]\nset xlabel \"t "
-        "[s]\" offset 0,0.5\nset key bottom right\nset title \"output: set point, then load\"\n" +
-        plot("t", 2) + "set key top right\nset title \"input\"\n" + plot("t", 3) +
+        "[s]\" offset 0,0.5\nset title \"output: set point, then load\"\n" +
+        plot("t", 2) + "set title \"input\"\n" + plot("t", 3) +
         fmt::format("set title \"output: the load\"\nset xrange [{:.6g}:{:.6g}]\n", tuned.trial.until_s,
                     1.6 * tuned.trial.until_s) +
         plot("t", 2) + "unset multiplot\n";

@@ -226,16 +226,52 @@ TEST(Pictures, CurvesHoldTheirPoints) {
     EXPECT_GT(count_of(thinned, "\n"), 2500U);
 }
 
+TEST(Pictures, TheTitleOfRootsSaysHowFarTheyKeep) {
+    drive::StabilityVerdict judged;
+    judged.base_order = 0.01;
+    judged.limit_rad = 0.0157;
+    judged.verdict = drive::Stability::stable;
+    EXPECT_THAT(drive::picture_of_roots(judged, "m").script, HasSubstr("title \"Stable: there is no root\\nm\""));
+    judged.roots = {{0.5, 0.005}, {0.5, -0.005}, {-2.0, 0.0}};
+    judged.smallest_angle_rad = judged.limit_rad;
+    judged.verdict = drive::Stability::borderline;
+    EXPECT_THAT(drive::picture_of_roots(judged, "m").script,
+                HasSubstr("\"Borderline: the nearest root (of 3) lies on the edge of the unstable sector\\nm\""));
+    judged.smallest_angle_rad = 0.5 * judged.limit_rad;
+    judged.unstable_by_roots = 2;
+    judged.verdict = drive::Stability::unstable;
+    EXPECT_THAT(drive::picture_of_roots(judged, "m").script,
+                HasSubstr("\"Unstable: roots in the unstable sector, 2 of 3, the farthest in at 0.5 of its angle"));
+}
+
+TEST(Pictures, TheTitleOfAFitSaysWhatItReached) {
+    drive::Record record;
+    record.time_s = {0.0, 1.0, 2.0, 3.0};
+    record.output = {0.0, 0.0, 1.0, 1.0};
+    // Of sum (y - 0.5)^2 = 1 the fit leaves 4 * 0.01, the start 4 * 0.04.
+    const auto script =
+        drive::picture_of_fit(record, {0.2, 0.2, 0.8, 0.8}, {0.1, 0.1, 0.9, 0.9}, drive::make_fopdt(1.0, 2.0, 0.0))
+            .script;
+    EXPECT_THAT(script, HasSubstr("set title \"The fit explains 96 % of the variance: a residual of 0.1 rms, the "
+                                  "start's is 0.2\\n1 / (2 s + 1)\" noenhanced"));
+    EXPECT_THAT(script, HasSubstr("title \"measured\""));
+    EXPECT_THAT(script, HasSubstr("\n1 0.1\n2 0.9\n"));
+}
+
 TEST(Pictures, RootsLieBesideTheSectorOfTheLimit) {
     for (const double limit : {0.0157, 1.5708}) {
         drive::StabilityVerdict judged;
         judged.base_order = limit / 1.5708;
         judged.limit_rad = limit;
         judged.roots = {{0.5, 0.125}, {0.5, -0.125}, {-2.0, 0.0}};
+        judged.verdict = drive::Stability::stable;
+        judged.smallest_angle_rad = 1.25 * limit;
         const auto script = drive::picture_of_roots(judged, "a model").script;
         EXPECT_THAT(script, HasSubstr("$roots << EOD\n0.5 0.125\n0.5 -0.125\n-2 0\nEOD\n"));
-        EXPECT_THAT(script, HasSubstr("all 3 roots"));
-        EXPECT_THAT(script, HasSubstr("a model: "));
+        EXPECT_THAT(script, HasSubstr("roots of P(s^q), q = "));
+        EXPECT_THAT(script,
+                    HasSubstr("title \"Stable: no root (of 3) comes nearer than 1.25 times the angle of the unstable "
+                              "sector\\na model\""));
         // Every corner of the shaded sector lies on its edges or at the picture's side, above as below.
         static const std::regex polygon(
             "xrange \\[([^:]*):([^\\]]*)\\]\nset yrange \\[([^:]*):([^\\]]*)\\]\nset object 1 polygon "

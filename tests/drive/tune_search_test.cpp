@@ -160,6 +160,9 @@ TEST(Tune, DrawsAndWritesWhatWasFound) {
     request.high = 1.1;
     const Tuned tuned = tune::tune(plants::fopdt(), request, "plant");
     const std::string script = picture_of(tuned, "plant").script;
+    EXPECT_NE(script.find("title \"" + conclusion(tuned) + "\\nplant: "), std::string::npos) << "the message is on top";
+    EXPECT_LT(script.find("set key bottom left"), script.find("unset key")) << "one key serves all panels";
+    EXPECT_EQ(script.find("set key", script.find("unset key")), std::string::npos);
     for (const char* word : {"$ffractional", "$finteger", "$tfractional", "open loop: phase", "|S|"}) {
         EXPECT_NE(script.find(word), std::string::npos) << word;
     }
