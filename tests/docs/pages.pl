@@ -105,6 +105,11 @@ for my $file (@files) {
     }
 }
 
+for my $file (@files) {
+    my $first = $pages{$file}{lines}[0] // '';
+    fail($file, 1, 'the title, # and words', $first) if $first !~ /^# \S/;
+}
+
 # A language of more words than this nobody learns.
 for my $file (grep { $_ eq 'docs/glossary.md' } @files) {
     my $words = grep { /^\| (?!word \|)\w/ } @{$pages{$file}{lines}};

@@ -26,8 +26,7 @@ def _page(core, meanings):
         f"The model is the {core['core'].replace('_', '-')}'s. Code lies in {core['code']}, data in {core['data']}.\n",
         "Of its figures " + ", ".join(f"{count} are {mark}" for mark, count in marks.items() if count) + ".\n",
         text.code(f"./glsum time --elf app.elf --function step --core {core['name']}\n"
-                  f"./glsum bench --quick --targets m7:{core['name']}" if core["core"].endswith("m7") else
-                  f"./glsum time --elf app.elf --function step --core {core['name']}"),
+                  f"./glsum bench --quick --targets {core['core'].removeprefix('cortex-')}:{core['name']}"),
     ]
     if core["rivals"]:
         parts.append("## Rival rules\n\nA figure is printed with the range over the rules that fit silicon as well.\n")
