@@ -26,9 +26,14 @@ Band band_of(const CoreFile& core, std::span<const std::int64_t> figures, std::i
     const double share = nominal > 0.0 ? in_doubt / nominal : 0.0;
     const double margin = std::min(published + share, std::max(fitted, published));
     const double middle = (low + high) / 2.0;
-    const double half = std::min((high - low) / 2.0 + margin * middle, std::max(fitted, margin) * nominal);
+    const double widest = std::max(fitted, margin) * nominal;
+    const double half = std::min((high - low) / 2.0 + margin * middle, widest);
     const double centre = std::clamp(middle, nominal - half, nominal + half);
-    return {static_cast<std::int64_t>(std::floor(centre - half)), static_cast<std::int64_t>(std::ceil(centre + half))};
+    // Outward to whole units, but not past the widest, which is a limit of the band as it is printed. Of a figure so
+    // short that no unit has room within it, one unit is.
+    low = std::max(std::floor(centre - half), std::min(std::ceil(centre - widest), nominal - 1.0));
+    high = std::min(std::ceil(centre + half), std::max(std::floor(centre + widest), nominal + 1.0));
+    return {static_cast<std::int64_t>(low), static_cast<std::int64_t>(high)};
 }
 
 }  // namespace timing
