@@ -107,6 +107,7 @@ struct Effect {
     bool linear = false;  ///< linear, and the same at all times: a base of another form takes it up
     bool hides_base =
         false;  ///< readings under it mislead a base that is fitted without it: both begin at the form's values
+    bool leads_base = false;    ///< a fitted base has to follow it before its numbers can be told
     bool only_spreads = false;  ///< moves no reading: found by likelihood, not by the sum of squares
     bool rounds = false;        ///< a reading stands for a range of values, within which nothing is missed
     std::vector<Written> (*to_contract)(const Effect& effect, std::span<const Fitted> fitted) = numbers_to_contract;

@@ -327,6 +327,14 @@ const std::vector<FreeParameter>* lasting_of(const Candidate& candidate, const E
     return nullptr;
 }
 
+void hold_effects(Candidate& candidate) {
+    for (auto& numbers : candidate.lasting) {
+        for (FreeParameter& number : numbers) {
+            number.fixed = true;
+        }
+    }
+}
+
 // A candidate's effects at the values at which they are not there, but for those that the start has, on the start's
 // base.
 Candidate without_new_effects(const Study& study, const Candidate& of, const Candidate& start) {
@@ -399,6 +407,18 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             afresh.base = base_of(study);
             descend(study, afresh, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
             attempts.push_back(std::move(afresh));
+        }
+        // What only shifts the operating point as long as no input lies within it cannot leave none by itself: the base
+        // follows first, while it stays where it starts.
+        if (study.base.refit && std::any_of(effects.begin(), effects.end(), [&](const Effect* effect) {
+                return effect->leads_base && !start.has(effect->name);
+            })) {
+            Candidate led = attempt;
+            hold_effects(led);
+            descend(study, led, false, whitener, effort.first_iterations);
+            led.lasting = attempt.lasting;
+            descend(study, led, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
+            attempts.push_back(std::move(led));
         }
         // What bends a swing changes its period: alone, before the base may follow, it would only be driven back to
         // none.

@@ -476,29 +476,4 @@ TEST_F(ToldStart, OfCoggingIsItsWaveAlongTheWay) {
     }
 }
 
-// Between the sample before a jump and its first; the largest first; none that takes less than a twentieth of what is
-// left.
-TEST(EventGuess, OfMissedCountsAreTheStepsOfTheResiduals) {
-    const gap::Record record = flat(100, 0.1);
-    const gap::Course course(record, 1);
-    Values residuals(record.size(), 0.0);
-    for (std::size_t i = 0; i < residuals.size(); ++i) {
-        residuals[i] = (i >= 40 ? 1.0 : 0.0) - (i >= 80 ? 0.25 : 0.0);
-    }
-    const Values found = gap::effect_named("missed_counts").guess({course, {}, residuals, scales()});
-    ASSERT_EQ(found.size(), 6U);
-    EXPECT_NEAR(found[0], 3.95, 1e-9);
-    EXPECT_NEAR(found[1], (40 * 1.0 + 20 * 0.75) / 60.0, 1e-9);  // the mean behind it
-    EXPECT_NEAR(found[2], 7.95, 1e-9);
-    EXPECT_NEAR(found[3], 0.75 - found[1], 1e-9);
-    const Values nothing = gap::effect_named("missed_counts").guess({course, {}, Values(100, 0.0), scales()});
-    EXPECT_EQ(nothing, Values(6, 0.0));
-    // A step that is seen by ten samples of white noise of its size is none.
-    Values noise(record.size());
-    for (std::size_t i = 0; i < noise.size(); ++i) {
-        noise[i] = i % 2 == 0 ? 1.0 : -1.0;
-    }
-    EXPECT_EQ(gap::effect_named("missed_counts").guess({course, {}, noise, scales()}), Values(6, 0.0));
-}
-
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gap/drive/effect.hpp"
+#include "gap/drive/level_scan.hpp"
 
 namespace gap {
 
@@ -32,6 +33,13 @@ void add(Scenario& scenario, std::span<const double> values) {
     });
 }
 
+std::vector<double> start(const Clue& clue) {
+    const double width = scan_levels(clue, [](Scenario& scenario, double level) {
+                             add(scenario, std::vector{level, level});
+                         }).level;
+    return {width, clue.scales.two_signs ? width : the_same};
+}
+
 std::vector<Written> to_contract(const Effect& effect, std::span<const Fitted> fitted) {
     std::vector<Written> written = numbers_to_contract(effect, fitted);
     if (fitted[1].value < 0.0) {
@@ -50,7 +58,9 @@ const Effect& input_dead_zone() {
         .add_to = add,
         .place = Place::actuator,
         .numbers = {{"width"}, {"width_down", Number::Given::otherwise, the_same}},
+        .leads_base = true,
         .to_contract = to_contract,
+        .start = start,
     };
     return effect;
 }

@@ -1,6 +1,7 @@
 // The reading jumps by a size at a time and stays off; up to three times in a record.
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/failure.hpp"
 #include "gap/drive/effect.hpp"
@@ -36,33 +37,62 @@ void add(Scenario& scenario, std::span<const double> values) {
     });
 }
 
-// Greedily: the place at which a step, laid over the residuals, takes most of their squares, until a further one takes
-// less than a twentieth of what is left.
+// What differs from sample to sample, as the deviation of one: the median's, which jumps leave alone.
+double noise_of(std::span<const double> residuals) {
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < residuals.size(); ++i) {
+        steps.push_back(std::fabs(residuals[i] - residuals[i - 1]));
+    }
+    if (steps.empty()) {
+        return 0.0;
+    }
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+    return 1.4826 / std::sqrt(2.0) * steps[steps.size() / 2];
+}
+
+// A count is missed at once, so that a jump shows between neighbours: half of its size at least, by the means of as
+// many samples before and behind as noise asks for. What only grows to that size is no missed count. Where noise asks
+// for more samples than `most_neighbours`, nothing is seen, and nothing is refused.
+bool is_seen(std::span<const double> residuals, std::size_t at, double size, double noise) {
+    constexpr double most_neighbours = 40.0;
+    const double wanted = std::ceil(128.0 * noise * noise / (size * size));  // a deviation of size / 8
+    if (wanted > most_neighbours) {
+        return true;
+    }
+    const std::size_t count = std::min({static_cast<std::size_t>(std::max(1.0, wanted)), at, residuals.size() - at});
+    const auto mean_from = [&](std::size_t first) {
+        const std::span<const double> those = residuals.subspan(first, count);
+        return std::accumulate(those.begin(), those.end(), 0.0) / static_cast<double>(count);
+    };
+    return (mean_from(at) - mean_from(at - count)) / size >= 0.5;
+}
+
+// Greedily: the place at which a step, laid over the residuals, takes most of their squares, of those where a jump is
+// seen, until a further one takes less than a twentieth of what is left.
 std::vector<double> guess(const Clue& clue) {
     std::vector<double> left(clue.residuals.begin(), clue.residuals.end());
     std::vector<double> found;
     const Record& record = clue.course.record();
+    const double noise = noise_of(left);
     for (std::size_t jump = 0; jump < most_jumps; ++jump) {
         double squares = 0.0;
         double behind = 0.0;
         double most = 0.0;
+        double size = 0.0;
         std::size_t at = 0;
         for (std::size_t i = left.size(); i-- > 1;) {
             behind += left[i];
             squares += left[i] * left[i];
-            const double taken = behind * behind / static_cast<double>(left.size() - i);
-            if (taken > most) {
-                most = taken;
+            const double mean = behind / static_cast<double>(left.size() - i);
+            if (behind * mean > most && is_seen(left, i, mean, noise)) {
+                most = behind * mean;
+                size = mean;
                 at = i;
             }
         }
         if (!(most > 0.05 * squares)) {
             found.insert(found.end(), {0.0, 0.0});
             continue;
-        }
-        double size = 0.0;
-        for (std::size_t i = at; i < left.size(); ++i) {
-            size += left[i] / static_cast<double>(left.size() - at);
         }
         for (std::size_t i = at; i < left.size(); ++i) {
             left[i] -= size;

@@ -3,8 +3,10 @@
 // the misfit of a ramp or a chirp falls towards the threshold, and does not jump from one logged level to the next.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "gap/drive/effect.hpp"
+#include "gap/drive/level_scan.hpp"
 
 namespace gap {
 
@@ -39,6 +41,24 @@ void add(Scenario& scenario, std::span<const double> values) {
         });
 }
 
+// Levels lie on either side of a threshold, and nothing between two of them tells where: a start on the wrong side
+// stays there.
+std::vector<double> start(const Clue& clue) {
+    const double width = 0.004 * clue.scales.input_max;
+    LevelPlace best{0.0, std::numeric_limits<double>::infinity()};
+    double stops_below = 0.0;
+    for (const double stops : {0.0, 1.0}) {
+        const LevelPlace found = scan_levels(clue, [&](Scenario& scenario, double level) {
+            add(scenario, std::vector{level, stops, width});
+        });
+        if (found.squares < best.squares) {
+            best = found;
+            stops_below = stops;
+        }
+    }
+    return {best.level, stops_below, width};
+}
+
 }  // namespace
 
 const Effect& start_up_threshold() {
@@ -51,6 +71,8 @@ const Effect& start_up_threshold() {
         .numbers = {{"threshold"},
                     {"stops_below", Number::Given::otherwise, 0.0},
                     {"width", Number::Given::otherwise, 0.0}},
+        .leads_base = true,
+        .start = start,
     };
     return effect;
 }

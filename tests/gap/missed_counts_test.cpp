@@ -1,0 +1,74 @@
+// Where missed counts are looked for: at jumps of the reading itself.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include "gap/drive/effect.hpp"
+#include "gap/drive/simulate.hpp"
+#include "tests/gap/made_records.hpp"
+
+namespace {
+
+using Values = std::vector<double>;
+
+Values guess_of(std::size_t count, const std::function<double(std::size_t)>& residual) {
+    const gap::Record record = gap_test::record_of(count, [](double) { return 0.0; });
+    const gap::Course course(record, 1);
+    Values residuals(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        residuals[i] = residual(i);
+    }
+    return gap::effect_named("missed_counts").guess({course, {}, residuals, {}});
+}
+
+constexpr double before(double sample) { return (sample - 0.5) * gap_test::h; }
+
+// Between the sample before a jump and its first; the largest first; none that takes less than a twentieth of what is
+// left.
+TEST(MissedCounts, AreTheStepsOfTheResiduals) {
+    const Values found = guess_of(100, [](std::size_t i) { return (i >= 40 ? 1.0 : 0.0) - (i >= 80 ? 0.25 : 0.0); });
+    ASSERT_EQ(found.size(), 6U);
+    EXPECT_NEAR(found[0], before(40), 1e-9);
+    EXPECT_NEAR(found[1], (40 * 1.0 + 20 * 0.75) / 60.0, 1e-9);  // the mean behind it
+    EXPECT_NEAR(found[2], before(80), 1e-9);
+    EXPECT_NEAR(found[3], 0.75 - found[1], 1e-9);
+    EXPECT_EQ(guess_of(100, [](std::size_t) { return 0.0; }), Values(6, 0.0));
+    // A step that is seen by ten samples of white noise of its size is none.
+    EXPECT_EQ(guess_of(100, [](std::size_t i) { return i % 2 == 0 ? 1.0 : -1.0; }), Values(6, 0.0));
+}
+
+// What takes four samples to grow to a size has no half of it between two.
+TEST(MissedCounts, AreNoneWhereTheReadingOnlyGrows) {
+    const auto grown = [](double samples) {
+        return [samples](std::size_t i) { return 0.5 + 0.5 * std::tanh((static_cast<double>(i) - 199.5) / samples); };
+    };
+    EXPECT_EQ(guess_of(400, grown(4.0)), Values(6, 0.0));
+    EXPECT_EQ(guess_of(400, grown(40.0)), Values(6, 0.0));
+    EXPECT_NEAR(guess_of(400, grown(0.3)).at(0), before(200), 1e-9);
+}
+
+// With noise of a third of the size the means of 14 samples tell; of three times the size no few samples do, and
+// nothing is refused.
+TEST(MissedCounts, AreSeenThroughNoiseByAsManySamplesAsItAsksFor) {
+    std::mt19937 random(7);
+    std::normal_distribution<double> noise(0.0, 1.0);
+    Values drawn(400);
+    for (double& one : drawn) {
+        one = noise(random);
+    }
+    const auto jump = [&](double deviation) {
+        return guess_of(400, [&](std::size_t i) { return (i >= 200 ? 1.0 : 0.0) + deviation * drawn[i]; });
+    };
+    EXPECT_NEAR(jump(0.33).at(0), before(200), 2.0 * gap_test::h);
+    EXPECT_NEAR(jump(0.33).at(1), 1.0, 0.1);
+    EXPECT_NE(jump(3.0).at(1), 0.0);
+    const Values grown = guess_of(400, [&](std::size_t i) {
+        return 0.5 + 0.5 * std::tanh((static_cast<double>(i) - 199.5) / 60.0) + 0.2 * drawn[i];
+    });
+    EXPECT_EQ(grown, Values(6, 0.0));
+}
+
+}  // namespace
