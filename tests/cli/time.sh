@@ -194,11 +194,16 @@ grep -q ' in spin$' "$folder/said" || fail "bad.elf: expected to be told that it
 sed 's/(void \*)fault/0/g; s/, (void \*)tick//' "$foreign/start.c" >"$folder/bare.c"
 link_foreign bare.elf -DBAD='poke((int *)0xF0000000)' "$folder/bare.c" "$folder/bad.c"
 at=$(arm-none-eabi-objdump -d --disassemble=poke "$folder/bare.elf" | sed -n 's/^ *\([0-9a-f]*\):.*ldr.*\[r0.*/\1/p')
-place="; it faulted at 0x$(printf %08x "0x$at") in poke"
-[ "$(emulator)" -lt 8 ] || place="Lockup: "
-expect 1 "$place" time --elf "$folder/bare.elf" --function leaf
-grep -q "Lockup: " "$folder/said" || fail "bare.elf: expected to be told of the lockup: $(cat "$folder/said")"
-[ "$(wc -l <"$folder/said")" = 1 ] || fail "bare.elf: expected one sentence"
+locks_up() {  # PROGRAM PLACE
+    expect 1 "Lockup: " time --elf "$folder/$1" --function leaf
+    grep -q "$2" "$folder/said" || fail "$1: expected $2, found: $(cat "$folder/said")"
+    [ "$(wc -l <"$folder/said")" = 1 ] || fail "$1: expected one sentence"
+}
+locks_up bare.elf "; it faulted at 0x$(printf %08x "0x$at") in poke; the last instruction that it executed was at 0x00000000$"
+# The handler faults in its turn.
+sed 's/void fault(void) {/& (void)*(volatile int *)0xF0000000;/' "$foreign/start.c" >"$folder/twice.c"
+link_foreign twice.elf -DBAD='poke((int *)0xF0000000)' "$folder/twice.c" "$folder/bad.c"
+locks_up twice.elf "; it faulted at 0x[0-9a-f]* in poke; the last instruction that it executed was at 0x[0-9a-f]* in fault$"
 
 # Programs for other cores. The M0's code runs on an M7.
 other() {  # STATUS TEXT FLAG...
