@@ -51,8 +51,8 @@ struct Timing {
     Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path),
-          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.fault_handlers,
-                request.stretches) {}
+          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.handlers,
+                request.fault_handlers, request.stretches) {}
 };
 
 struct Options {

@@ -205,6 +205,9 @@ void write_timing_request(std::ostream& out, const TimingRequest& request) {
     for (const AddressRange& range : request.double_routines) {
         out << "double " << range.begin << ' ' << range.end << '\n';
     }
+    for (const std::uint32_t handler : request.handlers) {
+        out << "handler " << handler << '\n';
+    }
     for (const std::uint32_t handler : request.fault_handlers) {
         out << "faults " << handler << '\n';
     }
@@ -239,10 +242,13 @@ TimingRequest read_timing_request(std::istream& in) {
             AddressRange range;
             words >> range.begin >> range.end;
             request.double_routines.push_back(range);
-        } else if (kind == "faults" || kind == "stretch") {
+        } else if (kind == "handler" || kind == "faults" || kind == "stretch") {
             std::uint32_t address = 0;
             words >> address;
-            (kind == "faults" ? request.fault_handlers : request.stretches).insert(address);
+            (kind == "handler"  ? request.handlers
+             : kind == "faults" ? request.fault_handlers
+                                : request.stretches)
+                .insert(address);
         } else if (kind == "core") {
             TimingRequest::Core core;
             words >> core.name >> core.code >> core.data >> core.instruction_cache >> core.set;

@@ -330,6 +330,13 @@ C
 build interrupt.elf "$folder/interrupt.c"
 expect 0 "handled on " time --elf "$folder/interrupt.elf" --function handled --json "$folder/handled.json"
 has "$folder/handled.json" '"median": 2,'
+# The handler itself: no address says where it returns to. A call each, and no instruction of what it interrupts.
+expect 0 "tick on " time --elf "$folder/interrupt.elf" --function tick --function handled --json "$folder/tick.json"
+own=$(arm-none-eabi-objdump -d --disassemble=tick "$folder/interrupt.elf" | grep '^ *[0-9a-f]*:' | grep -vc '\.word')
+tr -d ' \n' <"$folder/tick.json" >"$folder/flat"
+has "$folder/flat" "\"instructions\":{\"min\":$((own + 2)),\"median\":$((own + 2)),\"max\":$((own + 2))}"
+grep -o '"calls":[0-9]*' "$folder/flat" | sort -u | grep -c . | grep -qx 1 || fail "tick: expected as many calls as of what it calls"
+grep -q '"calls":[0-4],' "$folder/flat" && fail "tick: expected at least five calls"
 expect 0 "wait_for on " time --elf "$folder/interrupt.elf" --function wait_for --json "$folder/wait.json"
 has "$folder/wait.json" '"calls": 1,'
 
