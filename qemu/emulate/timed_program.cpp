@@ -10,6 +10,7 @@
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
 #include "qemu/emulate/software_double.hpp"
+#include "qemu/emulate/unwinding.hpp"
 
 namespace qemu {
 namespace {
@@ -90,6 +91,7 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
         timing::TimingRequest own = for_program(request, program);
         constexpr std::uint32_t nmi = 2, hard_fault = 3, usage_fault = 6, last_interrupt = 511;
         own.handlers = handlers_of(program, nmi, last_interrupt);
+        own.unwinding = unwinding_of(program);
         own.fault_handlers = handlers_of(program, hard_fault, usage_fault);
         timing::write_timing_request(out, own);
         std::ofstream of_marks(scratch.file("marks"));

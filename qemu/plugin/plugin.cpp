@@ -52,7 +52,7 @@ struct Timing {
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path),
           timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.handlers,
-                request.fault_handlers, request.stretches) {}
+                request.fault_handlers, request.stretches, request.unwinding) {}
 };
 
 struct Options {

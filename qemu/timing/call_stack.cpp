@@ -1,6 +1,7 @@
 #include "qemu/timing/call_stack.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 namespace timing {
 
@@ -17,8 +18,10 @@ std::size_t CallStack::arrive(std::uint32_t address) {
         });
         if (back != frames_.rend()) {
             frames_.erase(back.base() - 1, frames_.end());
-            left = frames_.size();
+        } else if (unwound_) {
+            land(address);
         }
+        left = frames_.size();
     }
     if (is_exception(address)) {
         frames_.push_back({address, true});
@@ -37,12 +40,32 @@ bool CallStack::is_exception(std::uint32_t address) const {
     return innermost == frames_.rend() || innermost->address != address;
 }
 
+std::optional<std::uint32_t> CallStack::function_of(std::uint32_t address) const {
+    const auto behind = unwinding_.functions.upper_bound(address);
+    return behind == unwinding_.functions.begin() || behind == unwinding_.functions.end()
+               ? std::nullopt
+               : std::optional(std::prev(behind)->second);
+}
+
+void CallStack::land(std::uint32_t address) {
+    const std::optional<std::uint32_t> here = function_of(address);
+    const auto gone = std::find_if(frames_.rbegin(), frames_.rend(), [&](const Frame& frame) {
+        return !frame.exception && function_of(frame.address) == here;
+    });
+    if (here && gone != frames_.rend()) {
+        frames_.erase(gone.base() - 1, frames_.end());
+    }
+}
+
 void CallStack::leave(const Decoded& last, std::uint32_t address, std::uint32_t next) {
     sequential_ = address + last.bytes;
     const bool jumps = next != sequential_;
     called_ = jumps && (last.branch == Branch::call || (last.branch == Branch::indirect && last.write_count > 0 &&
                                                         last.writes[0].reg == registers::lr));
-    if (jumps && last.branch == Branch::back && !frames_.empty() && frames_.back().exception) {
+    unwound_ =
+        jumps && std::any_of(unwinding_.restorers.begin(), unwinding_.restorers.end(),
+                             [&](const AddressRange& range) { return range.begin <= address && address < range.end; });
+    if (jumps && !unwound_ && last.branch == Branch::back && !frames_.empty() && frames_.back().exception) {
         frames_.pop_back();
     }
 }

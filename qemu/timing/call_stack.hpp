@@ -6,6 +6,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <set>
 #include <utility>
 #include <vector>
@@ -14,6 +16,18 @@
 
 namespace timing {
 
+struct AddressRange {
+    std::uint32_t begin = 0;
+    std::uint32_t end = 0;  ///< behind its last byte
+};
+
+/// What leaves calls without returning from them, and where it may go on.
+struct Unwinding {
+    std::vector<AddressRange> restorers;  ///< what sets all registers, the program counter last
+    /// Where each function's code begins, with a number that all its parts share; behind the last one, too.
+    std::map<std::uint32_t, std::uint32_t> functions;
+};
+
 class CallStack {
 public:
     /// \param entries  first instructions of functions that may be a handler's, as nothing but a call or a jump leads
@@ -21,6 +35,7 @@ public:
     explicit CallStack(std::set<std::uint32_t> entries) : entries_(std::move(entries)) {}
     /// \param handlers  first instructions of what the program's vector table names
     void watch_exceptions(std::set<std::uint32_t> handlers) { handlers_ = std::move(handlers); }
+    void watch_unwinding(Unwinding unwinding) { unwinding_ = std::move(unwinding); }
 
     /// An instruction is executed next. \return how many calls and exceptions are left of those before it: one that
     ///                                          begins with it is not among them
@@ -39,12 +54,16 @@ private:
         bool exception;
     };
     [[nodiscard]] bool is_exception(std::uint32_t address) const;
+    [[nodiscard]] std::optional<std::uint32_t> function_of(std::uint32_t address) const;
+    void land(std::uint32_t address);
 
     std::set<std::uint32_t> entries_;
     std::set<std::uint32_t> handlers_;
+    Unwinding unwinding_;
     std::vector<Frame> frames_;
     std::uint32_t sequential_ = 0;  // behind the last instruction
     bool called_ = false;
+    bool unwound_ = false;
 };
 
 }  // namespace timing

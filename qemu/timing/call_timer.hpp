@@ -24,11 +24,6 @@
 
 namespace timing {
 
-struct AddressRange {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;  ///< behind its last byte
-};
-
 /// What one core takes for one call.
 struct CoreTime {
     std::vector<std::int64_t> half_cycles;  ///< nominal, and the low and high edge of its band
@@ -65,6 +60,7 @@ public:
     void watch_stretch(std::uint32_t begin) { stretch_ = begin; }
     /// \param handlers  entry addresses of the program's exception handlers, whose calls end by another return
     void watch_exceptions(std::set<std::uint32_t> handlers) { call_stack_.watch_exceptions(std::move(handlers)); }
+    void watch_unwinding(Unwinding unwinding) { call_stack_.watch_unwinding(std::move(unwinding)); }
     /// \param handlers  of those its fault handlers
     void watch_faults(std::set<std::uint32_t> handlers) { fault_handlers_ = std::move(handlers); }
 

@@ -205,6 +205,12 @@ void write_timing_request(std::ostream& out, const TimingRequest& request) {
     for (const AddressRange& range : request.double_routines) {
         out << "double " << range.begin << ' ' << range.end << '\n';
     }
+    for (const AddressRange& range : request.unwinding.restorers) {
+        out << "restorer " << range.begin << ' ' << range.end << '\n';
+    }
+    for (const auto& [begin, function] : request.unwinding.functions) {
+        out << "function " << begin << ' ' << function << '\n';
+    }
     for (const std::uint32_t handler : request.handlers) {
         out << "handler " << handler << '\n';
     }
@@ -238,10 +244,14 @@ TimingRequest read_timing_request(std::istream& in) {
         words >> kind;
         if (kind == "folder") {
             std::getline(words >> std::ws, request.cores_folder);
-        } else if (kind == "double") {
+        } else if (kind == "double" || kind == "restorer") {
             AddressRange range;
             words >> range.begin >> range.end;
-            request.double_routines.push_back(range);
+            (kind == "double" ? request.double_routines : request.unwinding.restorers).push_back(range);
+        } else if (kind == "function") {
+            std::uint32_t begin = 0;
+            words >> begin;
+            words >> request.unwinding.functions[begin];
         } else if (kind == "handler" || kind == "faults" || kind == "stretch") {
             std::uint32_t address = 0;
             words >> address;

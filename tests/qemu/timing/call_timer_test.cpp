@@ -410,6 +410,33 @@ TEST(CallTimer, AHandlerMayBeCalled) {
     EXPECT_EQ(p.instructions(), (std::vector<std::uint64_t>{6, 2}));
 }
 
+// 0x600 restores all registers. The caller lies from 0x10, what it catches in from 0x700; the callees from 0x100,
+// 0x300.
+TEST(CallTimer, ACallThatAnExceptionLeavesEndsWhereItIsCaught) {
+    Program p;
+    p.timer().watch_unwinding(
+        {{{0x600, 0x610}}, {{0x10, 1}, {0x100, 2}, {0x300, 3}, {0x600, 6}, {0x700, 1}, {0x720, 7}}});
+    for (int calls = 0; calls < 2; ++calls) {
+        p.call(0x10);
+        p.add(0x100);
+        p.call(0x102);
+        p.add(0x300);
+        p.call(0x302);
+        p.give_back(0x600);
+        p.add(0x108);  // the callee destroys what it has
+        p.call(0x10A);
+        p.give_back(0x600);
+        p.add(0x700);
+        p.jump(0x702);
+        p.add(0x14);
+    }
+    p.finish();
+    ASSERT_EQ(p.calls.size(), 2U);
+    EXPECT_EQ(p.calls[0].instructions, 8U);
+    EXPECT_EQ(p.calls[1].instructions, 8U);
+    EXPECT_FALSE(p.timer().recursive());
+}
+
 TEST(CallTimer, KnowsWhereTheProgramFirstFaulted) {
     Program p;
     p.timer().watch_faults({0x80, 0x90});
