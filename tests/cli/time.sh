@@ -352,6 +352,54 @@ grep -q '"calls":[0-4],' "$folder/flat" && fail "tick: expected at least five ca
 expect 0 "wait_for on " time --elf "$folder/interrupt.elf" --function wait_for --json "$folder/wait.json"
 has "$folder/wait.json" '"calls": 1,'
 
+# Two tasks, which SysTick has PendSV switch, as a small operating system does it: each handler's calls are its own.
+cat >"$folder/tasks.c" <<'C'
+#define KEEP __attribute__((noinline, noclone))
+typedef unsigned u32;
+volatile int ticks, sink[2];
+volatile u32 now;
+u32 stacks[2][256], *volatile sp[2];
+extern char stack_top[];
+static void leave(void) {
+    u32 arguments[2] = {0x20026, 0};
+    register u32 r0 __asm__("r0") = 0x20;
+    register void *r1 __asm__("r1") = arguments;
+    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+}
+KEEP int step(int n) { int s = 0; for (int i = 0; i < 200; i++) { s += i ^ n; __asm__ volatile("" : "+r"(s)); } return s; }
+KEEP void task(int n) { for (;;) { sink[n] += step(n); if (ticks >= 40) { *(volatile u32 *)0xE000E010 = 0; leave(); } } }
+__attribute__((used)) u32 *next(u32 *of) { sp[now] = of; now ^= 1; return sp[now]; }
+__attribute__((naked)) void pend(void) {
+    __asm__ volatile("mrs r0, psp\n stmdb r0!, {r4-r11}\n push {r3, lr}\n bl next\n pop {r3, lr}\n ldmia r0!, {r4-r11}\n msr psp, r0\n bx lr");
+}
+void tick(void) { ++ticks; *(volatile u32 *)0xE000ED04 = 1u << 28; }
+void begin(void) {
+    for (u32 n = 0; n < 2; n++) {
+        sp[n] = stacks[n] + 240; /* r4 to r11, r0 to r3, r12, lr, pc, xPSR */
+        sp[n][8] = n;
+        sp[n][14] = (u32)task;
+        sp[n][15] = 1u << 24;
+    }
+    *(volatile u32 *)0xE000ED20 = 0xFFu << 16 | 0xF0u << 24;
+    *(volatile u32 *)0xE000E014 = 20000;
+    *(volatile u32 *)0xE000E018 = 0;
+    *(volatile u32 *)0xE000E010 = 7;
+    __asm__ volatile("msr psp, %0\n mov r0, #2\n msr control, r0\n isb" ::"r"(stacks[0] + 256) : "r0");
+    task(0);
+}
+__attribute__((section(".vectors"), used)) void *const vectors[16] = {
+    stack_top, (void *)begin, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, (void *)pend, (void *)tick};
+C
+arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -mfloat-abi=soft -O2 -ffreestanding -nostdlib -T "$foreign/map.ld" "$folder/tasks.c" -lgcc \
+    -o "$folder/tasks.elf" 2>"$folder/said" || cat "$folder/said"
+expect 0 "pend on " time --elf "$folder/tasks.elf" --function pend --function tick --json "$folder/tasks.json"
+tr -d ' \n' <"$folder/tasks.json" | sed 's/"function":/\n&/g' >"$folder/flat"
+for handler in pend tick; do
+    grep "^\"function\":\"$handler\"" "$folder/flat" | grep -q '"calls":[1-9][0-9],' || fail "$handler: expected some tens of calls: $(cat "$folder/flat" | cut -c 1-200)"
+done
+own=$(arm-none-eabi-objdump -d --disassemble=tick "$folder/tasks.elf" | grep '^ *[0-9a-f]*:' | grep -vc '\.word\|nop')
+grep '^"function":"tick"' "$folder/flat" | grep -q "\"min\":$own,\"median\":$own," || fail "tick: expected its $own instructions: $(grep tick "$folder/flat" | cut -c 1-300)"
+
 # The README's example.
 if [ -e "$firmware/targets/biquad.elf" ]; then
     expect 0 "1000 calls" time --elf "$firmware/targets/biquad.elf" --function biquad_step
