@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bench/rows/target_fields.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
 
@@ -86,7 +87,7 @@ Earlier read_earlier(const Question& question, const bench::Json& context) {
     }
     // Of a run on several machines the file has the hash of each one's firmware.
     const base::Machine* const machine = machine_of(question.target);
-    const std::string own = machine == nullptr ? "" : fmt::format("{}_elf_sha256", machine->word);
+    const std::string own = machine == nullptr ? "" : bench::target_field("elf_sha256", *machine, false);
     const bool own_firmware =
         !text(context, "elf_sha256").empty() && text(results.context, own.c_str()) == text(context, "elf_sha256");
     const std::string firmware = own_firmware ? "" : difference(results.context, context, {"elf_sha256"});

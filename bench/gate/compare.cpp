@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "base/glob.hpp"
@@ -14,14 +15,11 @@
 namespace bench::gate {
 namespace {
 
-std::vector<Kind> kinds_of_both(const RowTable& a, const RowTable& b) {
-    std::vector<Kind> kinds;
-    for (const std::string& name : a.names()) {
-        if (b.find(name) != nullptr && std::find(kinds.begin(), kinds.end(), kind_of(name)) == kinds.end()) {
-            kinds.push_back(kind_of(name));
-        }
-    }
-    return kinds;
+std::vector<std::string> rows_of_both(const RowTable& a, const RowTable& b) {
+    std::vector<std::string> rows;
+    std::copy_if(a.names().begin(), a.names().end(), std::back_inserter(rows),
+                 [&](const std::string& name) { return b.find(name) != nullptr; });
+    return rows;
 }
 
 void set_ratio(Pair& pair, std::optional<Better> better) {
@@ -97,7 +95,8 @@ Comparison compare(const Results& results_a, const Results& results_b, const Rul
     const RowTable a(results_a);
     const RowTable b(results_b);
     Comparison comparison;
-    comparison.differences = differences(results_a.context, results_b.context, kinds_of_both(a, b));
+    const std::vector<std::string> both = rows_of_both(a, b);
+    comparison.differences = differences({results_a.context, both}, {results_b.context, both});
     std::map<std::pair<Kind, std::string>, std::optional<Better>> directions;  // alike for all rows of a kind
     for (const std::string& name : a.names()) {
         if (!base::matches_any(rows, name)) {

@@ -22,9 +22,15 @@ struct Difference {
     Effect effect;
 };
 
-/// The fields that matter to the kinds of rows that both runs hold, in a fixed order, worst effect first.
-[[nodiscard]] std::vector<Difference> differences(const Json& baseline, const Json& current,
-                                                  const std::vector<Kind>& kinds);
+/// One of two runs.
+struct Side {
+    const Json& context;
+    const std::vector<std::string>& rows;  ///< their names
+};
+
+/// The fields that matter to the kinds of rows that both runs hold, in a fixed order, worst effect first. What belongs
+/// to one emulated machine matters where both have rows of that machine.
+[[nodiscard]] std::vector<Difference> differences(const Side& baseline, const Side& current);
 
 /// "compiler: GNU 12.2.0 in the baseline, Clang 14.0.6 now", of each field that makes the runs incomparable, by
 /// semicolons; empty where none does. \param first, second  what the two runs are called

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <unordered_map>
@@ -12,6 +13,7 @@
 #include "base/glob.hpp"
 #include "bench/gate/host_time.hpp"
 #include "bench/gate/row_table.hpp"
+#include "bench/gate/shared_targets.hpp"
 #include "bench/rows/key.hpp"
 
 namespace bench::gate {
@@ -53,18 +55,31 @@ public:
           selection_(selection_of(baseline.context)),
           baseline_(baseline),
           current_(current) {
-        for (const std::string& name : baseline_.names()) {
-            if (base::matches_any(selection_, name)) {
-                verdict_.rows.push_back(name);
-            }
+        std::vector<std::string> selected;
+        std::copy_if(baseline_.names().begin(), baseline_.names().end(), std::back_inserter(selected),
+                     [&](const std::string& name) { return base::matches_any(selection_, name); });
+        const SharedTargets shared(selected, current_.names(), current.context);
+        const auto of_shared = [&](const std::vector<std::string>& names) {
+            std::vector<std::string> rows;
+            std::copy_if(names.begin(), names.end(), std::back_inserter(rows),
+                         [&](const std::string& name) { return shared.has(name); });
+            return rows;
+        };
+        verdict_.rows = of_shared(selected);
+        theirs_ = of_shared(current_.names());
+        if (shared.none()) {
+            verdict_.differences = {{"targets", shared.of_baseline(), shared.of_current(), Effect::incomparable}};
+            return;
         }
-        verdict_.differences = differences(baseline.context, current.context, common_kinds());
+        verdict_.not_judged = shared.not_judged();
+        verdict_.differences = differences({baseline.context, selected}, {current.context, current_.names()});
         advisory_ = has_effect(verdict_.differences, Effect::advisory);
     }
 
     Verdict verdict() {
         if (has_effect(verdict_.differences, Effect::incomparable)) {
             verdict_.status = glsum::Exit::not_comparable;
+            verdict_.not_judged.clear();  // nothing was
             return verdict_;
         }
         lost_and_new_rows();
@@ -86,22 +101,6 @@ public:
     }
 
 private:
-    std::vector<Kind> common_kinds() const {
-        const auto kinds_of = [](const std::vector<std::string>& names) {
-            std::vector<Kind> kinds;
-            for (const std::string& name : names) {
-                if (std::find(kinds.begin(), kinds.end(), kind_of(name)) == kinds.end()) {
-                    kinds.push_back(kind_of(name));
-                }
-            }
-            return kinds;
-        };
-        const std::vector<Kind> theirs = kinds_of(current_.names());
-        std::vector<Kind> kinds = kinds_of(verdict_.rows);
-        std::erase_if(kinds, [&](Kind kind) { return std::find(theirs.begin(), theirs.end(), kind) == theirs.end(); });
-        return kinds;
-    }
-
     void add(Finding finding) {
         LayerCount& count = verdict_.count(finding.layer);
         count.failed += finding.level == Level::fail ? 1 : 0;
@@ -123,7 +122,7 @@ private:
     void lost_and_new_rows() {
         std::unordered_set<std::string> theirs;
         std::vector<std::string> added;
-        for (const std::string& name : current_.names()) {
+        for (const std::string& name : theirs_) {
             theirs.insert(kernel_of(name));
             if (baseline_.find(name) == nullptr && base::matches_any(selection_, name)) {
                 added.push_back(name);
@@ -375,8 +374,7 @@ private:
         }
         for (const auto& [why, rows] : not_judged) {
             note(Layer::host_time, "*/host", fmt::format("{} rows not judged: {}", rows, why));
-            verdict_.not_judged +=
-                fmt::format("{}{} host times, {}", verdict_.not_judged.empty() ? "" : "; ", rows, why);
+            not_judged_besides(fmt::format("{} host times, {}", rows, why));
         }
         const auto any_timed = [&](const std::vector<std::string>& names) {
             return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
@@ -384,8 +382,12 @@ private:
             });
         };
         if (!any_timed(verdict_.rows) && any_timed(current_.names())) {
-            verdict_.not_judged = "host times, of which the baseline has none";
+            not_judged_besides("host times, of which the baseline has none");
         }
+    }
+
+    void not_judged_besides(const std::string& what) {
+        verdict_.not_judged += (verdict_.not_judged.empty() ? "" : "; ") + what;
     }
 
     void time(const std::string& row, const Rule& rule, const TimeChange& change) {
@@ -419,6 +421,7 @@ private:
     std::vector<std::string> selection_;
     RowTable baseline_;
     RowTable current_;
+    std::vector<std::string> theirs_;  // the current run's rows, of targets that the baseline has too
     Verdict verdict_;
     bool advisory_ = false;
     std::unordered_set<std::string> moot_;  // subjects with a wrong answer

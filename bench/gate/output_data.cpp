@@ -152,6 +152,9 @@ std::string to_junit(const Verdict& verdict) {
         tests.front().other +=
             fmt::format("{}: {} in the baseline, {} now\n", difference.field, difference.baseline, difference.current);
     }
+    if (!verdict.not_judged.empty()) {
+        tests.front().other += "not judged: " + verdict.not_judged + "\n";
+    }
     std::unordered_map<std::string, std::size_t> at;
     if (verdict.status != glsum::Exit::not_comparable) {
         for (const std::string& row : verdict.rows) {

@@ -120,8 +120,8 @@ std::string to_table(const Verdict& verdict, bool colour) {
     const auto paint = [&](const std::string& code, const std::string& text) {
         return colour ? code + text + "\033[0m" : text;
     };
-    std::string text = fmt::format("gate: {} against {}{}\n", verdict.current_name, verdict.baseline_name,
-                                   verdict.not_judged.empty() ? "" : "; not judged: " + verdict.not_judged);
+    std::string text =
+        fmt::format("gate: {} against {}{}\n", verdict.current_name, verdict.baseline_name, verdict.besides());
     for (const Difference& difference : verdict.differences) {
         text += fmt::format("  {}: {} in the baseline, {} now: {}\n", difference.field, difference.baseline,
                             difference.current, effect_text(difference.effect));
@@ -160,9 +160,9 @@ std::string to_table(const Verdict& verdict, bool colour) {
 
 std::string to_markdown(const Verdict& verdict) {
     const bool good = verdict.status == glsum::Exit::good;
-    std::string text =
-        fmt::format("## {} glsum gate: {}\n\n{}\n\n`{}` against `{}`\n", good ? "✅" : "❌", verdict.word(),
-                    escape_markdown(verdict.headline()), verdict.current_name, verdict.baseline_name);
+    std::string text = fmt::format("## {} glsum gate: {}\n\n{}\n\n`{}` against `{}`{}\n", good ? "✅" : "❌",
+                                   verdict.word(), escape_markdown(verdict.headline()), verdict.current_name,
+                                   verdict.baseline_name, escape_markdown(verdict.besides()));
     if (!verdict.differences.empty()) {
         text += "\n| condition | baseline | now | effect |\n|---|---|---|---|\n";
         for (const Difference& difference : verdict.differences) {

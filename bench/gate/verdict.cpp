@@ -57,9 +57,10 @@ std::string Verdict::headline() const {
     for (const LayerCount& layer : layer_counts) {
         compared += layer.compared;
     }
-    return fmt::format("{} values of {} rows are within what the rules allow{}", compared, rows.size(),
-                       not_judged.empty() ? "" : "; not judged: " + not_judged);
+    return fmt::format("{} values of {} rows are within what the rules allow{}", compared, rows.size(), besides());
 }
+
+std::string Verdict::besides() const { return not_judged.empty() ? "" : "; not judged: " + not_judged; }
 
 std::string way_on(const Verdict& verdict) {
     const bool other_core = std::any_of(verdict.differences.begin(), verdict.differences.end(),

@@ -58,6 +58,8 @@ struct Verdict {
     [[nodiscard]] std::string word() const;
     /// One sentence: the first layer that failed, with its first finding.
     [[nodiscard]] std::string headline() const;
+    /// "; not judged: " and what; empty where all was.
+    [[nodiscard]] std::string besides() const;
 };
 
 /// Where two core files model other cycles of the same instructions, what is left to do, behind "; "; else empty.

@@ -11,6 +11,7 @@
 #include "base/files.hpp"
 #include "base/scratch.hpp"
 #include "base/sha256.hpp"
+#include "bench/rows/target_fields.hpp"
 #include "bench/target/target_build.hpp"
 #include "bench/target/target_plan.hpp"
 #include "bench/target/target_rows.hpp"
@@ -88,12 +89,14 @@ Json make_context(Json google, const Sweep& sweep, const std::vector<qemu::Board
 #endif
     context["core_file"] = boards.empty() ? "none" : core_files(boards.front(), sweep.modelled_cores());
     for (const qemu::Board& board : boards) {
-        const std::string whose = &board == boards.data() ? "" : std::string(board.machine->word) + '_';
+        const auto field = [&](std::string_view name) {
+            return target_field(name, *board.machine, &board == boards.data());
+        };
         const std::filesystem::path info = board.measure_elf.parent_path() / "build_info.json";
         const TargetBuild target = parse_target_build(base::read_file(info, std::size_t{1} << 20), info.string());
-        context[whose + "target_compiler"] = target.compiler;
-        context[whose + "target_flags"] = target.flags;
-        context[whose + "elf_sha256"] = base::sha256_of(board.measure_elf);
+        context[field("target_compiler")] = target.compiler;
+        context[field("target_flags")] = target.flags;
+        context[field("elf_sha256")] = base::sha256_of(board.measure_elf);
     }
     if (!boards.empty()) {
         context["qemu_version"] = qemu::emulator_version();

@@ -10,18 +10,23 @@
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
 #include "qemu/emulate/software_double.hpp"
+#include "qemu/emulate/unwinding.hpp"
 
 namespace qemu {
 namespace {
 
-// What the vector table says of HardFault, MemManage, BusFault and UsageFault. Where it has none the core locks up there.
-// [ARMv7-M B1.5.2]
-std::set<std::uint32_t> fault_handlers(const Elf& program) {
+// What the vector table names from one vector to another. Where it has none the core locks up there. [ARMv7-M B1.5.2]
+// Nothing says how many interrupts it has: it ends where what follows is no function's address.
+std::set<std::uint32_t> handlers_of(const Elf& program, std::uint32_t first, std::uint32_t last) {
+    constexpr std::uint32_t exceptions = 16;
     std::set<std::uint32_t> handlers;
-    for (const std::uint32_t vector : {0x0CU, 0x10U, 0x14U, 0x18U}) {
-        if (program.has_word(vector)) {
-            handlers.insert(program.word(vector) & ~1U);
+    for (std::uint32_t vector = first; vector <= last && program.has_word(4 * vector); ++vector) {
+        const std::uint32_t handler = program.word(4 * vector) & ~1U;
+        const Function* const function = program.function_at(handler);
+        if (vector >= exceptions && handler != 0 && (function == nullptr || function->address != handler)) {
+            break;
         }
+        handlers.insert(handler);
     }
     return handlers;
 }
@@ -84,7 +89,10 @@ std::vector<timing::TimingLog> time_program(const Emulator& emulator, const std:
         }
         std::ofstream out(scratch.file("request"));
         timing::TimingRequest own = for_program(request, program);
-        own.fault_handlers = fault_handlers(program);
+        constexpr std::uint32_t nmi = 2, hard_fault = 3, usage_fault = 6, last_interrupt = 511;
+        own.handlers = handlers_of(program, nmi, last_interrupt);
+        own.unwinding = unwinding_of(program);
+        own.fault_handlers = handlers_of(program, hard_fault, usage_fault);
         timing::write_timing_request(out, own);
         std::ofstream of_marks(scratch.file("marks"));
         if (marks) {

@@ -51,8 +51,8 @@ struct Timing {
     Timing(const std::set<std::uint32_t>& entries, const timing::TimingRequest& request,
            std::optional<qemu::Marks> marks, const std::string& path)
         : log(path),
-          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.fault_handlers,
-                request.stretches) {}
+          timer(entries, timing::cores_of(request), marks, log, request.double_routines, request.handlers,
+                request.fault_handlers, request.stretches, request.unwinding) {}
 };
 
 struct Options {
@@ -246,7 +246,20 @@ void times_blocks(qemu_plugin_tb* block) {
     }
 }
 
+// The emulator's threads block all signals, and since glibc 2.41 abort() no longer unblocks its own before it raises
+// it.
+void hear_aborts() {
+    sigset_t aborted;
+    sigemptyset(&aborted);
+    sigaddset(&aborted, SIGABRT);
+    pthread_sigmask(SIG_UNBLOCK, &aborted, nullptr);
+}
+
+// In the thread of the core.
 void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
+    if (session->blocks.empty() && session->timing) {
+        hear_aborts();
+    }
     if (!session->options.out_path.empty()) {
         session->options.stream ? counts_by_stream(block) : counts_by_blocks(block);
     }
@@ -255,22 +268,32 @@ void translates(qemu_plugin_id_t, qemu_plugin_tb* block) {
     }
 }
 
-// The emulator dies of a core that locks up without telling its plugins: a log of where it faulted, or else was, by
+// The emulator dies of a core that locks up without telling its plugins: a log of where it faulted and where it was, by
 // what a signal allows.
 void aborts(int) {
     const Timing& timing = *session->timing;
-    std::optional<std::uint32_t> address = timing.timer.fault();
-    std::array<char, 32> text{};
+    std::array<char, 64> text{};
     char* end = text.data();
-    const auto add = [&end](std::string_view words) { end = std::copy(words.begin(), words.end(), end); };
-    add(address ? "fault " : "at ");
-    if (!address && timing.block != nullptr) {
-        const std::vector<qemu::Instruction>& instructions = timing.block->instructions;
-        address = instructions[std::min<std::uint64_t>(timing.done(), instructions.size()) - 1].address;
+    const auto add = [&](std::string_view words) { end = std::copy(words.begin(), words.end(), end); };
+    const auto tell = [&](std::string_view what, std::uint32_t address) {
+        add(what);
+        end = std::to_chars(end, text.data() + text.size(), address).ptr;
+        add("\n");
+    };
+    const std::optional<std::uint32_t> fault = timing.timer.fault();
+    if (fault) {
+        tell("fault ", *fault);
     }
-    if (address) {
-        end = std::to_chars(end, text.data() + text.size(), *address).ptr;
-        add("\nend\n");
+    if (timing.block != nullptr) {
+        const std::vector<qemu::Instruction>& instructions = timing.block->instructions;
+        const std::uint32_t last =
+            instructions[std::min<std::uint64_t>(timing.done(), instructions.size()) - 1].address;
+        if (last != fault) {
+            tell("at ", last);
+        }
+    }
+    if (end != text.data()) {
+        add("end\n");
         static_cast<void>(!write(timing.log_descriptor, text.data(), static_cast<std::size_t>(end - text.data())));
     }
 }

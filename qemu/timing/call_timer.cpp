@@ -12,7 +12,10 @@ CallTimer::Core::Core(const CoreFile& core)
 
 CallTimer::CallTimer(std::set<std::uint32_t> entries, const std::vector<CoreFile>& cores,
                      std::function<void(const TimedCall&)> done, std::vector<AddressRange> double_routines)
-    : entries_(std::move(entries)), double_routines_(std::move(double_routines)), done_(std::move(done)) {
+    : entries_(std::move(entries)),
+      call_stack_(entries_),
+      double_routines_(std::move(double_routines)),
+      done_(std::move(done)) {
     for (const CoreFile& core : cores) {
         cores_.push_back(std::make_unique<Core>(core));
         call_.cores.emplace_back().half_cycles.resize(3);
@@ -100,26 +103,14 @@ void CallTimer::finish(std::size_t done) {
     }
 }
 
-// Whether the instruction is where a call returns to, or a watched function's first.
-void CallTimer::follow_calls(std::uint32_t address) {
-    if (last_called_) {
-        returns_.push_back(sequential_);
-    } else if (address != sequential_) {
-        const auto back = std::find(returns_.rbegin(), returns_.rend(), address);
-        if (back != returns_.rend()) {
-            returns_.erase(back.base() - 1, returns_.end());
-        }
-    }
-}
-
 void CallTimer::flush(std::size_t done, std::uint32_t next) {
     Piece& piece = *pending_;
     const std::vector<CodeBlock::Instruction>& lines = piece.code.lines;
     done = std::clamp<std::size_t>(done, 1, lines.size());
-    follow_calls(lines.front().address);
-    const bool ends = inside_ && (stretch_ ? ends_stretch(piece) : returns_.size() < depth_);
+    const std::size_t left = call_stack_.arrive(lines.front().address);
+    const bool ends = inside_ && (stretch_ ? ends_stretch(piece) : left < depth_);
     const bool begins = stretch_ ? std::exchange(stretch_begins_, false) : piece.entry && (!inside_ || ends);
-    recursive_ = recursive_ || (piece.entry && inside_ && !ends && last_called_);
+    recursive_ = recursive_ || (piece.entry && inside_ && !ends && call_stack_.called());
     for (const std::uint32_t address : piece.unknown) {
         if (address <= lines[done - 1].address) {
             ++unknown_[address];
@@ -154,16 +145,12 @@ void CallTimer::flush(std::size_t done, std::uint32_t next) {
         stretch_begins_ = stretch_marks_.open() == stretch_;
     }
     const CodeBlock::Instruction& last = lines[done - 1];
-    const Decoded& d = last.instruction->decoded;
     last_site_ = last.site;
     last_address_ = last.address;
     if (!fault_ && fault_handlers_.contains(next)) {
         fault_ = last.address;
     }
-    sequential_ = last.address + d.bytes;
-    last_called_ = (d.branch == Branch::call ||
-                    (d.branch == Branch::indirect && d.write_count > 0 && d.writes[0].reg == registers::lr)) &&
-                   next != sequential_;
+    call_stack_.leave(last.instruction->decoded, last.address, next);
 }
 
 // A call ends and begins with a block's first instruction.
@@ -223,7 +210,7 @@ void CallTimer::leave_double_routine() {
 
 void CallTimer::begin_call(std::uint32_t entry) {
     inside_ = true;
-    depth_ = returns_.size();
+    depth_ = call_stack_.depth();
     call_.entry = entry;
     call_.instructions = 0;
     stack_.begin();

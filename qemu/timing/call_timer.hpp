@@ -17,16 +17,12 @@
 #include "qemu/stream/stream.hpp"
 #include "qemu/stream/stretch_marks.hpp"
 #include "qemu/timing/block_replay.hpp"
+#include "qemu/timing/call_stack.hpp"
 #include "qemu/timing/decode.hpp"
 #include "qemu/timing/stack_depth.hpp"
 #include "qemu/timing/surroundings.hpp"
 
 namespace timing {
-
-struct AddressRange {
-    std::uint32_t begin = 0;
-    std::uint32_t end = 0;  ///< behind its last byte
-};
 
 /// What one core takes for one call.
 struct CoreTime {
@@ -62,7 +58,10 @@ public:
 
     /// In place of functions: the stretches whose begin mark stands there, each as if it were a call.
     void watch_stretch(std::uint32_t begin) { stretch_ = begin; }
-    /// \param handlers  entry addresses of the program's fault handlers
+    /// \param handlers  entry addresses of the program's exception handlers, whose calls end by another return
+    void watch_exceptions(std::set<std::uint32_t> handlers) { call_stack_.watch_exceptions(std::move(handlers)); }
+    void watch_unwinding(Unwinding unwinding) { call_stack_.watch_unwinding(std::move(unwinding)); }
+    /// \param handlers  of those its fault handlers
     void watch_faults(std::set<std::uint32_t> handlers) { fault_handlers_ = std::move(handlers); }
 
     void executes(const qemu::Instruction& instruction) override;
@@ -119,7 +118,6 @@ private:
     Piece& piece_of(std::vector<std::unique_ptr<Piece>>& pieces, std::uint32_t index,
                     std::span<const qemu::Instruction> instructions);
     void flush(std::size_t done, std::uint32_t next);
-    void follow_calls(std::uint32_t address);
     [[nodiscard]] static bool ends_stretch(const Piece& piece) {
         return piece.mark && piece.mark->encoding == qemu::stretch_ends;
     }
@@ -131,6 +129,7 @@ private:
     void begin_call(std::uint32_t entry);
 
     std::set<std::uint32_t> entries_;
+    CallStack call_stack_;
     std::optional<std::uint32_t> stretch_;
     qemu::StretchMarks stretch_marks_;
     bool stretch_begins_ = false;  // with the next instruction
@@ -146,10 +145,6 @@ private:
     Piece* pending_ = nullptr;
     std::vector<qemu::Access> accesses_;
 
-    // Return addresses of the calls under way.
-    std::vector<std::uint32_t> returns_;
-    std::uint32_t sequential_ = 0;  // behind the last instruction
-    bool last_called_ = false;
     std::uint32_t last_site_ = 0;
 
     StackDepth stack_;
@@ -159,7 +154,7 @@ private:
     std::optional<std::uint32_t> fault_;
 
     bool inside_ = false;
-    std::size_t depth_ = 0;  // of returns_ at the entry
+    std::size_t depth_ = 0;  // of call_stack_ at the entry
     TimedCall call_;
     std::map<std::uint32_t, std::uint64_t> unknown_;
     bool recursive_ = false;

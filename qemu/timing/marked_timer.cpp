@@ -9,20 +9,25 @@ MarkedTimer::Part::Part(const MarkedTimer& whole, const std::set<std::uint32_t>&
     : writer(log),
       timer(
           entries, whole.cores_, [this](const timing::TimedCall& call) { writer.add(call); }, whole.double_routines_) {
+    timer.watch_exceptions(whole.handlers_);
+    timer.watch_unwinding(whole.unwinding_);
     timer.watch_faults(whole.fault_handlers_);
 }
 
 MarkedTimer::MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores,
                          std::optional<Marks> marks, std::ostream& log,
-                         std::vector<timing::AddressRange> double_routines, std::set<std::uint32_t> fault_handlers,
-                         std::set<std::uint32_t> stretches)
+                         std::vector<timing::AddressRange> double_routines, std::set<std::uint32_t> handlers,
+                         std::set<std::uint32_t> fault_handlers, std::set<std::uint32_t> stretches,
+                         timing::Unwinding unwinding)
     : entries_(std::move(entries)),
       cores_(std::move(cores)),
       marks_(marks),
       log_(log),
       double_routines_(std::move(double_routines)),
+      handlers_(std::move(handlers)),
       fault_handlers_(std::move(fault_handlers)),
       stretches_(std::move(stretches)),
+      unwinding_(std::move(unwinding)),
       on_(!marks) {
     for (const std::uint32_t entry : marks_ ? std::set<std::uint32_t>() : entries_) {
         begin_part({entry});

@@ -34,14 +34,15 @@ public:
     /// of
     ///                 their addresses, so that one that another calls has calls of its own
     /// \param double_routines  see timing::CallTimer
-    /// \param fault_handlers   likewise
+    /// \param handlers, fault_handlers, unwinding  likewise
     /// \param stretches  addresses of the begin marks of stretches that are to be timed, each in a part of its own
     /// behind
     ///                   those of the functions; without \p marks
     /// \param log      receives one timing log a part, each with its end
     MarkedTimer(std::set<std::uint32_t> entries, std::vector<timing::CoreFile> cores, std::optional<Marks> marks,
                 std::ostream& log, std::vector<timing::AddressRange> double_routines = {},
-                std::set<std::uint32_t> fault_handlers = {}, std::set<std::uint32_t> stretches = {});
+                std::set<std::uint32_t> handlers = {}, std::set<std::uint32_t> fault_handlers = {},
+                std::set<std::uint32_t> stretches = {}, timing::Unwinding unwinding = {});
 
     /// Whether the instruction is a mark's first: `meets_mark` is then to be called in place of `executes`.
     [[nodiscard]] bool is_mark(std::uint32_t address) const;
@@ -77,8 +78,10 @@ private:
     std::optional<Marks> marks_;
     std::ostream& log_;
     std::vector<timing::AddressRange> double_routines_;
+    std::set<std::uint32_t> handlers_;
     std::set<std::uint32_t> fault_handlers_;
     std::set<std::uint32_t> stretches_;
+    timing::Unwinding unwinding_;
     std::vector<std::unique_ptr<Part>> parts_;  // that see the same
     bool on_;
 };

@@ -205,6 +205,15 @@ void write_timing_request(std::ostream& out, const TimingRequest& request) {
     for (const AddressRange& range : request.double_routines) {
         out << "double " << range.begin << ' ' << range.end << '\n';
     }
+    for (const AddressRange& range : request.unwinding.restorers) {
+        out << "restorer " << range.begin << ' ' << range.end << '\n';
+    }
+    for (const auto& [begin, function] : request.unwinding.functions) {
+        out << "function " << begin << ' ' << function << '\n';
+    }
+    for (const std::uint32_t handler : request.handlers) {
+        out << "handler " << handler << '\n';
+    }
     for (const std::uint32_t handler : request.fault_handlers) {
         out << "faults " << handler << '\n';
     }
@@ -235,14 +244,21 @@ TimingRequest read_timing_request(std::istream& in) {
         words >> kind;
         if (kind == "folder") {
             std::getline(words >> std::ws, request.cores_folder);
-        } else if (kind == "double") {
+        } else if (kind == "double" || kind == "restorer") {
             AddressRange range;
             words >> range.begin >> range.end;
-            request.double_routines.push_back(range);
-        } else if (kind == "faults" || kind == "stretch") {
+            (kind == "double" ? request.double_routines : request.unwinding.restorers).push_back(range);
+        } else if (kind == "function") {
+            std::uint32_t begin = 0;
+            words >> begin;
+            words >> request.unwinding.functions[begin];
+        } else if (kind == "handler" || kind == "faults" || kind == "stretch") {
             std::uint32_t address = 0;
             words >> address;
-            (kind == "faults" ? request.fault_handlers : request.stretches).insert(address);
+            (kind == "handler"  ? request.handlers
+             : kind == "faults" ? request.fault_handlers
+                                : request.stretches)
+                .insert(address);
         } else if (kind == "core") {
             TimingRequest::Core core;
             words >> core.name >> core.code >> core.data >> core.instruction_cache >> core.set;

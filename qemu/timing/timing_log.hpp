@@ -63,7 +63,9 @@ struct TimingRequest {
     std::string cores_folder;
     std::vector<Core> cores;
     std::vector<AddressRange> double_routines = {};  ///< of the program, see software_double.hpp
-    std::set<std::uint32_t> fault_handlers = {};     ///< their entry addresses
+    std::set<std::uint32_t> handlers = {};           ///< of its exceptions: their entry addresses
+    std::set<std::uint32_t> fault_handlers = {};     ///< of those, its fault handlers
+    Unwinding unwinding = {};                        ///< by exceptions of C++ and longjmp
     std::set<std::uint32_t> stretches = {};          ///< addresses of the marks that begin what is to be timed, too
 };
 /// What somebody means who names a core: one of the folder's, or a file by its path (`names_core_file`).

@@ -87,28 +87,28 @@ TEST(GateOutputs, JsonHoldsEverything) {
 TEST(GateOutputs, JUnitHasACaseForEachRow) {
     Verdict failed = verdict();
     failed.findings[1].what = "one\ttwo\rthree";
-    EXPECT_EQ(
-        to_junit(failed),
-        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<testsuites tests=\"5\" failures=\"1\">\n"
-        "  <testsuite name=\"glsum gate\" tests=\"5\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
-        "    <testcase classname=\"glsum.gate\" name=\"conditions\">\n"
-        "      <system-out>cpu: one in the baseline, two now&#10;commit: a in the baseline, b now&#10;</system-out>\n"
-        "    </testcase>\n"
-        "    <testcase classname=\"glsum.gate\" name=\"gl/a/m7\">\n"
-        "      <failure message=\"instructions_and_bytes: code_bytes: one&#9;two&#13;three (exact)\">"
-        "instructions_and_bytes: code_bytes: one&#9;two&#13;three (exact)&#10;</failure>\n"
-        "    </testcase>\n"
-        "    <testcase classname=\"glsum.gate\" name=\"gl/b/m7\">\n"
-        "      <system-out>accuracy: error_max: worse (exact_ly)&#10;host_time: cpu_time: faster (ratio)&#10;"
-        "</system-out>\n"
-        "    </testcase>\n"
-        "    <testcase classname=\"glsum.gate\" name=\"gl/c/m7\"/>\n"
-        "    <testcase classname=\"glsum.gate\" name=\"gl/d/*\">\n"
-        "      <system-out>rows: a new kernel&#10;</system-out>\n"
-        "    </testcase>\n"
-        "  </testsuite>\n"
-        "</testsuites>\n");
+    EXPECT_EQ(to_junit(failed),
+              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+              "<testsuites tests=\"5\" failures=\"1\">\n"
+              "  <testsuite name=\"glsum gate\" tests=\"5\" failures=\"1\" errors=\"0\" skipped=\"0\">\n"
+              "    <testcase classname=\"glsum.gate\" name=\"conditions\">\n"
+              "      <system-out>cpu: one in the baseline, two now&#10;commit: a in the baseline, b now&#10;"
+              "not judged: 64 host times&#10;</system-out>\n"
+              "    </testcase>\n"
+              "    <testcase classname=\"glsum.gate\" name=\"gl/a/m7\">\n"
+              "      <failure message=\"instructions_and_bytes: code_bytes: one&#9;two&#13;three (exact)\">"
+              "instructions_and_bytes: code_bytes: one&#9;two&#13;three (exact)&#10;</failure>\n"
+              "    </testcase>\n"
+              "    <testcase classname=\"glsum.gate\" name=\"gl/b/m7\">\n"
+              "      <system-out>accuracy: error_max: worse (exact_ly)&#10;host_time: cpu_time: faster (ratio)&#10;"
+              "</system-out>\n"
+              "    </testcase>\n"
+              "    <testcase classname=\"glsum.gate\" name=\"gl/c/m7\"/>\n"
+              "    <testcase classname=\"glsum.gate\" name=\"gl/d/*\">\n"
+              "      <system-out>rows: a new kernel&#10;</system-out>\n"
+              "    </testcase>\n"
+              "  </testsuite>\n"
+              "</testsuites>\n");
     // What cannot be compared has judged no row, and its conditions fail.
     Verdict other = verdict();
     other.status = glsum::Exit::not_comparable;
@@ -176,7 +176,7 @@ TEST(GateOutputs, MarkdownHasTheSame) {
     EXPECT_EQ(
         to_markdown(verdict()),
         "## ❌ glsum gate: fail\n\ninstructions\\_and\\_bytes: gl/a/m7 code\\_bytes: 400 -> 500\n\n"
-        "`new.json` against `old.json`\n"
+        "`new.json` against `old.json`; not judged: 64 host times\n"
         "\n| condition | baseline | now | effect |\n|---|---|---|---|\n"
         "| cpu | one | two | host times only warn |\n| commit | a | b | for your information |\n"
         "\n| layer | compared | fail | warn | better | |\n|---|--:|--:|--:|--:|---|\n"

@@ -55,6 +55,19 @@ awk '$1 == "\"model_cycles_per_sample\":" && !done {sub(/,$/, "", $2); printf "%
     "$folder/m4.json" >"$folder/slower.json"
 "$program" gate --baseline "$folder/m4.json" --current "$folder/slower.json" >"$folder/said" 2>&1
 [ $? -eq 1 ] && grep -q "model_cycles: .*model_cycles_per_sample" "$folder/said" || fail "one per cent more: $(head -n 3 "$folder/said")"
+# Of runs of other targets those are judged that both have; the first line says which were not.
+for was_is in "both m4 m7, which this run was not asked for" "m4 both m7, of which the baseline has none"; do
+    set -- $was_is
+    was=$1 is=$2 left=$3
+    shift 3
+    "$program" gate --baseline "$folder/$was.json" --current "$folder/$is.json" >"$folder/said" 2>&1 || fail "gate of $is by $was: $(tail -n 3 "$folder/said")"
+    head -n 1 "$folder/said" | grep -q "not judged: [1-9][0-9]* rows of $left $*$" || fail "gate of $is by $was: expected what was not judged, found $(head -n 1 "$folder/said")"
+done
+"$program" gate --baseline "$folder/both.json" --current "$folder/slower.json" >"$folder/said" 2>&1
+[ $? -eq 1 ] && grep -q "model_cycles: .*model_cycles_per_sample" "$folder/said" || fail "one per cent more than in a run on both: $(head -n 3 "$folder/said")"
+sed 's/"m4_target_compiler": "/&another /' "$folder/both.json" >"$folder/compiled.json"
+"$program" gate --baseline "$folder/m4.json" --current "$folder/compiled.json" >"$folder/said" 2>&1
+[ $? -eq 4 ] && grep -q "not comparable: m4_target_compiler: " "$folder/said" || fail "another compiler of the M4: $(tail -n 1 "$folder/said")"
 expect 0 "" report "$folder/both.json" --out "$folder/page.html"
 grep -q "m4:$core" "$folder/page.html" || fail "expected the M4's rows on the page"
 

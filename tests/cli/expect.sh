@@ -4,9 +4,6 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 failures=0
 
-# Major version of the emulator. Since 8 it may die of a core that locks up before it tells its plugins: then its words are all there is.
-emulator() { qemu-system-arm --version | sed -n '1s/.*version \([0-9]*\).*/\1/p'; }
-
 expect() {
     status=$1 text=$2
     shift 2

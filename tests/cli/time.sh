@@ -194,11 +194,16 @@ grep -q ' in spin$' "$folder/said" || fail "bad.elf: expected to be told that it
 sed 's/(void \*)fault/0/g; s/, (void \*)tick//' "$foreign/start.c" >"$folder/bare.c"
 link_foreign bare.elf -DBAD='poke((int *)0xF0000000)' "$folder/bare.c" "$folder/bad.c"
 at=$(arm-none-eabi-objdump -d --disassemble=poke "$folder/bare.elf" | sed -n 's/^ *\([0-9a-f]*\):.*ldr.*\[r0.*/\1/p')
-place="; it faulted at 0x$(printf %08x "0x$at") in poke"
-[ "$(emulator)" -lt 8 ] || place="Lockup: "
-expect 1 "$place" time --elf "$folder/bare.elf" --function leaf
-grep -q "Lockup: " "$folder/said" || fail "bare.elf: expected to be told of the lockup: $(cat "$folder/said")"
-[ "$(wc -l <"$folder/said")" = 1 ] || fail "bare.elf: expected one sentence"
+locks_up() {  # PROGRAM PLACE
+    expect 1 "Lockup: " time --elf "$folder/$1" --function leaf
+    grep -q "$2" "$folder/said" || fail "$1: expected $2, found: $(cat "$folder/said")"
+    [ "$(wc -l <"$folder/said")" = 1 ] || fail "$1: expected one sentence"
+}
+locks_up bare.elf "; it faulted at 0x$(printf %08x "0x$at") in poke; the last instruction that it executed was at 0x00000000$"
+# The handler faults in its turn.
+sed 's/void fault(void) {/& (void)*(volatile int *)0xF0000000;/' "$foreign/start.c" >"$folder/twice.c"
+link_foreign twice.elf -DBAD='poke((int *)0xF0000000)' "$folder/twice.c" "$folder/bad.c"
+locks_up twice.elf "; it faulted at 0x[0-9a-f]* in poke; the last instruction that it executed was at 0x[0-9a-f]* in fault$"
 
 # Programs for other cores. The M0's code runs on an M7.
 other() {  # STATUS TEXT FLAG...
@@ -296,7 +301,19 @@ C
     linked soft.elf arm-none-eabi-gcc -mfloat-abi=softfp "$folder/app.c" -Wl,--no-warn-mismatch "$board" -lc "$board"
     expect 0 "100 calls" time --elf "$folder/soft.elf" --function filter
     linked cpp.elf arm-none-eabi-g++ -mfloat-abi=hard "$folder/app.cpp" "$board" -lstdc++ -lc "$board"
-    expect 0 " calls" time --elf "$folder/cpp.elf" --function checked
+    expect 0 " 50 calls" time --elf "$folder/cpp.elf" --function checked  # of which eight throw
+    cat >"$folder/jump.c" <<'C'
+#include <setjmp.h>
+jmp_buf place;
+__attribute__((noinline, noclone)) int checked(int i) { __asm__ volatile("" ::: "memory"); if (i % 7 == 0) longjmp(place, 1); return i; }
+int main(void) {
+    static volatile int i, left, sum;
+    for (i = 0; i < 50; i++) { if (setjmp(place)) left++; else sum += checked(i); }
+    return left == 8 ? 0 : 1;
+}
+C
+    linked jump.elf arm-none-eabi-gcc -mfloat-abi=hard "$folder/jump.c" "$board" -lc "$board"
+    expect 0 " 50 calls" time --elf "$folder/jump.elf" --function checked
 fi
 
 # Linked for a chip's flash: said in a sentence, not by a register dump of the emulator.
@@ -325,8 +342,63 @@ C
 build interrupt.elf "$folder/interrupt.c"
 expect 0 "handled on " time --elf "$folder/interrupt.elf" --function handled --json "$folder/handled.json"
 has "$folder/handled.json" '"median": 2,'
+# The handler itself: no address says where it returns to. A call each, and no instruction of what it interrupts.
+expect 0 "tick on " time --elf "$folder/interrupt.elf" --function tick --function handled --json "$folder/tick.json"
+own=$(arm-none-eabi-objdump -d --disassemble=tick "$folder/interrupt.elf" | grep '^ *[0-9a-f]*:' | grep -vc '\.word')
+tr -d ' \n' <"$folder/tick.json" >"$folder/flat"
+has "$folder/flat" "\"instructions\":{\"min\":$((own + 2)),\"median\":$((own + 2)),\"max\":$((own + 2))}"
+grep -o '"calls":[0-9]*' "$folder/flat" | sort -u | grep -c . | grep -qx 1 || fail "tick: expected as many calls as of what it calls"
+grep -q '"calls":[0-4],' "$folder/flat" && fail "tick: expected at least five calls"
 expect 0 "wait_for on " time --elf "$folder/interrupt.elf" --function wait_for --json "$folder/wait.json"
 has "$folder/wait.json" '"calls": 1,'
+
+# Two tasks, which SysTick has PendSV switch, as a small operating system does it: each handler's calls are its own.
+cat >"$folder/tasks.c" <<'C'
+#define KEEP __attribute__((noinline, noclone))
+typedef unsigned u32;
+volatile int ticks, sink[2];
+volatile u32 now;
+u32 stacks[2][256], *volatile sp[2];
+extern char stack_top[];
+static void leave(void) {
+    u32 arguments[2] = {0x20026, 0};
+    register u32 r0 __asm__("r0") = 0x20;
+    register void *r1 __asm__("r1") = arguments;
+    __asm__ volatile("bkpt 0xab" : "+r"(r0) : "r"(r1) : "memory");
+}
+KEEP int step(int n) { int s = 0; for (int i = 0; i < 200; i++) { s += i ^ n; __asm__ volatile("" : "+r"(s)); } return s; }
+KEEP void task(int n) { for (;;) { sink[n] += step(n); if (ticks >= 40) { *(volatile u32 *)0xE000E010 = 0; leave(); } } }
+__attribute__((used)) u32 *next(u32 *of) { sp[now] = of; now ^= 1; return sp[now]; }
+__attribute__((naked)) void pend(void) {
+    __asm__ volatile("mrs r0, psp\n stmdb r0!, {r4-r11}\n push {r3, lr}\n bl next\n pop {r3, lr}\n ldmia r0!, {r4-r11}\n msr psp, r0\n bx lr");
+}
+void tick(void) { ++ticks; *(volatile u32 *)0xE000ED04 = 1u << 28; }
+void begin(void) {
+    for (u32 n = 0; n < 2; n++) {
+        sp[n] = stacks[n] + 240; /* r4 to r11, r0 to r3, r12, lr, pc, xPSR */
+        sp[n][8] = n;
+        sp[n][14] = (u32)task;
+        sp[n][15] = 1u << 24;
+    }
+    *(volatile u32 *)0xE000ED20 = 0xFFu << 16 | 0xF0u << 24;
+    *(volatile u32 *)0xE000E014 = 20000;
+    *(volatile u32 *)0xE000E018 = 0;
+    *(volatile u32 *)0xE000E010 = 7;
+    __asm__ volatile("msr psp, %0\n mov r0, #2\n msr control, r0\n isb" ::"r"(stacks[0] + 256) : "r0");
+    task(0);
+}
+__attribute__((section(".vectors"), used)) void *const vectors[16] = {
+    stack_top, (void *)begin, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, (void *)pend, (void *)tick};
+C
+arm-none-eabi-gcc -mcpu=cortex-m7 -mthumb -mfloat-abi=soft -O2 -ffreestanding -nostdlib -T "$foreign/map.ld" "$folder/tasks.c" -lgcc \
+    -o "$folder/tasks.elf" 2>"$folder/said" || cat "$folder/said"
+expect 0 "pend on " time --elf "$folder/tasks.elf" --function pend --function tick --json "$folder/tasks.json"
+tr -d ' \n' <"$folder/tasks.json" | sed 's/"function":/\n&/g' >"$folder/flat"
+for handler in pend tick; do
+    grep "^\"function\":\"$handler\"" "$folder/flat" | grep -q '"calls":[1-9][0-9],' || fail "$handler: expected some tens of calls: $(cat "$folder/flat" | cut -c 1-200)"
+done
+own=$(arm-none-eabi-objdump -d --disassemble=tick "$folder/tasks.elf" | grep '^ *[0-9a-f]*:' | grep -vc '\.word\|nop')
+grep '^"function":"tick"' "$folder/flat" | grep -q "\"min\":$own,\"median\":$own," || fail "tick: expected its $own instructions: $(grep tick "$folder/flat" | cut -c 1-300)"
 
 # The README's example.
 if [ -e "$firmware/targets/biquad.elf" ]; then

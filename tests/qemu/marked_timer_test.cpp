@@ -53,7 +53,7 @@ TEST(MarkedTimer, WithoutMarksEachFunctionHasALogOfItsOwn) {
 
 TEST(MarkedTimer, KnowsWhereTheProgramFaulted) {
     std::stringstream log;
-    qemu::MarkedTimer timer({0x100}, cores(), {}, log, {}, {0x140});
+    qemu::MarkedTimer timer({0x100}, cores(), {}, log, {}, {}, {0x140});
     EXPECT_FALSE(timer.fault());
     call(timer);
     EXPECT_EQ(timer.fault(), 0x102U);

@@ -314,6 +314,129 @@ TEST(CallTimer, MarksThatDoNotPairAreToldWithTheirPlaces) {
     EXPECT_FALSE(p.finish().stretch_marks().misused());
 }
 
+// A handler at 0x100 and another at 0x180: no address says where they return to.
+class Interrupted : public Program {
+public:
+    explicit Interrupted(std::set<std::uint32_t> handlers = {0x100, 0x180}) {
+        timer().watch_exceptions(std::move(handlers));
+    }
+    std::vector<std::uint64_t> instructions() {
+        EXPECT_FALSE(finish().inside());
+        std::vector<std::uint64_t> each;
+        for (const timing::TimedCall& call : calls) {
+            each.push_back(call.instructions);
+        }
+        return each;
+    }
+};
+
+TEST(CallTimer, AHandlerEndsWhereItReturnsToWhatItInterrupted) {
+    for (const bool known : {true, false}) {  // one that the vector table does not name is known by being watched
+        Interrupted p(known ? std::set<std::uint32_t>{0x100} : std::set<std::uint32_t>{});
+        p.call(0x10);
+        p.add(0x400);
+        p.add(0x100);  // between two instructions of the callee
+        p.call(0x102);
+        p.add(0x300);
+        p.give_back(0x302);
+        p.add(0x106);
+        p.give_back(0x108);
+        p.add(0x402);
+        p.add(0x404);
+        p.give_back(0x406);
+        p.add(0x100);  // behind its return
+        p.give_back(0x108);
+        p.add(0x14);
+        EXPECT_EQ(p.instructions(), (std::vector<std::uint64_t>{6, 2})) << known;
+    }
+}
+
+TEST(CallTimer, AHandlerBehindAHandlerIsACallOfItsOwn) {
+    Interrupted p;
+    p.add(0x10);
+    for (const int adds : {0, 1, 0}) {  // tail-chained: no instruction of the program lies between
+        p.add(0x100);
+        for (int i = 0; i < adds; ++i) {
+            p.add(0x102);
+        }
+        p.give_back(0x104);
+    }
+    p.add(0x180);
+    p.give_back(0x182);
+    p.add(0x100);
+    p.give_back(0x104);
+    p.add(0x12);
+    EXPECT_EQ(p.instructions(), (std::vector<std::uint64_t>{2, 3, 2, 2}));
+}
+
+TEST(CallTimer, AHandlerWithinAHandlerCountsAndDoesNotEndIt) {
+    Interrupted p;
+    p.add(0x10);
+    p.add(0x100);
+    p.call(0x102);
+    p.add(0x180);  // before the callee's first instruction
+    p.give_back(0x182);
+    p.add(0x300);
+    p.give_back(0x302);
+    p.add(0x180);  // before what the callee returns to
+    p.add(0x184);
+    p.give_back(0x186);
+    p.add(0x106);
+    p.add(0x180);
+    p.give_back(0x182);
+    p.give_back(0x108);
+    p.add(0x12);
+    EXPECT_EQ(p.instructions(), (std::vector<std::uint64_t>{13}));
+}
+
+// As any other function, too: called, jumped to, and with a loop to its first instruction.
+TEST(CallTimer, AHandlerMayBeCalled) {
+    Interrupted p;
+    p.call(0x10);
+    p.add(0x100);
+    p.jump(0x102);  // a loop
+    p.add(0x100);
+    p.jump(0x102);
+    p.add(0x100);
+    p.give_back(0x104);
+    p.add(0x14);
+    p.call(0x20);
+    p.add(0x300);
+    p.jump(0x302);
+    p.add(0x100);
+    p.give_back(0x104);
+    p.add(0x24);
+    p.add(0x26);
+    EXPECT_EQ(p.instructions(), (std::vector<std::uint64_t>{6, 2}));
+}
+
+// 0x600 restores all registers. The caller lies from 0x10, what it catches in from 0x700; the callees from 0x100,
+// 0x300.
+TEST(CallTimer, ACallThatAnExceptionLeavesEndsWhereItIsCaught) {
+    Program p;
+    p.timer().watch_unwinding(
+        {{{0x600, 0x610}}, {{0x10, 1}, {0x100, 2}, {0x300, 3}, {0x600, 6}, {0x700, 1}, {0x720, 7}}});
+    for (int calls = 0; calls < 2; ++calls) {
+        p.call(0x10);
+        p.add(0x100);
+        p.call(0x102);
+        p.add(0x300);
+        p.call(0x302);
+        p.give_back(0x600);
+        p.add(0x108);  // the callee destroys what it has
+        p.call(0x10A);
+        p.give_back(0x600);
+        p.add(0x700);
+        p.jump(0x702);
+        p.add(0x14);
+    }
+    p.finish();
+    ASSERT_EQ(p.calls.size(), 2U);
+    EXPECT_EQ(p.calls[0].instructions, 8U);
+    EXPECT_EQ(p.calls[1].instructions, 8U);
+    EXPECT_FALSE(p.timer().recursive());
+}
+
 TEST(CallTimer, KnowsWhereTheProgramFirstFaulted) {
     Program p;
     p.timer().watch_faults({0x80, 0x90});
