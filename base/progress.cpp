@@ -45,6 +45,7 @@ std::string Progress::remaining(double seconds) const {
 void Progress::show() {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     shown_tenth_ = done_ * 10 / total_;
+    std::fflush(stdout);  // or a line of what both write to might end behind this one
     if (!terminal_) {
         fmt::print(stderr, "{}: {} of {}, {:.0f} s\n", title_, done_, total_, seconds);
         return;

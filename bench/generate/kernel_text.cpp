@@ -18,7 +18,6 @@
 #include "glsum/bound.hpp"
 #include "glsum/catalogue.hpp"
 #include "glsum/gain.hpp"
-#include "glsum/logmemory/nested.hpp"
 #include "glsum/registry.hpp"
 #include "targets/shared/output_hash.hpp"
 
@@ -96,8 +95,7 @@ HeaderText text_of(const Spec& spec) {
                    {"sample", c_type<typename K::Sample>()},
                    {"accumulator", c_type<Accumulator>()},
                    {"output", c_type<typename K::Output>()},
-                   {"accumulate", call + "multiply_add"},
-                   {"horner_step", call + "horner_step"},
+                   {"call", call},
                    {"rounded_once", kernel.fused ? ", product and addition rounded once" : ""}};
     for (const std::string_view word : {kernel.history, kernel.unfused, kernel.format}) {
         text.facts[std::string(word)] = 1;
@@ -106,9 +104,6 @@ HeaderText text_of(const Spec& spec) {
     text.facts["fixed"] = Format::fixed_point;
     text.facts["in_software"] = in_software;
     text.facts["two_pieces"] = !K::HistoryPart::contiguous;
-    text.facts["increments"] = kernel.forgotten == glsum::Forgotten::increments;
-    text.facts["line"] = kernel.forgotten == glsum::Forgotten::line;
-    text.facts["guesses"] = text.facts["line"] != 0 || kernel.forgotten == glsum::Forgotten::held;
     text.facts["alone"] = spec.taps == 1;
     return text;
 }
@@ -132,6 +127,17 @@ struct Says {
     }
 };
 
+// The numbers that a history, and what it wraps, says of itself.
+template <class History, class State, class Sample>
+void add_constants(const glsum::Design& design, const State& state, const Says<Sample>& says) {
+    if constexpr (requires { typename History::kept; }) {
+        add_constants<typename History::kept>(design, state, says);
+    }
+    if constexpr (requires { History::constants(design, state, says); }) {
+        History::constants(design, state, says);
+    }
+}
+
 // What makes a derivative of the sum, where the step is known.
 template <class Sample>
 void add_factor(HeaderText& text, const Spec& spec) {
@@ -149,10 +155,11 @@ void add_factor(HeaderText& text, const Spec& spec) {
 template <class K>
 void add_scale(HeaderText& text, const typename K::State& state) {
     using Format = typename K::FormatPart;
-    const int increments = text.facts["increments"] != 0 ? 1 : 0;  // of half the scale
-    const int output_exponent = state.scale.output_exponent + increments;
+    // 1 where a kernel holds samples at half of their scale.
+    const int halved = std::ilogb(K::to_real(state, 1) / Format::to_real(1, state.scale));
+    const int output_exponent = state.scale.output_exponent + halved;
     Places& places = text.places;
-    places["sample_bits"] = std::to_string(Format::sample_bits - increments);
+    places["sample_bits"] = std::to_string(Format::sample_bits - halved);
     places["sample_width"] = std::to_string(Format::sample_bits + 1);
     places["coefficient_bits"] = std::to_string(Format::coefficient_bits);
     places["coefficient_width"] = std::to_string(Format::coefficient_bits + 1);
@@ -161,7 +168,7 @@ void add_scale(HeaderText& text, const typename K::State& state) {
     places["output_exponent"] = std::to_string(output_exponent);
     places["output_shift"] = std::to_string(state.scale.output_shift);
     places["plural"] = output_exponent == 1 ? "" : "s";
-    places["input_range"] = increments != 0 ? "-2 <= x < 2" : "-1 <= x < 1";
+    places["input_range"] = fmt::format("-{0} <= x < {0}", 1 << halved);
 }
 
 // The table, and of two coefficients a word those of the first in its lower half.
@@ -190,7 +197,7 @@ void add_table(HeaderText& text, std::span<const Coefficient> table) {
 // Inputs of the self-check, repeated past twice the window, so that every history wraps, and two turns more; the first
 // and the last outputs, and the hash of all.
 template <class K>
-void add_check(HeaderText& text, bench::HostLine<K>& line, std::size_t held) {
+void add_check(HeaderText& text, bench::HostLine<K>& line) {
     using Output = typename K::Output;
     using Bits = std::conditional_t<sizeof(Output) == 8, std::uint64_t, std::uint32_t>;
     std::vector<typename K::Sample> inputs;
@@ -198,6 +205,7 @@ void add_check(HeaderText& text, bench::HostLine<K>& line, std::size_t held) {
         inputs.push_back(K::from_real(real));
     }
     const std::size_t check = inputs.size();
+    const auto held = static_cast<std::size_t>(text.facts.at("held"));
     const std::size_t steps = ((2 * held + 3 + check - 1) / check + 2) * check;
     firmware::OutputHash hash;
     std::vector<Bits> outputs;
@@ -215,7 +223,6 @@ void add_check(HeaderText& text, bench::HostLine<K>& line, std::size_t held) {
     add("last", c_type<Bits>(), all.last(check));
     text.places["output_bits"] = c_type<Bits>();
     text.places["hash"] = literal(hash.value());
-    text.facts["held"] = static_cast<long>(held);
     text.facts["check"] = static_cast<long>(check);
     text.facts["steps"] = static_cast<long>(steps);
     text.facts["from"] = static_cast<long>(steps - check);
@@ -224,7 +231,6 @@ void add_check(HeaderText& text, bench::HostLine<K>& line, std::size_t held) {
 template <class K>
 HeaderText text_for(const Spec& spec) {
     using Technique = typename K::TechniquePart;
-    using History = typename K::HistoryPart;
     using Sample = typename K::Sample;
     const std::string kernel(K::name());
     const bench::Length length = length_of(spec);
@@ -246,18 +252,11 @@ HeaderText text_for(const Spec& spec) {
     HeaderText text = text_of<K>(spec);
     const Says<Sample> says{text};
     says("taps", spec.taps);
-    says("past", past - 2 * design.modes.size() - design.blocks.count);
-    says("near_taps", spec.taps - 2 * design.modes.size() - design.blocks.count);
+    says("past", past);
+    says("held", past);
     says("horizon", spec.horizon);
-    says("modes", design.modes.size());
-    says("decaying", std::count_if(design.modes.begin(), design.modes.end(),
-                                   [](const glsum::Mode& mode) { return mode.decay != 0.0; }));
-    says("blocks", design.blocks.count);
-    says("per_level", design.blocks.per_level);
     says("samples", std::max<std::size_t>(1, glsum::past_needed<K>(design)));
-    if constexpr (requires { History::constants(state, says); }) {
-        History::constants(state, says);
-    }
+    add_constants<typename K::HistoryPart>(design, state, says);
     if constexpr (requires { Technique::constants(state.table, past, says); }) {
         Technique::constants(state.table, past, says);
     }
@@ -273,7 +272,7 @@ HeaderText text_for(const Spec& spec) {
     }
     add_factor<Sample>(text, spec);
     add_table(text, table);
-    add_check(text, line, glsum::reach_of(design) - 1);
+    add_check(text, line);
     text.places["error_bound"] = base::rounded_up(glsum::error_bound<K>(design, state, 1.0, spec.horizon));
     text.places["design_error"] =
         base::rounded_up(spec.fitted ? 0.0 : bench::design_error(kernel, spec.order, design, spec.horizon));

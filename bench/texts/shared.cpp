@@ -12,8 +12,7 @@ bool in_word(char letter) { return std::isalnum(static_cast<unsigned char>(lette
 
 // What every text has alike.
 const Words common = {
-    {"accumulate<Format, fused>", "@accumulate@"},
-    {"Format::template horner_step<fused>", "@horner_step@"},
+    {"accumulate<Format, fused>", "@call@multiply_add"},
     {"static_cast<", "("},
     {"if constexpr ", "if "},
     {", scale)", ")"},

@@ -1,6 +1,6 @@
 // What a history says of itself to those that have only its kernel's name: the family that it belongs to, and what it
 // takes for the samples that it does not keep. Each says it in its own header; the catalogue collects it. To a
-// generated header a history says by `constants(state, says)` which numbers of its state are constants there:
+// generated header a history says by `constants(design, state, says)` which numbers of these are constants there:
 // says(name, number); by `text` which file NAME.h.in has its statements, where that is not its word; and by `kept`
 // which history it wraps, whose statements it has beside its own.
 #pragma once

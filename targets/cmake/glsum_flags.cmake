@@ -38,8 +38,15 @@ function(glsum_unite target)
     set_source_files_properties(${united_APART} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# Peers are measured at their best on this machine.
-set(GLSUM_PEER_FLAGS "-O3 -march=native -ffast-math")
+# Peers are measured at their best on this machine, or on one that ends where the vector kernels are told to.
+set(peer_machine_sse2 x86-64)
+set(peer_machine_avx2 haswell)
+set(peer_machine_avx512f skylake-avx512)
+set(peer_machine_ native)
+if(NOT DEFINED peer_machine_${GLSUM_SIMD_UP_TO})
+    message(FATAL_ERROR "GLSUM_SIMD_UP_TO: expected sse2, avx2, avx512f or nothing, found ${GLSUM_SIMD_UP_TO}")
+endif()
+set(GLSUM_PEER_FLAGS "-O3 -march=${peer_machine_${GLSUM_SIMD_UP_TO}} -ffast-math")
 
 # No product may be fused with its addition unless a kernel's name says so: host and target must agree bit for bit.
 set(GLSUM_CONTRACTION -ffp-contract=off)

@@ -69,7 +69,7 @@ TEST(Technique, FewModesAreUnrolled) {
     const auto text = [](long modes, bool compensated, bool in_software = false) {
         generate::HeaderText made;
         made.facts = {{"past", 2}, {"decaying", modes}, {"compensated", compensated}, {"in_software", in_software}};
-        for (const char* place : {"name", "sample", "coefficient", "accumulator", "accumulate", "rolled"}) {
+        for (const char* place : {"name", "sample", "coefficient", "accumulator", "call", "rolled"}) {
             made.places[place] = "";
         }
         made.places["NAME"] = "MY";

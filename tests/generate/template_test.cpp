@@ -21,7 +21,7 @@ HeaderText text_of(const Facts& facts, const std::vector<std::string>& history,
                    const std::string& technique = "multi") {
     HeaderText text;
     text.facts = facts;
-    for (const char* place : {"name", "sample", "coefficient", "accumulator", "output", "accumulate", "own summary",
+    for (const char* place : {"name", "sample", "coefficient", "accumulator", "output", "call", "own summary",
                               "own fields", "weight", "rounded_once"}) {
         text.places[place] = place;
     }

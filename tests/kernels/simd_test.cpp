@@ -27,12 +27,17 @@ bool is_here() {
     }(xsimd::available_architectures());
 }
 
+template <class T>
+using Table = std::vector<T, xsimd::aligned_allocator<T, 64>>;
+
 // All instruction sets of the library that this machine has, not only the one that is chosen.
 template <class T, bool fused, class... Architectures>
 void check_each(xsimd::arch_list<Architectures...>, const std::vector<T>& a, const std::vector<T>& x, T expected) {
     const auto check = [&]<class Architecture>(Architecture) {
         if (is_here<Architecture>()) {
-            const T found = glsum::simd_dot_on<T, fused, Architecture>(a.data(), x.data(), a.size() * sizeof(T) / 64);
+            const Table<T> table(a.begin(), a.end());
+            const T found =
+                glsum::simd_dot_on<T, fused, Architecture>(table.data(), x.data(), a.size() * sizeof(T) / 64);
             EXPECT_EQ(found, expected) << Architecture::name() << (fused ? ", fused, " : ", ") << a.size();
         }
     };
@@ -52,8 +57,9 @@ void check() {
         }
         check_each<T, false>(glsum::SimdArchitectures{}, a, x, test::in_the_stated_order<false>(a, x));
         check_each<T, true>(glsum::SimdArchitectures{}, a, x, test::in_the_stated_order<true>(a, x));
-        EXPECT_EQ((glsum::simd_dot<T, false>(a.data(), x.data(), blocks)), test::in_the_stated_order<false>(a, x));
-        EXPECT_EQ((glsum::simd_dot<T, true>(a.data(), x.data(), blocks)), test::in_the_stated_order<true>(a, x));
+        const Table<T> table(a.begin(), a.end());
+        EXPECT_EQ((glsum::simd_dot<T, false>(table.data(), x.data(), blocks)), test::in_the_stated_order<false>(a, x));
+        EXPECT_EQ((glsum::simd_dot<T, true>(table.data(), x.data(), blocks)), test::in_the_stated_order<true>(a, x));
     }
 }
 
@@ -74,16 +80,19 @@ void check_slides_on_each(xsimd::arch_list<Architectures...>, std::size_t blocks
         const auto draw = [&] { return static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5); };
         std::vector<T> a(blocks * block);
         std::generate(a.begin(), a.end(), draw);
+        const Table<T> table(a.begin(), a.end());
         std::vector<T> window(a.size());  // newest first
         std::vector<T> without_newest(a.size());
         alignas(64) T recent[block] = {};
         for (std::size_t k = 0; k < 3 * block; ++k) {
-            // What lies in the window's first block is not read.
             without_newest = window;
-            std::fill(without_newest.begin(), without_newest.begin() + block, T(1e30));
+            if constexpr (glsum::keeps_recent<Architecture>) {  // then what lies in the window's first block is not
+                                                                // read
+                std::fill(without_newest.begin(), without_newest.begin() + block, T(1e30));
+            }
             const T newest = draw();
-            const T found =
-                glsum::simd_slide_on<T, fused, Architecture>(a.data(), without_newest.data(), recent, blocks, newest);
+            const T found = glsum::simd_slide_on<T, fused, Architecture>(table.data(), without_newest.data(), recent,
+                                                                         blocks, newest);
             ASSERT_EQ(found, (test::in_the_stated_order<fused>(a, window)))
                 << Architecture::name() << ' ' << blocks << ' ' << k;
             window.insert(window.begin(), newest);

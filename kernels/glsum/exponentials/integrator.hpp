@@ -31,7 +31,7 @@ struct Integrator {
     static constexpr bool contiguous = true;
 
     template <class State, class Says>
-    static void constants(const State& state, Says&& says) {
+    static void constants(const Design&, const State& state, Says&& says) {
         says("weight", state.weight);
     }
 };

@@ -23,10 +23,13 @@
 // far those are from the weights of the order is the design's certificate.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <string_view>
 
 #include "glsum/family.hpp"
+#include "glsum/kernel.hpp"
 
 namespace glsum {
 
@@ -40,6 +43,16 @@ struct Modes {
     static constexpr std::string_view word = "modes";
     static constexpr Family family = exponentials_family;
     static constexpr bool contiguous = true;
+
+    template <class State, class Says>
+    static void constants(const Design& design, const State&, Says&& says) {
+        const std::size_t near_taps = design.taps - 2 * design.modes.size();
+        says("past", near_taps - 1);
+        says("near_taps", near_taps);
+        says("modes", design.modes.size());
+        says("decaying", std::count_if(design.modes.begin(), design.modes.end(),
+                                       [](const Mode& mode) { return mode.decay != 0.0; }));
+    }
 };
 
 }  // namespace glsum

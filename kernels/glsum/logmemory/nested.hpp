@@ -50,6 +50,15 @@ struct Nested {
     static constexpr std::string_view word = "nested";
     static constexpr Family family = logmemory_family;
     static constexpr bool contiguous = false;
+
+    template <class State, class Says>
+    static void constants(const Design& design, const State& state, Says&& says) {
+        says("past", state.near_samples);
+        says("near_taps", state.near_samples + 1);
+        says("held", state.past_samples);
+        says("blocks", design.blocks.count);
+        says("per_level", design.blocks.per_level);
+    }
 };
 
 /// Whether a history takes block sums in place of a long window.

@@ -26,6 +26,7 @@
 #include <string_view>
 
 #include "glsum/family.hpp"
+#include "glsum/kernel.hpp"
 
 namespace glsum {
 
@@ -41,7 +42,7 @@ struct Block {
     static constexpr std::size_t groups(std::size_t past) { return (past + phases - 1) / phases; }
 
     template <class State, class Says>
-    static void constants(const State& state, Says&& says) {
+    static void constants(const Design&, const State& state, Says&& says) {
         says("groups", state.groups);
     }
 };

@@ -15,12 +15,14 @@
 namespace glsum {
 
 /// sum of a[i] x[i] over blocks of 64 bytes, in the order above, on the best instruction set of this machine.
+/// \param a  aligned to 64 bytes: SSE2's product then loads it itself
 /// \tparam fused  each product and its addition rounded once
 template <class T, bool fused>
 [[nodiscard]] T simd_dot(const T* a, const T* x, std::size_t blocks);
 /// The same, but that the first block of samples is taken from `recent`, into which `newest` moves afterwards. The
 /// samples stored by the last calls could be loaded as a vector only once all of these stores are done; `recent` is
-/// stored as it is loaded. \param recent  64 bytes, aligned to as many
+/// stored as it is loaded. Where vectors are short that costs more than it saves, and `recent` is left alone.
+/// \param x  of `blocks` blocks, the newest among them \param recent  64 bytes, aligned to as many
 template <class T, bool fused>
 [[nodiscard]] T simd_slide(const T* a, const T* x, T* recent, std::size_t blocks, T newest);
 /// The name of that instruction set, as xsimd has it: "avx512f", "avx2", "sse2", "arm64+neon".

@@ -53,7 +53,7 @@ struct Accumulator {
     template <bool fused>
     void add(const T* a, const T* x) {
         each([&](auto part) {
-            sums[part] = add_product<fused>(sums[part], Batch::load_unaligned(a + part * Batch::size),
+            sums[part] = add_product<fused>(sums[part], Batch::load_aligned(a + part * Batch::size),
                                             Batch::load_unaligned(x + part * Batch::size));
         });
     }
@@ -87,33 +87,35 @@ template <bool fused, class T, class Architecture>
     Accumulator<T, Architecture> s2;
     Accumulator<T, Architecture> s3;
     const T* const end = a + blocks * block;
-    const auto add_others = [&] {
-        if (a + block < end) {
-            s1.template add<fused>(a + block, x + block);
-        }
-        if (a + 2 * block < end) {
-            s2.template add<fused>(a + 2 * block, x + 2 * block);
-        }
-        if (a + 3 * block < end) {
-            s3.template add<fused>(a + 3 * block, x + 3 * block);
-        }
-    };
-    if (a < end) {
-        s0.template add<fused>(a, first);
-    }
-    add_others();
-    a += 4 * block;
-    x += 4 * block;
-    for (; a + 3 * block < end; a += 4 * block, x += 4 * block) {
-        s0.template add<fused>(a, x);
+    const auto add_four = [&](const T* from) {
+        s0.template add<fused>(a, from);
         s1.template add<fused>(a + block, x + block);
         s2.template add<fused>(a + 2 * block, x + 2 * block);
         s3.template add<fused>(a + 3 * block, x + 3 * block);
+        a += 4 * block;
+        x += 4 * block;
+    };
+    // One in another, and each expected: of a short window jumps would cost as much as what they jump to.
+    const auto add_rest = [&](const T* from) {
+        if (a < end) [[likely]] {
+            s0.template add<fused>(a, from);
+            if (a + block < end) [[likely]] {
+                s1.template add<fused>(a + block, x + block);
+                if (a + 2 * block < end) [[likely]] {
+                    s2.template add<fused>(a + 2 * block, x + 2 * block);
+                }
+            }
+        }
+    };
+    if (blocks >= 4) [[likely]] {
+        add_four(first);
+        while (a + 3 * block < end) {
+            add_four(x);
+        }
+        add_rest(x);
+    } else {
+        add_rest(first);
     }
-    if (a < end) {
-        s0.template add<fused>(a, x);
-    }
-    add_others();
     s0.add(s1);
     s2.add(s3);
     s0.add(s2);
@@ -141,16 +143,20 @@ T simd_dot_on(const T* a, const T* x, std::size_t blocks) {
 template <class T, bool fused, class Architecture>
 T simd_slide_on(const T* a, const T* x, T* recent, std::size_t blocks, T newest) {
     using Batch = xsimd::batch<T, Architecture>;
-    constexpr std::size_t parts = 64 / sizeof(T) / Batch::size;
-    const T sum = sum_of<T, fused, Architecture>(a, recent, x, blocks);
-    Batch before(newest);
-    for (std::size_t part = 0; part < parts; ++part) {
-        const Batch values = Batch::load_aligned(recent + part * Batch::size);
-        moved_up(values, before, std::make_index_sequence<Batch::size - 1>{})
-            .store_aligned(recent + part * Batch::size);
-        before = values;
+    [[maybe_unused]] constexpr std::size_t parts = 64 / sizeof(T) / Batch::size;
+    if constexpr (!keeps_recent<Architecture>) {
+        return sum_of<T, fused, Architecture>(a, x, x, blocks);
+    } else {
+        const T sum = sum_of<T, fused, Architecture>(a, recent, x, blocks);
+        Batch before(newest);
+        for (std::size_t part = 0; part < parts; ++part) {
+            const Batch values = Batch::load_aligned(recent + part * Batch::size);
+            moved_up(values, before, std::make_index_sequence<Batch::size - 1>{})
+                .store_aligned(recent + part * Batch::size);
+            before = values;
+        }
+        return sum;
     }
-    return sum;
 }
 
 using Here = GLSUM_SIMD_ARCHITECTURE;

@@ -35,6 +35,11 @@ struct Delta {
     static constexpr Family family = Kept::family;
     static constexpr Forgotten forgotten = Forgotten::increments;
     static constexpr bool contiguous = Kept::contiguous;
+
+    template <class State, class Says>
+    static void constants(const Design&, const State&, Says&& says) {
+        says("increments", true);
+    }
 };
 using MirrorDelta = Delta<Mirror>;
 using ModesDelta = Delta<Modes>;

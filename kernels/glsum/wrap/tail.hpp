@@ -45,9 +45,10 @@ struct Guess {
     static constexpr bool contiguous = true;
 
     template <class State, class Says>
-    static void constants(const State& state, Says&& says) {
+    static void constants(const Design&, const State& state, Says&& says) {
         says("in_window", state.in_window);
         says("minus_order", state.minus_order);
+        says("line", to_first);
     }
 };
 using MirrorHold = Guess<false>;
