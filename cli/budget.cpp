@@ -60,9 +60,8 @@ std::shared_ptr<Budget> add_budget(Command& command, bool needs_order) {
     command.add_flag("--quick", budget->quick, "Records of 1000 samples instead of 5000, like bench --quick");
     command
         .add_option("--samples", budget->samples,
-                    needs_order ? "Records of so many samples"
-                                : "Records of so many samples; 8000 at most, of a controller or a model ten million")
-        .between(2, needs_order ? most_samples_of_a_sum : 10'000'000);
+                    "Records of so many samples; of a sum the time of a search grows with their square")
+        .between(2, most_samples_of_a_record);
     command.add_option("--jobs", budget->jobs, "Threads and emulators at once").at_least(1);
     return budget;
 }

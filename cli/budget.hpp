@@ -11,8 +11,8 @@
 
 namespace cli {
 
-/// Exact sums of each sample with all before it, in 50 digits: more would take minutes.
-inline constexpr std::size_t most_samples_of_a_sum = 8000;
+/// Of a record: hours and gigabytes, where a sum's full memory is searched.
+inline constexpr std::size_t most_samples_of_a_record = 10'000'000;
 
 struct Budget {
     double order = 0.0;

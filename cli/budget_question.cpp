@@ -106,10 +106,6 @@ choose::Question to_question(const Budget& budget) {
     question.conditions.step_s = budget.step_s;
     question.conditions.signals = to_signals(budget);
     question.conditions.samples = samples_of(budget);
-    if (question.conditions.samples < 2 || question.conditions.samples > most_samples_of_a_sum) {
-        refuse(fmt::format("--samples: expected 2 to {} of a sum, found {}", most_samples_of_a_sum,
-                           question.conditions.samples));
-    }
     question.target = *target;
     const bool counts = question.target == choose::Target::host || (budget.max_instructions && budget.core.empty());
     question.core = counts ? "" : core_of(budget);

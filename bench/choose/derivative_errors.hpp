@@ -8,6 +8,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/choose/errors.hpp"
@@ -16,7 +17,8 @@
 
 namespace choose {
 
-/// The filter of a length, and of each kernel what its format and its arithmetic add. The error of a kernel is that of
+/// The filter of a length, and of each kernel what its format and its arithmetic add. Where a kernel's noise is most of
+/// its error, filters of smaller coefficients are fitted, too, and the best is taken. The error of a kernel is that of
 /// the filter that it holds, its table read back, and the noise of its arithmetic (kernel_run.hpp).
 class DerivativeErrors : public ErrorSource {
 public:
@@ -49,7 +51,19 @@ private:
         std::size_t modes;
         glsum::design::FilterKind kind;
         glsum::design::Poles poles;
+        double cost;  ///< of coefficients
         auto operator<=>(const Key&) const = default;
+    };
+    /// What a kernel makes of a filter at a length.
+    struct Judged {
+        const glsum::design::FittedFilter* filter = nullptr;
+        std::string fault;
+        glsum::design::DerivativeError error;
+        double noise = 0.0;  ///< of the band, a part of the error
+    };
+    struct JudgedOnce {
+        std::once_flag flag;
+        Judged judged;
     };
     struct Once {
         std::once_flag flag;
@@ -61,11 +75,15 @@ private:
     [[nodiscard]] Once& entry_of(const Key& key);
     /// Of what a kernel holds; of the fitted filter itself once for all.
     [[nodiscard]] glsum::design::DerivativeError certified_error_of(const Key& key, const Held& held);
+    /// \pre `why_not(kernel)` is empty
+    [[nodiscard]] const Judged& judged(const std::string& kernel, std::size_t taps);
+    [[nodiscard]] Judged judge(const std::string& kernel, std::size_t taps, const Key& key);
     [[nodiscard]] Key key_of(const std::string& kernel, std::size_t taps) const;
 
     glsum::design::DerivativeGoal goal_;
     std::mutex mutex_;
     std::map<Key, std::unique_ptr<Once>> fitted_;
+    std::map<std::pair<std::string, std::size_t>, std::unique_ptr<JudgedOnce>> judged_;
 };
 
 /// "80 Hz", or "60 s" where the step's error is the larger one.

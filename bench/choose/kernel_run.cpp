@@ -69,12 +69,6 @@ design::Filter scaled(design::Filter filter, double factor) {
     return filter;
 }
 
-// The least of what a band's errors are relative to.
-double least_of_band(const design::DerivativeGoal& goal) {
-    return std::min(std::abs(design::exact_response(goal.order, goal.band->low_hz)),
-                    std::abs(design::exact_response(goal.order, goal.band->high_hz)));
-}
-
 template <class K>
 void run_noise(bench::HostLine<K>& line, const design::DerivativeGoal& goal, double factor, Held& found) {
     // visit(k, difference) behind each sample.
@@ -99,14 +93,15 @@ void run_noise(bench::HostLine<K>& line, const design::DerivativeGoal& goal, dou
     }
     if (goal.band) {
         constexpr double periods = 4.0;
-        const double least = least_of_band(goal);
-        for (const double hz : {goal.band->low_hz, goal.band->high_hz}) {
+        const auto [low_hz, high_hz] = *goal.band;
+        for (const double hz : {low_hz, std::sqrt(low_hz * high_hz), high_hz}) {
             const double angle = 2.0 * std::numbers::pi * hz * goal.step_s;
+            const double wanted = std::abs(design::exact_response(goal.order, hz));
             compare(
-                static_cast<std::size_t>(std::ceil(periods / (goal.band->low_hz * goal.step_s))),
+                static_cast<std::size_t>(std::ceil(periods / (low_hz * goal.step_s))),
                 [&](std::size_t k) { return std::sin(angle * static_cast<double>(k)); },
                 [&](std::size_t, double difference) {
-                    found.band_noise = std::max(found.band_noise, difference / least);
+                    found.band_noise = std::max(found.band_noise, difference / wanted);
                 });
         }
     }
@@ -114,7 +109,9 @@ void run_noise(bench::HostLine<K>& line, const design::DerivativeGoal& goal, dou
 
 void bound_noise(const design::DerivativeGoal& goal, double bound, Held& found) {
     if (goal.band) {
-        found.band_noise = bound / least_of_band(goal);
+        // Of any record, so at each frequency the same: relative to the least |w^v| it is the largest.
+        found.band_noise = bound / std::min(std::abs(design::exact_response(goal.order, goal.band->low_hz)),
+                                            std::abs(design::exact_response(goal.order, goal.band->high_hz)));
     }
     if (goal.step_until_s) {
         const double first_s = static_cast<double>(design::first_of_step) * goal.step_s;

@@ -12,7 +12,7 @@ namespace choose {
 /// What a kernel holds of a fitted filter, and how far its arithmetic strays from that.
 struct Held {
     glsum::design::Filter filter;  ///< in units of the derivative
-    double band_noise = 0.0;       ///< largest, at full scale, relative to the least |w^v| of the band
+    double band_noise = 0.0;       ///< largest, of sines at full scale, relative to |w^v| of each one's frequency
     double step_noise = 0.0;       ///< largest, relative to the step's exact response at that time
     bool as_fitted = false;        ///< of a window: the filter is the design's own, rounding is in the noise
     std::string fault;             ///< why the kernel refused; empty if it did not
@@ -24,8 +24,8 @@ struct Held {
         return error;
     }
 };
-/// Runs a kernel with averages over the whole step, and four periods of a sine at both ends of the band; of a window
-/// the noise is its promised bound.
+/// Runs a kernel with averages over the whole step, and sines at both ends and in the middle of the band, each for four
+/// periods of the lowest; of a window the noise is its promised bound.
 [[nodiscard]] Held hold(const std::string& kernel, std::size_t taps, const glsum::design::DerivativeGoal& goal,
                         const glsum::design::FittedFilter& fitted);
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/failure.hpp"
@@ -11,6 +10,7 @@
 #include "base/progress.hpp"
 #include "bench/sweep/signals.hpp"
 #include "glsum/weights.hpp"
+#include "reference/full_sums.hpp"
 
 namespace choose {
 namespace {
@@ -41,14 +41,13 @@ std::vector<double> truncation(const std::vector<double>& x, double order, doubl
 
 std::vector<Record> make_records(const Conditions& conditions, unsigned jobs) {
     const auto a = reference::weights(reference::Real(conditions.order), conditions.samples);
-    const std::array<std::size_t, 1> full = {conditions.samples};
     std::vector<Record> records(conditions.signals.size());
     base::Progress progress("exact sums", records.size());
     base::parallel_for(records.size(), jobs, [&](std::size_t i) {
         Record& record = records[i];
         record.signal = conditions.signals[i];
         record.samples = bench::make_signal(record.signal, conditions.samples, conditions.seed, conditions.step_s);
-        record.exact = std::move(reference::sums(a, record.samples, full).front());
+        record.exact = reference::full_sums(a, record.samples);
         record.peak = 0.0;
         for (const auto& sum : record.exact) {
             record.peak = std::max(record.peak, std::fabs(sum.high));

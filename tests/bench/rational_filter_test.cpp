@@ -97,4 +97,17 @@ TEST(RationalFilter, TunedIsNoWorseThanTheBandItself) {
     }
 }
 
+TEST(RationalFilter, AFittedOneOfAsManyPolesErrsLess) {
+    // Near half a decade a pole the rules come within 0.2 % of what is best.
+    for (const double order : {0.2, 0.5, -0.5}) {
+        for (const std::size_t poles : {2U, 3U, 4U}) {
+            const glsum::design::DerivativeGoal goal{order, 0.001, glsum::design::Band{0.8, 80.0}, {}};
+            const double fitted = fit_filter(goal, 1, poles, glsum::design::FilterKind::samples).error.band;
+            for (const RationalRule rule : {RationalRule::oustaloup, RationalRule::charef}) {
+                EXPECT_LT(fitted, tune_rational(rule, goal, poles).error) << order << ", " << poles;
+            }
+        }
+    }
+}
+
 }  // namespace

@@ -4,12 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 
 #include "reference/bdf.hpp"
 #include "reference/dropped.hpp"
+#include "reference/full_sums.hpp"
 #include "tests/bench/closed_forms.hpp"
 #include "tests/bench/digits.hpp"
 
@@ -35,6 +37,29 @@ TEST(Reference, WeightsAreTheBinomialCoefficients) {
             digits::expect_thirty(a[k], closed_form::weight(Real(order), k), std::string(order) + " weight");
         }
     }
+}
+
+TEST(Reference, OneProductHasTheSumsOfTheDefinition) {
+    std::vector<double> record;
+    for (std::size_t k = 0; k < samples; ++k) {
+        record.push_back((k % 7 < 3 ? -1.0 : 0.3) * std::pow(1e-3, static_cast<double>(k % 4)));
+    }
+    for (const char* order : {"0.5", "-1.3", "1.9909"}) {
+        for (const double sign : {1.0, -1.0}) {
+            std::vector<double> signed_record = record;
+            std::ranges::transform(record, signed_record.begin(), [&](double x) { return sign * x; });
+            const auto expected = full_sums(order, signed_record);
+            const auto found = reference::full_sums(reference::weights(Real(order), samples), signed_record);
+            ASSERT_EQ(found.size(), expected.size());
+            for (std::size_t k = 0; k < samples; ++k) {
+                EXPECT_LE(abs(to_real(found[k]) - to_real(expected[k])), abs(to_real(expected[k])) * 1e-31 + 1e-43)
+                    << order << " " << k;
+            }
+        }
+    }
+    EXPECT_TRUE(reference::full_sums(reference::weights(Real(0.5), 3), {}).empty());
+    EXPECT_THROW((void)reference::full_sums(reference::weights(Real(0.5), 3), std::vector<double>{1e20}),
+                 std::invalid_argument);
 }
 
 // Order 1 has the weights 1, -1: by hand what one tap, and of increments two, make of the rest.

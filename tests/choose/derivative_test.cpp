@@ -88,6 +88,23 @@ TEST(HeldFilter, NoiseIsOfTheFormatAndOfTheRecord) {
     EXPECT_GT(noise("modes_plain_f32"), 10.0 * noise("modes_compensated_f32"));
 }
 
+TEST(HeldFilter, NoiseOfASineIsRelativeToTheDerivativeAtItsOwnFrequency) {
+    // From end to end |w^v| changes by more than a thousand: what is lost in the large is much of the small.
+    const auto check = [](double order, const char* kernel, FilterKind kind) {
+        const FittedFilter fitted = fit_filter({order, 0.001, Band{0.02, 80.0}, {}}, 1, 5, kind);
+        const auto noise = [&](double low_hz, double high_hz) {
+            return hold(kernel, 11, {order, 0.001, Band{low_hz, high_hz}, {}}, fitted).band_noise;
+        };
+        const double middle_hz = std::sqrt(0.02 * 80.0);
+        const double largest_alone = std::max({noise(0.02, 0.02), noise(middle_hz, middle_hz), noise(80.0, 80.0)});
+        // Alone they are run for fewer samples.
+        EXPECT_LT(noise(0.02, 80.0), 10.0 * largest_alone) << kernel;
+        EXPECT_GE(noise(0.02, 80.0), 0.5 * largest_alone) << kernel;
+    };
+    check(-0.9, "modes_plain_f32", FilterKind::samples);
+    check(1.5, "modesdelta_plain_f32", FilterKind::increments);
+}
+
 TEST(DerivativeReport, WhatRunningGivesIsWithinTheCertificate) {
     for (const double order : {0.5, 0.9, -0.5}) {
         const DerivativeGoal goal = goal_of(order, 2.0);
@@ -180,6 +197,22 @@ TEST(DerivativeErrors, EachFormatIsCertifiedForWhatItHolds) {
         const auto report = choose::report_on(kernel, 9, goal, errors.filter_of(kernel, 9));
         EXPECT_EQ(errors.error(kernel, 9).error, report.certified.largest()) << kernel;
     }
+}
+
+TEST(DerivativeErrors, WhereNoiseIsMostOfTheErrorSmallerCoefficientsAreTaken) {
+    // What single precision cannot tell of a sample, w^1.5 makes much of at the low end of four decades.
+    const DerivativeGoal loud{1.5, 0.001, Band{0.008, 80.0}, {}};
+    const char* kernel = "modesdelta_plain_f32";
+    const FittedFilter nearest = fit_filter(loud, 1, 3, FilterKind::increments);
+    DerivativeErrors errors(loud);
+    const auto taken = errors.error(kernel, 7);
+    EXPECT_LT(taken.error, 0.9 * choose::report_on(kernel, 7, loud, nearest).certified.band);
+    EXPECT_EQ(taken.error, choose::report_on(kernel, 7, loud, errors.filter_of(kernel, 7)).certified.band);
+    EXPECT_GT(errors.filter_of(kernel, 7).error.band, nearest.error.band);
+    // Where the noise is little, the nearest it is.
+    const DerivativeGoal quiet{1.5, 0.001, Band{0.8, 80.0}, {}};
+    EXPECT_EQ(DerivativeErrors(quiet).filter_of(kernel, 7).error.band,
+              fit_filter(quiet, 1, 3, FilterKind::increments, glsum::design::Poles::one_may_swing).error.band);
 }
 
 TEST(WholeOrders, AreToldInASentence) {

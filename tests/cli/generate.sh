@@ -17,6 +17,8 @@ expect 2 "the coefficients do not fit the format" generate --order -1.9 --kernel
 [ ! -e "$folder/a.h" ] || fail "a refused header was written"
 expect 0 "ring_plain_q15 with 10 taps in" generate --order 0.5 --kernel ring_plain_q15 --taps 10 --samples 50 --out "$folder/a.h"
 expect 0 "taps in" generate --order 0.5 --step-s 0.001 --max-error 0.1 --target m7 --samples 60 --out "$folder/b.h" --verify
+expect 0 "taps in" generate --order 0.5 --step-s 0.001 --max-error 0.05 --target m7 --signal step --samples 20000 --out "$folder/long.h"
+grep -q 'over 20000 samples' "$folder/long.h" || fail "expected the header to name its record"
 grep -q 'Runner-up' "$folder/b.h" || fail "expected the runner-up in the header"
 # No header costs more than its kernel, whatever the rest of groups and the scale.
 for design in '0.5 100' '0.98319 51' '-0.5 62'; do

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include "glsum/design/band_fit_body.hpp"
@@ -42,6 +43,9 @@ double amplification(const Filter& filter) {
 
 constexpr int rough_rounds = 6;
 constexpr int rounds = 60;
+// Powers of the error whose sums are made small at last, each in so many steps.
+constexpr double powers[] = {4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0};
+constexpr int rounds_of_power = 8;
 
 // How far beyond 0 a pole may lie, tried in turn until coefficients are not too large: the nearer to the circle, the
 // longer it rings, and the larger its average.
@@ -72,6 +76,7 @@ struct Search {
     Eigen::Index moving;
     FilterKind kind;
     double most;  // of the amplification, if there is one with less
+    double cost;  // of coefficients at the least
 
     [[nodiscard]] Vector start(const Starts& starts, double swing, double ridge) const {
         Vector best = Vector::Zero(std::max<Eigen::Index>(moving, 0));
@@ -104,11 +109,21 @@ struct Search {
         Fit fit(goal, near_taps, kind, swing, ridge);
         fit.set(start);
         Found best{fit.filter(), std::numeric_limits<double>::infinity()};
-        for (int round = 0; round <= rounds; ++round) {
+        const auto keep = [&] {
             if (fit.error() < best.error && amplification(fit.filter()) <= most) {
                 best = {fit.filter(), fit.error()};
             }
+        };
+        for (int round = 0; round < rounds; ++round) {
+            keep();
             fit.improve(round < rounds / 2 || round % 2 == 0);
+        }
+        keep();
+        for (const double power : cost > 0.0 ? std::span<const double>() : std::span<const double>(powers)) {
+            for (int round = 0; round < rounds_of_power; ++round) {
+                fit.sharpen(power);
+                keep();
+            }
         }
         return best;
     }
@@ -116,7 +131,8 @@ struct Search {
     // All poles in [0, 1), with the least ridge that keeps coefficients small; where none does, with the largest.
     [[nodiscard]] Found decaying() const {
         Found found;
-        for (const double ridge : ridges) {
+        for (const double least : ridges) {
+            const double ridge = std::max(least, cost);
             found = from(start(of_decaying, 0.0, ridge), 0.0, ridge);
             if (std::isfinite(found.error)) {
                 break;
@@ -127,10 +143,10 @@ struct Search {
 
     // The last pole beyond 0, as far as coefficients are not too large.
     [[nodiscard]] Found swinging() const {
-        const Vector begin = start(of_swinging, swings[0], 0.0);
+        const Vector begin = start(of_swinging, swings[0], cost);
         Found found;
         for (const double swing : swings) {
-            found = from(begin, swing, 0.0);
+            found = from(begin, swing, cost);
             if (std::isfinite(found.error)) {
                 break;
             }
@@ -161,14 +177,14 @@ const FittedFilter& better_of(const FittedFilter& decaying, const FittedFilter& 
 }
 
 FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes, FilterKind kind,
-                        Poles poles) {
+                        Poles poles, double cost) {
     const std::size_t moving = moving_poles(modes, kind);
     if (poles == Poles::one_may_swing && moving > 0) {
-        return better_of(fit_filter(goal, near_taps, modes, kind, Poles::decaying),
-                         fit_filter(goal, near_taps, modes, kind, Poles::one_swings));
+        return better_of(fit_filter(goal, near_taps, modes, kind, Poles::decaying, cost),
+                         fit_filter(goal, near_taps, modes, kind, Poles::one_swings, cost));
     }
     const double unit = absolute_sum(order_of(goal, kind), goal.horizon() + 1);
-    const Search search{goal, near_taps, static_cast<Eigen::Index>(moving), kind, largest_amplification * unit};
+    const Search search{goal, near_taps, static_cast<Eigen::Index>(moving), kind, largest_amplification * unit, cost};
     Filter filter = (poles == Poles::one_swings ? search.swinging() : search.decaying()).filter;
     std::sort(filter.modes.begin(), filter.modes.end(), [](const Mode& a, const Mode& b) { return a.decay < b.decay; });
     const Filter whole = kind == FilterKind::increments ? of_samples(filter) : filter;

@@ -4,8 +4,9 @@
 // Given its poles, a filter of near taps and modes is linear in what is sought; its largest relative error is made
 // small by least squares whose weights follow the error (Lawson's iteration [Lawson1961]), and the poles, real and
 // inside the circle, are moved by Gauss-Newton steps of the weighted problem with the linear part solved for (variable
-// projection [GolubPereyra1973]). Oustaloup's and Charef's filters are of this form too, with poles and weights by
-// rule; Tustin's mapping turns their fastest poles negative, and so may one pole here.
+// projection [GolubPereyra1973]). At last Newton's steps of all unknowns make ever higher powers of the error small.
+// Oustaloup's and Charef's filters are of this form too, with poles and weights by rule; Tustin's mapping turns their
+// fastest poles negative, and so may one pole here.
 #pragma once
 
 #include <cstddef>
@@ -42,10 +43,13 @@ struct FittedFilter {
 
 /// \param near_taps  K >= 1
 /// \param modes      M; none: a window fitted to the goal; of an integrator M >= 1
+/// \param cost  of a coefficient, as a relative error, when it is as large as would answer the whole goal: large ones
+/// of
+///              both signs are loud in a format of few digits. 0: no more than keeps them from being too large.
 /// A tap that no point of the goal shows is that of the order's own weights. The same arguments give the same filter.
 /// \pre of `one_swings` a mode that may move: M >= 1, of an integrator M >= 2
 [[nodiscard]] FittedFilter fit_filter(const DerivativeGoal& goal, std::size_t near_taps, std::size_t modes,
-                                      FilterKind kind, Poles poles = Poles::decaying);
+                                      FilterKind kind, Poles poles = Poles::decaying, double cost = 0.0);
 
 /// The shortest filter, of one near tap or two and modes, whose certified error in double is at most `error`: a
 /// half-order derivative within 5 % from 0.05 to 80 Hz and of a step until a minute, at 1 kHz:

@@ -28,7 +28,12 @@ class Fit {
 public:
     /// \param swing  above 0: the last of the poles lies in (-swing, 0)
     Fit(const DerivativeGoal& goal, std::size_t near_taps, FilterKind kind, double swing, double ridge)
-        : near_taps_(near_taps), kind_(kind), swing_(swing), ridge_(ridge), samples_(design::samples_of(goal)) {
+        : near_taps_(near_taps),
+          kind_(kind),
+          swing_(swing),
+          ridge_(ridge),
+          slowest_(std::log(1e-6 / static_cast<double>(goal.horizon()))),
+          samples_(design::samples_of(goal)) {
         for (const double hz : frequencies_of(goal)) {
             angles_.push_back(2.0 * std::numbers::pi * hz * goal.step_s);
             exact_.push_back(exact_response(goal.order, hz));
@@ -83,6 +88,63 @@ public:
         error_ = error_of(now_.residual);
     }
 
+    // A step of all unknowns at once towards the least of sum |e|^(2p): Newton's, whose second derivatives are those of
+    // the power alone. The larger p, the nearer to the largest error, which weights alone come near but slowly.
+    void sharpen(double p) {
+        const double largest = error_;
+        const auto power = [&](const Vector& residual) {
+            double sum = 0.0;
+            for (Eigen::Index i = 0; i < points(); ++i) {
+                sum += std::pow(size_at(residual, i) / largest, 2.0 * p);
+            }
+            return sum;
+        };
+        const Eigen::Index coefficients = now_.matrix.cols();
+        const Eigen::Index unknowns = coefficients + now_.log_decays.size();
+        Matrix slopes(2 * points(), unknowns);
+        slopes.leftCols(coefficients) = now_.matrix;
+        for (Eigen::Index m = 0; m < now_.log_decays.size(); ++m) {
+            Vector moved = now_.log_decays;
+            moved(m) -= difference;
+            const Eigen::Index mode = coefficients - now_.log_decays.size() + m;
+            slopes.col(coefficients + m) =
+                (now_.matrix - with_poles(moved).matrix).col(mode) * (now_.solution(mode) / difference);
+        }
+        // Along an error the power bends 2p - 1 times as much as across it.
+        Matrix bent(2 * points(), unknowns);
+        Vector right = Vector::Zero(2 * points());
+        for (Eigen::Index i = 0; i < points(); ++i) {
+            const double size = size_at(now_.residual, i);
+            const double root = std::pow(size / largest, p - 1.0);
+            const double along = std::sqrt(2.0 * p - 1.0);
+            const double cosine = size > 0.0 ? now_.residual(2 * i) / size : 1.0;
+            const double sine = size > 0.0 ? now_.residual(2 * i + 1) / size : 0.0;
+            bent.row(2 * i) = root * along * (cosine * slopes.row(2 * i) + sine * slopes.row(2 * i + 1));
+            bent.row(2 * i + 1) = root * (cosine * slopes.row(2 * i + 1) - sine * slopes.row(2 * i));
+            right(2 * i) = -root * size / along;
+        }
+        const Vector scale = bent.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
+        Matrix damped(bent.rows() + unknowns, unknowns);
+        damped.topRows(bent.rows()) = bent * scale.cwiseInverse().asDiagonal();
+        Vector wanted_step = Vector::Zero(damped.rows());
+        wanted_step.head(right.size()) = right;
+        const double now = power(now_.residual);
+        for (int attempt = 0; attempt < 6; ++attempt, damping_ *= 8.0) {
+            damped.bottomRows(unknowns) = std::sqrt(damping_) * Matrix::Identity(unknowns, unknowns);
+            const Vector step = Eigen::HouseholderQR<Matrix>(damped).solve(wanted_step).cwiseQuotient(scale);
+            Solved moved = with_poles(parted(now_.log_decays + step.tail(now_.log_decays.size())));
+            moved.solution = now_.solution + step.head(coefficients);
+            moved.residual = moved.matrix * moved.solution - wanted();
+            if (power(moved.residual) < now) {
+                now_ = std::move(moved);
+                error_ = error_of(now_.residual);
+                damping_ = std::max(1e-9, damping_ / 8.0);
+                return;
+            }
+        }
+        damping_ = 1e-2;
+    }
+
     [[nodiscard]] Filter filter() const {
         Filter filter;
         for (std::size_t j = 0; j < near_taps_; ++j) {
@@ -107,15 +169,19 @@ private:
     [[nodiscard]] bool integrator() const { return kind_ == FilterKind::integrator; }
 
     static constexpr double largest_decay = 0.95;  // beyond it a mode is but another tap
+    static constexpr double difference = 1e-4;     // of a logarithm, for slopes
     static constexpr double least_gap = 0.3;       // of logarithms: nearer poles need huge weights of both signs
 
-    // Rising, apart, and none beyond the largest; a negative pole stays the last.
+    // Rising, apart, none beyond the largest, and none that would never decay; a negative pole stays the last.
     [[nodiscard]] Vector parted(Vector log_decays) const {
         const Eigen::Index positive = log_decays.size() - (swing_ > 0.0 ? 1 : 0);
         std::sort(log_decays.begin(), log_decays.begin() + positive);
         double limit = std::log(largest_decay);
         for (Eigen::Index m = positive - 1; m >= 0; --m, limit -= least_gap) {
             log_decays(m) = limit = std::min(limit, log_decays(m));
+        }
+        for (Eigen::Index m = 0; m < positive; ++m) {
+            log_decays(m) = std::max(log_decays(m), slowest_ + least_gap * static_cast<double>(m));
         }
         return log_decays;
     }
@@ -160,19 +226,26 @@ private:
         return largest;
     }
 
-    [[nodiscard]] Solved solve(const Vector& log_decays) const {
+    // What these poles add at the points.
+    [[nodiscard]] Solved with_poles(const Vector& log_decays) const {
         Solved found{log_decays, now_.decays, now_.matrix, {}, {}};
-        Matrix& matrix = found.matrix;
         const auto near = static_cast<Eigen::Index>(near_taps_);
         for (Eigen::Index m = 0; m < found.decays.size(); ++m) {
             const double decay = decay_of(log_decays, m);
             if (decay != now_.decays(m)) {
                 found.decays(m) = decay;
-                matrix.col(near + m) =
+                found.matrix.col(near + m) =
                     column([&](std::size_t i) { return mode_response(decay, differences_[i], delayed_[i]); },
                            [&](std::size_t k) { return mode_step_response(decay, near_taps_, k); });
             }
         }
+        return found;
+    }
+
+    [[nodiscard]] Solved solve(const Vector& log_decays) const {
+        Solved found = with_poles(log_decays);
+        const Matrix& matrix = found.matrix;
+        const auto near = static_cast<Eigen::Index>(near_taps_);
         const Vector scale = matrix.colwise().norm().cwiseMax(std::numeric_limits<double>::min());
         const Vector root = row_weights();
         // Behind the points a row for each coefficient, which asks for 0.
@@ -214,7 +287,6 @@ private:
         const Vector root = row_weights();
         const Vector now = root.cwiseProduct(now_.residual);
         Matrix jacobian(now.size(), now_.log_decays.size());
-        constexpr double difference = 1e-4;
         for (Eigen::Index m = 0; m < now_.log_decays.size(); ++m) {
             Vector moved = now_.log_decays;
             moved(m) -= difference;
@@ -240,6 +312,7 @@ private:
     FilterKind kind_;
     double swing_;
     double ridge_;
+    double slowest_;  // logarithm of a decay that the whole horizon hardly shows
     std::vector<double> angles_;
     std::vector<std::complex<double>> exact_;
     std::vector<std::complex<double>> differences_;  // 1 - z^-1
