@@ -4,7 +4,7 @@
 //   %section NAME             what follows, up to the next one; what stands before the first holds for all of them
 //   %text NAME [| A => B]...  a statement of the kernels (shared.hpp), as deep as the sign stands, with B for A
 //   %optional NAME            the same, if any kernel has it
-//   %file NAME                a file of window/m7 whole
+//   %file NAME                a file of window/cortex-m whole
 //   %words A => B             B for A in the statements of this section; quotes keep spaces
 //   %if TERM [and|or ...]     to %else or %end; TERM: [not] FACT [< > >= == % NUMBER]
 //   %let FACT CONDITION       makes it one

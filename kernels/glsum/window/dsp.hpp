@@ -10,12 +10,12 @@
 #if defined(__ARM_ARCH_7EM__) && defined(__GNUC__) && !defined(__PIC__)
 /// Where there are loops in the order that a Cortex-M7 or Cortex-M4 loses least in: the same sums, bit by bit.
 #define GLSUM_M7
-#include "glsum/window/m7/dot_words.h"
+#include "glsum/window/cortex-m/dot_words.h"
 #if defined(__ARM_FP) && (__ARM_FP & 4)
 /// And a unit for single precision, which some have not.
 #define GLSUM_M7_FLOATS
-#include "glsum/window/m7/dot_floats.h"
-#include "glsum/window/m7/horner_floats.h"
+#include "glsum/window/cortex-m/dot_floats.h"
+#include "glsum/window/cortex-m/horner_floats.h"
 #endif
 #endif
 

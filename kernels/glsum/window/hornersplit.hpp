@@ -3,7 +3,7 @@
 //   S_k = x_k + ((a_1 t_1 + a_2 t_2) + (a_3 t_3 + a_4 t_4))
 // Oldest first like horner, but no step waits for the one before it: the answer to the latency of the Horner form.
 // Floating point, contiguous windows. The term of a_j passes j / 4 steps. On a Cortex-M7 f32 takes the steps in the
-// order of its issue slots, with the same bits (window/m7/).
+// order of its issue slots, with the same bits (window/cortex-m/).
 #pragma once
 
 #include <cstddef>

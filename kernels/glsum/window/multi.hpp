@@ -1,7 +1,7 @@
 // multi, multifma: newest first into four accumulators in turn, joined as (s_0 + s_1) + (s_2 + s_3), x_k last.
 // Four independent chains: a Cortex-M7 needs three to start a multiply-accumulate each cycle [jnk0le], and a term
 // passes a quarter of the additions. On a Cortex-M7 f32 and q31 take the taps in the order of its issue slots, with the
-// same bits (window/m7/).
+// same bits (window/cortex-m/).
 #pragma once
 
 #include <cstddef>

@@ -78,7 +78,8 @@ constexpr Probe probes[] = {
     {"access.load_pipelines", "ldr.w r0,[r1]; ldm r2,{r3,r4}", 5},
     {"access.load_pipelines", "ldr.w r0,[pc,#16]; ldr.w r1,[r2]; add.w r3,r4,r5", 5},  // another block of memory
     {"access.load_pipelines", "ldr.w r0,[r1]; str.w r0,[r3]; add.w r4,r5,r6", 3},      // takes the load's wait away
-    // What the kernels' own loops rest on (window/m7/): four words of two pointers, and by LDM; four floats by VLDM.
+    // What the kernels' own loops rest on (window/cortex-m/): four words of two pointers, and by LDM; four floats by
+    // VLDM.
     {"access.load_pipelines",
      "ldr.w r4,[r3]; ldr.w r5,[r3,#4]; ldr.w r6,[r3,#8]; ldr.w r7,[r3,#12]; ldr.w r8,[r2]; ldr.w r9,[r2,#4]; "
      "ldr.w r10,[r2,#8]; ldr.w r11,[r2,#12]; smlald r0,r1,r4,r8; smlald r0,r1,r5,r9; smlald r0,r1,r6,r10; "
