@@ -63,6 +63,7 @@ std::vector<glsum::design::DerivativeGoal> goals_of(const Options& options, cons
         Budget asked = options.asked;
         asked.order = order;
         goals.push_back(derivative_goal(asked).value());
+        (void)filter_design(asked);  // refuses an order that a rule has no filter for
     }
     return goals;
 }
@@ -86,6 +87,9 @@ void run(const Options& options) {
     bench::DerivativeStudy study;
     study.limit = derivative_error(options.asked);
     study.goals = goals_of(options, sweep.orders);
+    Budget first = options.asked;
+    first.order = sweep.orders.front();
+    study.by = filter_design(first);
     sweep.kernels = study.kernels = kernels_of(options);
     study.jobs = options.jobs;
     base::check_writable(options.out);

@@ -21,6 +21,7 @@ struct Budget {
     std::string derivative_error;
     std::string band;
     double step_until_s = 0.0;
+    std::string design;
     std::string plot;
     std::vector<std::string> signals;
     std::optional<double> max_cycles;

@@ -112,6 +112,7 @@ choose::Question to_question(const Budget& budget) {
     question.kernels = choose::kernels_of(question.target, question.conditions.order);
     question.max_error = goal ? derivative_error(budget) : budget.max_error;
     question.goal = goal;
+    question.by = filter_design(budget);
     question.max_cycles = budget.max_cycles;
     question.max_instructions = budget.max_instructions;
     question.max_bytes = budget.max_bytes;

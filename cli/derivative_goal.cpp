@@ -8,6 +8,7 @@
 #include "base/failure.hpp"
 #include "cli/band.hpp"
 #include "cli/name_value.hpp"
+#include "glsum/design/rational.hpp"
 
 namespace cli {
 namespace {
@@ -27,12 +28,14 @@ void add_goal(Command& command, Budget& budget) {
                     "Seconds: until then, from ten samples on, the response to a unit step is held within it of "
                     "t^-v / Gamma(1 - v)")
         .above(0);
+    command.add_option("--design", budget.design,
+                       "With --band: fitted (default), or oustaloup or charef, whose filters are tuned to the band");
 }
 
 std::optional<glsum::design::DerivativeGoal> derivative_goal(const Budget& budget) {
     if (budget.derivative_error.empty()) {
-        if (!budget.band.empty() || budget.step_until_s != 0.0 || !budget.plot.empty()) {
-            refuse("--band, --step-until and --plot: only with --derivative-error");
+        if (!budget.band.empty() || budget.step_until_s != 0.0 || !budget.design.empty() || !budget.plot.empty()) {
+            refuse("--band, --step-until, --design and --plot: only with --derivative-error");
         }
         return std::nullopt;
     }
@@ -60,6 +63,23 @@ std::optional<glsum::design::DerivativeGoal> derivative_goal(const Budget& budge
         goal.step_until_s = budget.step_until_s;
     }
     return goal;
+}
+
+choose::FilterDesign filter_design(const Budget& budget) {
+    if (budget.design.empty() || budget.design == "fitted") {
+        return choose::FilterDesign::fitted;
+    }
+    if (budget.design != "oustaloup" && budget.design != "charef") {
+        refuse(fmt::format("--design: expected fitted, oustaloup or charef, found {}", budget.design));
+    }
+    if (budget.band.empty()) {
+        refuse(fmt::format("--design {}: it is tuned to a --band, and there is none", budget.design));
+    }
+    if (!glsum::design::has_rational(budget.order)) {
+        refuse(fmt::format("--design {}: expected an order in (-1, 2) that is no whole number, found {:g}",
+                           budget.design, budget.order));
+    }
+    return budget.design == "oustaloup" ? choose::FilterDesign::oustaloup : choose::FilterDesign::charef;
 }
 
 double derivative_error(const Budget& budget) {

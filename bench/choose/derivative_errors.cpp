@@ -9,12 +9,23 @@
 #include "bench/choose/kernel_run.hpp"
 #include "bench/sweep/designs.hpp"
 #include "glsum/catalogue.hpp"
+#include "glsum/design/rational.hpp"
 
 namespace choose {
 
 namespace design = glsum::design;
 
-DerivativeErrors::DerivativeErrors(const design::DerivativeGoal& goal) : goal_(goal) {}
+DerivativeErrors::DerivativeErrors(const design::DerivativeGoal& goal, FilterDesign by) : goal_(goal), by_(by) {}
+
+std::string DerivativeErrors::why_no_rational(const Key& key) const {
+    // Above order 1 the difference of samples goes before the filter of one order less.
+    const auto kind = goal_.order > 1.0 ? design::FilterKind::increments : design::FilterKind::samples;
+    return by_ == FilterDesign::fitted                  ? ""
+           : key.modes == 0 || key.near_taps != 1       ? "a filter by rule is one tap and modes"
+           : key.kind == design::FilterKind::integrator ? "a filter by rule has no running sum"
+           : key.kind != kind ? "a filter by rule is of increments above order 1, and of samples below"
+                              : "";
+}
 
 std::string DerivativeErrors::why_not(const std::string& kernel) {
     const glsum::CatalogueEntry& facts = bench::facts_of(kernel);
@@ -63,6 +74,13 @@ DerivativeErrors::Once& DerivativeErrors::entry_of(const Key& key) {
 const design::FittedFilter& DerivativeErrors::filter_of(const Key& key) {
     Once& once = entry_of(key);
     std::call_once(once.flag, [&] {
+        if (by_ != FilterDesign::fitted) {
+            const auto rule =
+                by_ == FilterDesign::oustaloup ? design::RationalRule::oustaloup : design::RationalRule::charef;
+            once.filter =
+                design::as_modes(rule, goal_, key.modes, design::tune_rational(rule, goal_, key.modes, key.poles));
+            return;
+        }
         Key part = key;
         if (key.poles == design::Poles::one_may_swing && design::moving_poles(key.modes, key.kind) > 0) {
             // Kernels without room for a swinging pole ask for the decaying ones.
@@ -93,6 +111,10 @@ design::DerivativeError DerivativeErrors::certified_error_of(const Key& key, con
 
 DerivativeErrors::Judged DerivativeErrors::judge(const std::string& kernel, std::size_t taps, const Key& key) {
     Judged found;
+    found.fault = why_no_rational(key);
+    if (!found.fault.empty()) {
+        return found;
+    }
     found.filter = &filter_of(key);
     const Held held = hold(kernel, taps, goal_, *found.filter);
     found.fault = held.fault;
@@ -124,7 +146,7 @@ const DerivativeErrors::Judged& DerivativeErrors::judged(const std::string& kern
         once->judged = judge(kernel, taps, key);
         const bool loud = once->judged.fault.empty() && once->judged.noise > 0.5 * once->judged.error.largest();
         for (const double cost : {1e-3, 3e-3, 1e-2}) {
-            if (loud && key.modes > 0) {
+            if (loud && key.modes > 0 && by_ == FilterDesign::fitted) {
                 Key quieter = key;
                 quieter.cost = cost;
                 Judged other = judge(kernel, taps, quieter);

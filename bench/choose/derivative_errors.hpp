@@ -17,12 +17,19 @@
 
 namespace choose {
 
+/// Who says which poles and weights a filter has.
+enum class FilterDesign {
+    fitted,
+    oustaloup,  ///< by his rule, tuned to the band (glsum/design/rational.hpp); one near tap and modes alone
+    charef,     ///< likewise
+};
+
 /// The filter of a length, and of each kernel what its format and its arithmetic add. Where a kernel's noise is most of
 /// its error, filters of smaller coefficients are fitted, too, and the best is taken. The error of a kernel is that of
 /// the filter that it holds, its table read back, and the noise of its arithmetic (kernel_run.hpp).
 class DerivativeErrors : public ErrorSource {
 public:
-    explicit DerivativeErrors(const glsum::design::DerivativeGoal& goal);
+    explicit DerivativeErrors(const glsum::design::DerivativeGoal& goal, FilterDesign by = FilterDesign::fitted);
 
     [[nodiscard]] std::size_t longest() const override { return longest_window; }
     /// With modes every length up to 40, parted as one near tap, or two, and modes; of a window every one to 16, then
@@ -80,7 +87,11 @@ private:
     [[nodiscard]] Judged judge(const std::string& kernel, std::size_t taps, const Key& key);
     [[nodiscard]] Key key_of(const std::string& kernel, std::size_t taps) const;
 
+    /// Why a rule has no filter for what a kernel holds at a length; empty where it has.
+    [[nodiscard]] std::string why_no_rational(const Key& key) const;
+
     glsum::design::DerivativeGoal goal_;
+    FilterDesign by_;
     std::mutex mutex_;
     std::map<Key, std::unique_ptr<Once>> fitted_;
     std::map<std::pair<std::string, std::size_t>, std::unique_ptr<JudgedOnce>> judged_;

@@ -27,6 +27,10 @@ std::vector<std::string> provenance(const Answer& answer, const std::string& com
                  fmt::format("relative to the largest exact full-memory sum, the worst of {}",
                              fmt::join(question.conditions.signals, ", "))};
     }
+    if (question.by != FilterDesign::fitted) {
+        lines.push_back(fmt::format("Poles and weights by {} rule, tuned to the band.",
+                                    question.by == FilterDesign::oustaloup ? "Oustaloup's" : "Charef's"));
+    }
     lines.push_back(chosen.cost.fault.empty()
                         ? fmt::format("Measured cost a sample of the kernel that this is made from: {}{}",
                                       cost_text(answer, chosen),

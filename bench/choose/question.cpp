@@ -49,7 +49,7 @@ struct Errors {
 Errors make_errors(const Question& question, const Earlier& earlier) {
     Errors errors;
     if (question.goal) {
-        errors.fitted = std::make_unique<DerivativeErrors>(*question.goal);
+        errors.fitted = std::make_unique<DerivativeErrors>(*question.goal, question.by);
     } else {
         errors.measured = std::make_unique<MeasuredErrors>(question.conditions.order,
                                                            make_records(question.conditions, question.jobs));
@@ -184,14 +184,17 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
         errors.measured
             ? fmt::format("{} records run through kernels for their errors, {} errors taken from the file",
                           errors.measured->measured(), errors.measured->remembered())
-            : "errors: of a filter fitted to the derivative for each length, as the kernel's format holds it, and of "
-              "the noise of its arithmetic");
+            : fmt::format("errors: of {} for each length, as the kernel's format holds it, and of the noise of its "
+                          "arithmetic",
+                          question.by == FilterDesign::oustaloup ? "Oustaloup's filter, tuned to the band,"
+                          : question.by == FilterDesign::charef  ? "Charef's filter, tuned to the band,"
+                                                                 : "a filter fitted to the derivative"));
     if (errors.fitted && answer.choice.chosen) {
         const Candidate& chosen = *answer.choice.chosen;
         answer.derivative =
             report_on(chosen.kernel, chosen.taps, *question.goal, errors.fitted->filter_of(chosen.kernel, chosen.taps));
     }
-    if (errors.fitted && !answer.choice.chosen) {
+    if (errors.fitted && !answer.choice.chosen && question.by == FilterDesign::fitted) {
         answer.would_do =
             what_would_do(*question.goal, nearest_of(answer.choice.kernels), *costs, limits, question.jobs);
     }

@@ -32,6 +32,7 @@ struct Question {
     std::vector<std::string> kernels;  ///< to choose among
     double max_error = 0.0;            ///< of the sum, or of the derivative where there is a goal
     std::optional<glsum::design::DerivativeGoal> goal;
+    FilterDesign by = FilterDesign::fitted;  ///< of a goal
     std::optional<double> max_cycles;
     std::optional<double> max_instructions;
     std::optional<double> max_bytes;

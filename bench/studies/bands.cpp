@@ -12,9 +12,9 @@
 #include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/kernel_run.hpp"
 #include "bench/rows/key.hpp"
-#include "bench/studies/rational_filter.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/sweep.hpp"
+#include "glsum/design/rational.hpp"
 
 namespace bench {
 namespace {
@@ -47,10 +47,11 @@ struct Asked {
 };
 
 // As ours: what the kernel holds of it, certified, with the noise of its arithmetic.
-double error_of_rational(RationalRule rule, const design::DerivativeGoal& goal, std::size_t poles,
+double error_of_rational(design::RationalRule rule, const design::DerivativeGoal& goal, std::size_t poles,
                          const choose::Case& holder) {
-    const TunedRational tuned = tune_rational(rule, goal, poles);
-    const choose::Held held = choose::hold(holder.first, holder.second, goal, as_modes(rule, goal, poles, tuned));
+    const design::TunedRational tuned = design::tune_rational(rule, goal, poles);
+    const choose::Held held =
+        choose::hold(holder.first, holder.second, goal, design::as_modes(rule, goal, poles, tuned));
     return held.fault.empty() ? held.added_to(design::certified_error(held.filter, goal)).largest() : tuned.error;
 }
 
@@ -71,10 +72,10 @@ std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
             }
         }
     }
-    for (const auto& [way, rule] :
-         {std::pair(oustaloup_way, RationalRule::oustaloup), std::pair(charef_way, RationalRule::charef)}) {
+    for (const auto& [way, rule] : {std::pair(oustaloup_way, design::RationalRule::oustaloup),
+                                    std::pair(charef_way, design::RationalRule::charef)}) {
         for (const std::size_t poles : study.poles) {
-            if (Oustaloup::takes(of.order)) {
+            if (design::has_rational(of.order)) {
                 const choose::Case holder{kernel_of_poles(of.order), 1 + 2 * poles};
                 points.push_back({point_of(of, way, 1, poles, error_of_rational(rule, goal, poles, holder)), holder});
             }

@@ -51,7 +51,7 @@ std::vector<DerivativePoint> points_of(choose::DerivativeErrors& errors, const d
 // Of one order, in the order of the kernels that it has.
 std::vector<DerivativePoint> points_of(const DerivativeStudy& study, const design::DerivativeGoal& goal,
                                        const std::vector<std::string>& kernels) {
-    choose::DerivativeErrors errors(goal);
+    choose::DerivativeErrors errors(goal, study.by);
     std::vector<std::vector<DerivativePoint>> found(kernels.size());
     {
         base::Progress progress(fmt::format("order {}", goal.order), kernels.size());

@@ -24,6 +24,7 @@ struct DerivativeStudy {
     std::vector<std::string> kernels;
     std::vector<DerivativeTarget> targets;
     unsigned jobs = 1;
+    choose::FilterDesign by = choose::FilterDesign::fitted;
 };
 
 /// A kernel at the shortest length that keeps the limit, with modes also at the next; where none does, where it errs

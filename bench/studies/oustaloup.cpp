@@ -6,10 +6,6 @@
 
 namespace bench {
 
-std::string to_text(Mapping mapping) {
-    return mapping == Mapping::matched ? "matched" : mapping == Mapping::tustin ? "Tustin" : "impulse-invariant";
-}
-
 Oustaloup::Oustaloup(double order, double step_s, std::size_t poles, Band band, Mapping mapping)
     : differs_(order > 1.0) {
     if (!takes(order) || poles == 0 || mapping == Mapping::impulse_invariant || !(step_s > 0.0) ||
@@ -55,7 +51,7 @@ Oustaloup::Oustaloup(double order, double step_s, std::size_t poles, Band band, 
     }
 }
 
-bool Oustaloup::takes(double order) { return order > -1.0 && order < 2.0 && order != std::floor(order); }
+bool Oustaloup::takes(double order) { return glsum::design::has_rational(order); }
 
 double Oustaloup::step(double sample) {
     double value = gain_ * (differs_ ? sample - before_ : sample);

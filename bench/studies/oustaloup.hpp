@@ -3,19 +3,13 @@
 #pragma once
 
 #include <cstddef>
-#include <string>
 #include <vector>
+
+#include "glsum/design/rational.hpp"
 
 namespace bench {
 
-/// How a pole or zero at -w becomes one of the sampled filter.
-enum class Mapping {
-    matched,            ///< e^(-w h), and the gain at the middle of the band
-    tustin,             ///< s = 2/h (z - 1)/(z + 1)
-    impulse_invariant,  ///< the impulse response, sampled: of poles with residues, not of sections
-};
-
-[[nodiscard]] std::string to_text(Mapping mapping);
+using glsum::design::Mapping;  // matched: and the gain at the middle of the band
 
 /// A band in which |s^v| is approximated.
 struct Band {

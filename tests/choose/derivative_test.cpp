@@ -215,6 +215,33 @@ TEST(DerivativeErrors, WhereNoiseIsMostOfTheErrorSmallerCoefficientsAreTaken) {
               fit_filter(quiet, 1, 3, FilterKind::increments, glsum::design::Poles::one_may_swing).error.band);
 }
 
+TEST(DerivativeErrors, OustaloupsAndCharefsFiltersAreCertifiedAsKernelsHoldThem) {
+    using choose::FilterDesign;
+    for (const double order : {0.5, -0.5}) {
+        const DerivativeGoal goal = goal_of(order, 0.0);
+        for (const FilterDesign by : {FilterDesign::oustaloup, FilterDesign::charef}) {
+            DerivativeErrors errors(goal, by);
+            for (const char* kernel : {"modes_plain_f32", "modes_plain_q31"}) {
+                for (const std::size_t taps : {5U, 7U, 9U, 11U}) {
+                    const auto at = errors.error(kernel, taps);
+                    ASSERT_EQ(at.fault, "") << kernel << ", " << order << ", " << taps;
+                    const auto report = choose::report_on(kernel, taps, goal, errors.filter_of(kernel, taps));
+                    EXPECT_EQ(at.error, report.certified.band) << kernel;
+                    EXPECT_LE(report.measured.band, report.certified.band + 1e-5) << kernel << ", " << order;
+                    EXPECT_GT(at.error, DerivativeErrors(goal).error(kernel, taps).error) << kernel << ", " << order;
+                }
+            }
+            EXPECT_NE(errors.error("ring_plain_f32", 5).fault, "");
+            EXPECT_NE(errors.error("modes_plain_f32", 6).fault, "");
+            EXPECT_NE(errors.error("modesdelta_plain_f32", 7).fault, "");
+        }
+    }
+    // Above order 1 it is of increments.
+    DerivativeErrors steep({1.5, 0.001, Band{0.5, 20.0}, {}}, FilterDesign::oustaloup);
+    EXPECT_LT(steep.error("modesdelta_plain_f32", 9).error, 0.1);
+    EXPECT_NE(steep.error("modes_plain_f32", 9).fault, "");
+}
+
 TEST(WholeOrders, AreToldInASentence) {
     EXPECT_EQ(choose::what_a_whole_order_is(0.5), "");
     EXPECT_NE(choose::what_a_whole_order_is(2.0).find("has 3 weights"), std::string::npos);

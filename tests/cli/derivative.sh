@@ -25,6 +25,10 @@ grep -q '"instead": "--band 5..80 alone"' "$folder/none.json" || { echo "expecte
 expect 0 "a whole order: the sum has 2 weights" choose --order 1 --step-s 0.001 --target m7 --derivative-error 5% --band 0.5..40
 expect 0 "a whole order: the sum is that of all samples" choose --order -1 --step-s 0.001 --target m7 --derivative-error 5% --band 0.5..40
 expect 2 "--order: " choose --order half --step-s 0.001 --target m7 --derivative-error 5% --band 0.5..40
+expect 2 "expected fitted, oustaloup or charef, found crone" choose $at --derivative-error 5% --band 1..2 --design crone
+expect 2 "tuned to a --band, and there is none" choose $at --derivative-error 5% --step-until 2 --design charef
+expect 2 "no whole number, found 1" choose --order 1 --step-s 0.001 --target m7 --derivative-error 5% --band 1..2 --design oustaloup
+expect 2 "only with --derivative-error" choose $at --max-error 0.1 --design charef
 expect 2 "and --plot: only with --derivative-error" choose $at --max-error 0.1 --plot "$folder/picture.png"
 if command -v gnuplot >/dev/null 2>&1; then
     expect 0 "certified  within" choose $half --json "$folder/half.json" --plot "$folder/picture.png"
@@ -36,6 +40,11 @@ grep -q '"band_hz"' "$folder/half.json" && grep -q '"step_error"' "$folder/half.
     { echo "expected band, step and factor in the answer"; failures=$((failures + 1)); }
 expect 0 "measured" generate $half --max-bytes 200 --out "$folder/half.h"
 grep -q "within .* % from 0.05 to 80 Hz" "$folder/half.h" || { echo "the header does not say its band"; failures=$((failures + 1)); }
+# By another's rule: the response of its header, over the band, is held the same way.
+for rule in oustaloup charef; do
+    expect 0 "measured" generate $at --derivative-error 5% --band 0.5..80 --design $rule --prefix half --out "$folder/$rule.h"
+    grep -q "rule, tuned to the band" "$folder/$rule.h" || { echo "the header does not name its rule"; failures=$((failures + 1)); }
+done
 for compiler in gcc clang; do
     command -v $compiler >/dev/null 2>&1 || continue
     if ! $compiler -std=c99 -D_GNU_SOURCE -O2 -Wall -Wextra -Werror -I"$folder" "$2/tests/cli/derivative_response.c" -lm -o "$folder/run" ||

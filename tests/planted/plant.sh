@@ -33,7 +33,7 @@ done
 # The library that a file belongs to, and the tests that are to notice.
 library_of() {
     case $1 in
-        kernels/glsum/design/band* | kernels/glsum/design/derivative.cpp | kernels/glsum/design/filter.cpp)
+        kernels/glsum/design/band* | kernels/glsum/design/derivative.cpp | kernels/glsum/design/filter.cpp | kernels/glsum/design/rational.cpp)
             echo kernels/glsum/design/libglsum_filters.a ;;
         kernels/glsum/design/*) echo kernels/glsum/design/libglsum_design.a ;;
         kernels/glsum/model/*) echo kernels/glsum/model/libglsum_model.a ;;
@@ -74,6 +74,7 @@ library_of() {
 tests_of() {
     case $1 in
         kernels/glsum/design/held.hpp) echo choose_tests ;;
+        kernels/glsum/design/rational.cpp) echo bench_tests choose_tests ;;
         kernels/glsum/design/*) echo modes_tests ;;
         kernels/glsum/model/*) echo drive_tests ;;
         kernels/*) echo kernel_tests bench_tests ;;

@@ -1,11 +1,11 @@
-#include "bench/studies/rational_filter.hpp"
+#include "glsum/design/rational.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
-namespace bench {
+namespace glsum::design {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -50,11 +50,11 @@ std::pair<double, double> best_gain(const std::vector<std::complex<double>>& rel
 
 class Tuner {
 public:
-    Tuner(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles)
+    Tuner(RationalRule rule, const DerivativeGoal& goal, std::size_t poles)
         : rule_(rule), poles_(poles), step_s_(goal.step_s), order_(goal.order > 1.0 ? goal.order - 1.0 : goal.order) {
-        for (const double hz : glsum::design::frequencies_of(goal)) {
+        for (const double hz : frequencies_of(goal)) {
             const double angle = 2.0 * std::numbers::pi * hz * goal.step_s;
-            std::complex<double> wanted = glsum::design::exact_response(goal.order, hz);
+            std::complex<double> wanted = exact_response(goal.order, hz);
             if (goal.order > 1.0) {
                 wanted *= goal.step_s / (1.0 - std::polar(1.0, -angle));
             }
@@ -63,14 +63,14 @@ public:
     }
 
     [[nodiscard]] TunedRational at(double low, double high, Mapping mapping) const {
-        const Band band{std::pow(10.0, low), std::pow(10.0, high)};
-        const Roots roots = roots_of(rule_, order_, poles_, band);
+        const Edges edges{std::pow(10.0, low), std::pow(10.0, high)};
+        const Roots roots = roots_of(rule_, order_, poles_, edges);
         std::vector<std::complex<double>> relative;
         for (const Point& point : points_) {
             relative.push_back(response_of(roots, mapping, step_s_, point.angle) / point.wanted);
         }
         const auto [gain, error] = best_gain(relative);
-        return {band, mapping, gain, std::isfinite(error) ? error : infinite};
+        return {edges, mapping, gain, std::isfinite(error) ? error : infinite};
     }
 
 private:
@@ -83,10 +83,16 @@ private:
 
 }  // namespace
 
-Roots roots_of(RationalRule rule, double order, std::size_t poles, Band band) {
-    const double ratio = band.high_rad_s / band.low_rad_s;
+std::string to_text(Mapping mapping) {
+    return mapping == Mapping::matched ? "matched" : mapping == Mapping::tustin ? "Tustin" : "impulse-invariant";
+}
+
+bool has_rational(double order) { return order > -1.0 && order < 2.0 && order != std::floor(order); }
+
+Roots roots_of(RationalRule rule, double order, std::size_t poles, Edges edges) {
+    const double ratio = edges.high_rad_s / edges.low_rad_s;
     const auto root = [&](double place) {
-        return band.low_rad_s * std::pow(ratio, place / static_cast<double>(poles));
+        return edges.low_rad_s * std::pow(ratio, place / static_cast<double>(poles));
     };
     const bool proper = rule == RationalRule::charef && order < 0.0;
     Roots roots;
@@ -175,12 +181,11 @@ std::complex<double> response_of(const Roots& roots, Mapping mapping, double ste
     return response;
 }
 
-glsum::design::FittedFilter as_modes(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles,
-                                     const TunedRational& tuned) {
+FittedFilter as_modes(RationalRule rule, const DerivativeGoal& goal, std::size_t poles, const TunedRational& tuned) {
     const bool increments = goal.order > 1.0;
-    const Roots roots = roots_of(rule, increments ? goal.order - 1.0 : goal.order, poles, tuned.band);
+    const Roots roots = roots_of(rule, increments ? goal.order - 1.0 : goal.order, poles, tuned.edges);
     double first = 0.0;
-    std::vector<glsum::design::Mode> modes;
+    std::vector<Mode> modes;
     if (tuned.mapping == Mapping::impulse_invariant) {
         // r h (1/(1 - e q) - 1/2) = r h / 2 + r h e q / (1 - e q), and d before.
         const Partial of = partial_of(roots);
@@ -210,17 +215,13 @@ glsum::design::FittedFilter as_modes(RationalRule rule, const glsum::design::Der
         mode.weight /= first;
     }
     const double unit = increments ? 1.0 / goal.step_s : 1.0;
-    glsum::design::FittedFilter filter{
-        unit * tuned.gain * first,
-        {},
-        modes,
-        {},
-        increments ? glsum::design::FilterKind::increments : glsum::design::FilterKind::samples};
-    filter.error = glsum::design::error_at_points(filter.filter(), goal);
+    FittedFilter filter{
+        unit * tuned.gain * first, {}, modes, {}, increments ? FilterKind::increments : FilterKind::samples};
+    filter.error = error_at_points(filter.filter(), goal);
     return filter;
 }
 
-TunedRational tune_rational(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles) {
+TunedRational tune_rational(RationalRule rule, const DerivativeGoal& goal, std::size_t poles, Poles allowed) {
     struct Start {
         double low;  // decades of the edges in rad/s
         double high;
@@ -232,6 +233,9 @@ TunedRational tune_rational(RationalRule rule, const glsum::design::DerivativeGo
     const double last = std::log10(2.0 * std::numbers::pi * goal.band->high_hz);
     std::vector<Start> best;
     for (const Mapping mapping : {Mapping::matched, Mapping::tustin, Mapping::impulse_invariant}) {
+        if (mapping == Mapping::tustin && allowed == Poles::decaying) {
+            continue;
+        }
         for (double low = first - 2.5; low < first + 0.6; low += 0.25) {
             for (double high = last - 0.6; high < last + 3.1; high += 0.25) {
                 if (low < high) {
@@ -262,4 +266,4 @@ TunedRational tune_rational(RationalRule rule, const glsum::design::DerivativeGo
     return std::min_element(best.begin(), best.end(), errs_less)->found;
 }
 
-}  // namespace bench
+}  // namespace glsum::design
