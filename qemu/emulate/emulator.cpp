@@ -159,9 +159,10 @@ void emulate(const Emulator& emulator, const std::filesystem::path& elf, const s
         throw Failure(Exit::check_failed,
                       fmt::format("{} under the emulator {}: {}", elf.filename().string(), how, fatal));
     }
+    const std::string said = tail + (text.empty() ? "" : "\n  " + text);
     throw Failure(code == 3 ? Exit::missing : Exit::check_failed,
-                  fmt::format("{} under the emulator {}; it said:{}{}", elf.filename().string(), how, tail,
-                              text.empty() ? "" : "\n  " + text));
+                  fmt::format("{} under the emulator {}{}{}", elf.filename().string(), how,
+                              said.empty() ? "" : "; it said:", said));
 }
 
 }  // namespace qemu

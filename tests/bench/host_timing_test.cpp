@@ -50,8 +50,9 @@ TEST(HostTiming, RepetitionsKeepTheirNameAndOrder) {
             EXPECT_GT(row.at("ns_per_sample").get<double>(), 0.0);
             // Of the same iterations; a busy machine may take the processor away between two readings of its clock.
             EXPECT_NEAR(row.at("ns_per_sample").get<double>() / row.at("cpu_time").get<double>(), 1.0, 1e-6) << row;
+            // Some counters go on while the processor is another program's, others do not.
             EXPECT_GT(row.at("cycles_per_sample").get<double>() / row.at("cpu_time").get<double>(), 0.01) << row;
-            EXPECT_LT(row.at("cycles_per_sample").get<double>() / row.at("cpu_time").get<double>(), 100.0) << row;
+            EXPECT_LT(row.at("cycles_per_sample").get<double>() / row.at("real_time").get<double>(), 100.0) << row;
         }
     }
     // As they were asked for, whatever turns they took.
