@@ -111,11 +111,10 @@ void run(const Options& options) {
     }
     const bench::DerivativeRun found = bench::measure_derivative(study);
     fmt::print(
-        "Each kernel at the fewest coefficients, fitted to the derivative, that keep the limit at h = {:g} s: "
-        "certified "
+        "Each kernel at the fewest coefficients of {} that keep the limit at h = {:g} s: certified "
         "as it holds them,\nits noise included, and measured by running it. * no other is as good in error, cost and "
         "bytes\n{}",
-        options.asked.step_s, bench::to_table(study, found));
+        choose::text_of(study.by), options.asked.step_s, bench::to_table(study, found));
     bench::Json context = bench::make_context(bench::Json(), sweep, boards);
     context["step_s"] = options.asked.step_s;
     context["derivative_error"] = study.limit;

@@ -15,6 +15,18 @@ namespace choose {
 
 namespace design = glsum::design;
 
+const char* text_of(FilterDesign by) {
+    switch (by) {
+        case FilterDesign::oustaloup:
+            return "Oustaloup's filter, tuned to the band";
+        case FilterDesign::charef:
+            return "Charef's filter, tuned to the band";
+        case FilterDesign::fitted:
+            break;
+    }
+    return "a filter fitted to the derivative";
+}
+
 DerivativeErrors::DerivativeErrors(const design::DerivativeGoal& goal, FilterDesign by) : goal_(goal), by_(by) {}
 
 std::string DerivativeErrors::why_no_rational(const Key& key) const {

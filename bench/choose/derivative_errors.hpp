@@ -24,6 +24,9 @@ enum class FilterDesign {
     charef,     ///< likewise
 };
 
+/// Whose filter that is, for people.
+[[nodiscard]] const char* text_of(FilterDesign by);
+
 /// The filter of a length, and of each kernel what its format and its arithmetic add. Where a kernel's noise is most of
 /// its error, filters of smaller coefficients are fitted, too, and the best is taken. The error of a kernel is that of
 /// the filter that it holds, its table read back, and the noise of its arithmetic (kernel_run.hpp).

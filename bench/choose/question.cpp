@@ -186,9 +186,7 @@ Answer answer(const Question& question, const std::optional<qemu::Board>& board)
                           errors.measured->measured(), errors.measured->remembered())
             : fmt::format("errors: of {} for each length, as the kernel's format holds it, and of the noise of its "
                           "arithmetic",
-                          question.by == FilterDesign::oustaloup ? "Oustaloup's filter, tuned to the band,"
-                          : question.by == FilterDesign::charef  ? "Charef's filter, tuned to the band,"
-                                                                 : "a filter fitted to the derivative"));
+                          text_of(question.by)));
     if (errors.fitted && answer.choice.chosen) {
         const Candidate& chosen = *answer.choice.chosen;
         answer.derivative =

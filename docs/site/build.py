@@ -40,7 +40,8 @@ def make(source, facts, out, program):
     work = facts.parent
     tree = work / "source"
     made = work / "made"
-    for folder in (tree, made):
+    doctrees = work / "doctrees"  # what an earlier run has read names parts of headers that may be gone
+    for folder in (tree, made, doctrees):
         shutil.rmtree(folder, ignore_errors=True)
     print("the READMEs and docs/", flush=True)
     assemble.copy(source, tree)
@@ -49,7 +50,7 @@ def make(source, facts, out, program):
         kind.write(source, facts, tree)
     print("the pages", flush=True)
     sphinx = subprocess.run(
-        [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", "-d", str(work / "doctrees"), str(tree), str(made)],
+        [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", "-d", str(doctrees), str(tree), str(made)],
         stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     if sphinx.returncode:
         print(f"{sphinx.stdout}glsum: docs: Sphinx expected pages without fault, and found the above", file=sys.stderr)

@@ -89,8 +89,11 @@ private:
                 left_margin, y(tick), width_ - right_margin, left_margin - 6.0, y(tick) + 4.0, tick);
         }
         for (const double tick : ticks(time_s_.front(), time_s_.back(), width_ < 600.0 ? 3.0 : 6.0)) {
-            svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"middle\">{:.4g}{}</text>\n", x(tick),
-                               height_ - bottom_margin + 16.0, tick, tick == 0.0 ? " s" : "");
+            // At the picture's edge half of a label in the middle would be cut off.
+            const bool at_edge = x(tick) > width_ - right_margin - 12.0;
+            svg += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\">{:.4g}{}</text>\n",
+                               at_edge ? width_ : x(tick), height_ - bottom_margin + 16.0, at_edge ? "end" : "middle",
+                               tick, tick == 0.0 ? " s" : "");
         }
         return svg;
     }

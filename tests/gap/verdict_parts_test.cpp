@@ -487,4 +487,14 @@ TEST(VerdictPage, SaysWhatTheTextSays) {
                 AllOf(Not(HasSubstr("Extrapolated")), Not(HasSubstr("No validation log"))));
 }
 
+// A label at the picture's right edge ends there: in the middle of its tick, half of it would be cut off.
+TEST(VerdictPage, TheLastTimeIsNotCutOff) {
+    const gap::PlotOf plot{"output", 300.0, {{"measured", {0.0, 1.0, 2.0}}}};
+    const std::string to_a_tick = gap::to_svg(plot, {0.0, 3000.0, 6000.0});
+    EXPECT_EQ(count_of(to_a_tick, "text-anchor=\"end\">6000<"), 2U);  // on a screen and on a phone
+    EXPECT_THAT(to_a_tick, HasSubstr("text-anchor=\"middle\">0 s<"));
+    const std::string beyond = gap::to_svg(plot, {0.0, 3000.0, 7000.0});
+    EXPECT_THAT(beyond, HasSubstr("text-anchor=\"middle\">6000<"));
+}
+
 }  // namespace
