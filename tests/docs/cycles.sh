@@ -1,0 +1,23 @@
+#!/bin/sh
+# The modelled cycles and bands that pages keep by hand are those of today: of a window of 600 taps as `bench` prints them now, of all else as
+# docs/measured has them. Arguments: the glsum program, the source folder.
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+for tool in arm-none-eabi-gcc qemu-system-arm perl; do
+    command -v "$tool" >/dev/null 2>&1 && continue
+    echo "no $tool"
+    [ -n "${GLSUM_REQUIRE_FIRMWARE:-}" ] && exit 1
+    exit 77
+done
+# Another compiler orders loads and stores otherwise: pages show what the one that docs/measured names gives.
+of_pages=$(sed -n 's/^ *target compiler .* \([0-9]*\.[0-9]*\)\.[0-9]* [0-9]*$/\1/p' "$2/docs/measured/quick.md")
+case $(arm-none-eabi-gcc -dumpversion) in
+"${of_pages:?docs/measured/quick.md names no target compiler}".*) ;;
+*) echo "pages are of GCC $of_pages" && exit 77 ;;
+esac
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+kernels=$(sed -n 's/^| `\([a-z0-9]*_[a-z0-9]*_[fq][0-9c]*\)`.*/\1/p' "$2"/docs/*.md | sort -u | paste -sd, -)
+"$1" bench --quick --kernels "$kernels" --orders 0.5 --taps 600 --targets m7,m4 --table all --out "$folder/run.json" >"$folder/run.txt" 2>"$folder/said" ||
+    { cat "$folder/said"; exit 1; }
+perl "$here/cycles.pl" "$2"/docs/*.md -- "$folder/run.txt" "$2"/docs/measured/models.md "$2"/docs/measured/integrals.md
