@@ -87,7 +87,8 @@ template <bool fused, class T, class Architecture>
     Accumulator<T, Architecture> s2;
     Accumulator<T, Architecture> s3;
     const T* const end = a + blocks * block;
-    const auto add_four = [&](const T* from) {
+    // Inlined by force: clang would call what stands twice, with the sums in memory.
+    const auto add_four = [&](const T* from) __attribute__((always_inline)) {
         s0.template add<fused>(a, from);
         s1.template add<fused>(a + block, x + block);
         s2.template add<fused>(a + 2 * block, x + 2 * block);
@@ -96,7 +97,7 @@ template <bool fused, class T, class Architecture>
         x += 4 * block;
     };
     // One in another, and each expected: of a short window jumps would cost as much as what they jump to.
-    const auto add_rest = [&](const T* from) {
+    const auto add_rest = [&](const T* from) __attribute__((always_inline)) {
         if (a < end) [[likely]] {
             s0.template add<fused>(a, from);
             if (a + block < end) [[likely]] {
