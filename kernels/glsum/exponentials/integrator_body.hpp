@@ -10,11 +10,11 @@ namespace glsum {
 template <class Technique, class Format>
 Status Sum<Integrator, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
                                                    std::span<Sample> past) {
-    if (!order_in_range(design.order)) {
-        return Status::order_out_of_range;
+    if (const Status status = order_and_taps_in_range(design); status != Status::ok) {
+        return status;
     }
-    if (design.modes.size() > (std::max<std::size_t>(design.taps, 1) - 1) / 2) {
-        return design.taps == 0 ? Status::no_taps : Status::modes_out_of_range;
+    if (design.modes.size() > (design.taps - 1) / 2) {
+        return Status::modes_out_of_range;
     }
     const double weight = design.modes.empty() ? 0.0 : design.modes.front().weight;
     if (!design.modes.empty() &&

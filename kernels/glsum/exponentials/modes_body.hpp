@@ -27,11 +27,8 @@ constexpr FixedDecay to_fixed(double decay) {
 template <class Technique, class Format>
 Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
                                               std::span<Sample> past) {
-    if (!order_in_range(design.order)) {
-        return Status::order_out_of_range;
-    }
-    if (design.taps == 0) {
-        return Status::no_taps;
+    if (const Status status = order_and_taps_in_range(design); status != Status::ok) {
+        return status;
     }
     const std::size_t modes = design.modes.size();
     if (modes > (design.taps - 1) / 2) {
@@ -56,11 +53,10 @@ Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design
             return Status::format_too_narrow;
         }
     }
-    if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design.taps, modes)) {
-        return Status::table_too_small;
-    }
-    if (past.size() < past_count(design.taps, modes)) {
-        return Status::past_too_small;
+    if (const Status status = buffers_in_range(design, table.size(), table_count(design.taps, modes), past.size(),
+                                               past_count(design.taps, modes));
+        status != Status::ok) {
+        return status;
     }
     const std::size_t near_samples = design.taps - 1 - 2 * modes;
     typename Format::Scale scale = {};

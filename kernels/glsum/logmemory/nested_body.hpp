@@ -33,20 +33,16 @@ inline std::size_t around(std::size_t at, std::size_t far, std::size_t size) {
 template <class Technique, class Format>
 Status Sum<Nested, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
                                                std::span<Sample> past) {
-    if (!order_in_range(design.order)) {
-        return Status::order_out_of_range;
-    }
-    if (design.taps == 0) {
-        return Status::no_taps;
+    if (const Status status = order_and_taps_in_range(design); status != Status::ok) {
+        return status;
     }
     if (design.blocks.count > 0 && reach_of(design) > most_reach) {
         return Status::blocks_out_of_range;
     }
-    if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design)) {
-        return Status::table_too_small;
-    }
-    if (past.size() < past_count(design)) {
-        return Status::past_too_small;
+    if (const Status status =
+            buffers_in_range(design, table.size(), table_count(design), past.size(), past_count(design));
+        status != Status::ok) {
+        return status;
     }
     if (!weights_in_range<Technique, Format>(design, reach_of(design) - 1)) {
         return Status::weights_out_of_range;

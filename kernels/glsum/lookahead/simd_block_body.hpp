@@ -9,22 +9,11 @@ namespace glsum {
 template <class Technique, class Format>
 Status Sum<HostBlock, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
                                                   std::span<Sample> past) {
-    if (!order_in_range(design.order)) {
-        return Status::order_out_of_range;
-    }
-    if (design.taps == 0) {
-        return Status::no_taps;
+    if (const Status status = window_in_range<Sum, Technique, Format>(design, table.size(), past.size());
+        status != Status::ok) {
+        return status;
     }
     const std::size_t past_samples = design.taps - 1;
-    if (!weights_in_range<Technique, Format>(design, past_samples)) {
-        return Status::weights_out_of_range;
-    }
-    if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design.taps)) {
-        return Status::table_too_small;
-    }
-    if (past.size() < past_count(design.taps)) {
-        return Status::past_too_small;
-    }
     for (std::size_t i = 0; i < table_count(design.taps); ++i) {
         table[i] = 0;
     }

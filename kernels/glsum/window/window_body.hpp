@@ -1,8 +1,6 @@
 // The bodies of sums over a window. Included by sum.cpp alone.
 #pragma once
 
-#include <limits>
-
 #include "glsum/design_range.hpp"
 #include "glsum/window/window_sum.hpp"
 
@@ -11,20 +9,9 @@ namespace glsum {
 template <class History, class Technique, class Format>
 Status Sum<History, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
                                                 std::span<Sample> past) {
-    if (!order_in_range(design.order)) {
-        return Status::order_out_of_range;
-    }
-    if (design.taps == 0) {
-        return Status::no_taps;
-    }
-    if (!weights_in_range<Technique, Format>(design, design.taps - 1)) {
-        return Status::weights_out_of_range;
-    }
-    if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design.taps)) {
-        return Status::table_too_small;
-    }
-    if (past.size() < past_count(design.taps)) {
-        return Status::past_too_small;
+    if (const Status status = window_in_range<Sum, Technique, Format>(design, table.size(), past.size());
+        status != Status::ok) {
+        return status;
     }
     typename Format::Scale scale;
     if (const Status status = Technique::template choose_scale<Format>(design, scale); status != Status::ok) {
