@@ -52,6 +52,10 @@ sub without_code {
 
 my $link = qr/\]\(([^()\s]+)\)/;
 
+# A sentence ends with a mark and what closes behind it, or with its block, so before a list, a table or code. No semicolon or colon
+# ends one, nor does the point of `Fig. 3` or the last of `...`.
+my $end_of_sentence = qr/(?<!\bFig)(?<!\bFigs)(?<!\.)[.?!]["')*_\]]*(?=\s)|\z/;
+
 sub read_page {
     my ($file) = @_;
     open my $in, '<:utf8', $file or die "pages.pl: $file: $!\n";
@@ -126,7 +130,7 @@ for my $file (grep { m{(?:^|/)README\.md$} } @files) {
     }
     for my $block (grep { $_->{kind} eq 'text' } @{$pages{$file}{blocks}}) {
         my $text = without_code($block->{text}) =~ s/$link/]/gr;
-        while ($text =~ /\G\s*(\S.*?(?:[.:;?!]["')*_\]]*(?=\s)|\z))/gs) {
+        while ($text =~ /\G\s*(\S.*?(?:$end_of_sentence))/gs) {
             my $line = line_at($block->{line}, $text, $-[1]);
             my $sentence = $1 =~ s/\s+/ /gr;
             my $words = grep { /\w/ } split ' ', $sentence;
