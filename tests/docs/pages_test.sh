@@ -71,4 +71,17 @@ write "$(printf '%s:\n```\n%s\n```\n%s:\n\n| %s |\n' "$(words 25)" "$(words 30)"
 expect 0
 write "$(words 24) \`$(words 9). $(words 9)\`."
 expect 0
+# Other pages: 35 words, and what commands print any number.
+for page in docs/page.md docs/deep/page.md CHANGELOG.md; do
+    begin
+    mkdir -p "$pages/docs/deep"
+    printf '# page\n\n%s.\n' "$(words 35)" >"$pages/$page"
+    expect 0
+    printf '# page\n\n%s; %s.\n' "$(words 18)" "$(words 18)" >"$pages/$page"
+    expect 1 "$page:3: expected a sentence of at most 35 words, found 36"
+done
+begin
+mkdir -p "$pages/docs/measured"
+printf '# page\n\n%s.\n' "$(words 90)" >"$pages/docs/measured/page.md"
+expect 0
 [ "$failures" -eq 0 ]
