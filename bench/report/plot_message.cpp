@@ -6,7 +6,6 @@
 #include <limits>
 #include <map>
 #include <optional>
-#include <ranges>
 
 #include "bench/rows/key.hpp"
 
@@ -24,8 +23,9 @@ void keep_least(LeastByOrder& least, const std::string& order, std::optional<dou
 
 // "least to most" of the orders
 std::string range_text(const LeastByOrder& least) {
-    const auto [smallest, largest] = std::ranges::minmax(least | std::views::values);
-    return fmt::format("{:.2g} to {:.2g}", smallest, largest);
+    const auto [smallest, largest] =
+        std::ranges::minmax_element(least, {}, [](const auto& of_order) { return of_order.second; });
+    return fmt::format("{:.2g} to {:.2g}", smallest->second, largest->second);
 }
 
 }  // namespace
