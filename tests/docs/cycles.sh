@@ -20,4 +20,5 @@ trap 'rm -rf "$folder"' EXIT
 kernels=$(sed -n 's/^| `\([a-z0-9]*_[a-z0-9]*_[fq][0-9c]*\)`.*/\1/p' "$2"/docs/*.md | sort -u | paste -sd, -)
 "$1" bench --quick --kernels "$kernels" --orders 0.5 --taps 600 --targets m7,m4 --table all --out "$folder/run.json" >"$folder/run.txt" 2>"$folder/said" ||
     { cat "$folder/said"; exit 1; }
-perl "$here/cycles.pl" "$2"/docs/*.md -- "$folder/run.txt" "$2"/docs/measured/models.md "$2"/docs/measured/integrals.md
+measured=$2/docs/measured
+perl "$here/cycles.pl" "$2/README.md" "$2"/docs/*.md -- "$folder/run.txt" "$measured/models.md" "$measured/integrals.md" "$measured/front.md"
