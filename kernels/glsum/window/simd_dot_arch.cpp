@@ -50,6 +50,11 @@ struct Accumulator {
     Accumulator() {
         each([&](auto part) { sums[part] = Batch(T(0)); });
     }
+    void start(const T* a, const T* x) {
+        each([&](auto part) {
+            sums[part] = Batch::load_aligned(a + part * Batch::size) * Batch::load_unaligned(x + part * Batch::size);
+        });
+    }
     template <bool fused>
     void add(const T* a, const T* x) {
         each([&](auto part) {
@@ -87,16 +92,14 @@ template <bool fused, class T, class Architecture>
     Accumulator<T, Architecture> s2;
     Accumulator<T, Architecture> s3;
     const T* const end = a + blocks * block;
-    // Inlined by force: clang would call what stands twice, with the sums in memory.
-    const auto add_four = [&](const T* from) __attribute__((always_inline)) {
-        s0.template add<fused>(a, from);
-        s1.template add<fused>(a + block, x + block);
-        s2.template add<fused>(a + 2 * block, x + 2 * block);
-        s3.template add<fused>(a + 3 * block, x + 3 * block);
+    const auto next_four = [&]() __attribute__((always_inline)) {
         a += 4 * block;
         x += 4 * block;
+        // Two pointers: by an index to both, clang's loads in a product would be instructions of their own.
+        __asm__("" : "+r"(a), "+r"(x));
     };
-    // One in another, and each expected: of a short window jumps would cost as much as what they jump to.
+    // One in another, and each expected: of a short window jumps would cost as much as what they jump to. Inlined by
+    // force: clang would call what stands twice, with the sums in memory.
     const auto add_rest = [&](const T* from) __attribute__((always_inline)) {
         if (a < end) [[likely]] {
             s0.template add<fused>(a, from);
@@ -109,9 +112,17 @@ template <bool fused, class T, class Architecture>
         }
     };
     if (blocks >= 4) [[likely]] {
-        add_four(first);
+        s0.start(a, first);
+        s1.start(a + block, x + block);
+        s2.start(a + 2 * block, x + 2 * block);
+        s3.start(a + 3 * block, x + 3 * block);
+        next_four();
         while (a + 3 * block < end) {
-            add_four(x);
+            s0.template add<fused>(a, x);
+            s1.template add<fused>(a + block, x + block);
+            s2.template add<fused>(a + 2 * block, x + 2 * block);
+            s3.template add<fused>(a + 3 * block, x + 3 * block);
+            next_four();
         }
         add_rest(x);
     } else {
@@ -131,7 +142,8 @@ template <class T, bool fused, class Architecture>
         constexpr std::size_t half = Sums::block / 2;
         sums.add(pass<fused, T, Architecture>(a + half, first + half, x + half, blocks));
     }
-    return sums.joined();
+    // As if each accumulator had begun with 0 and not with its first product, which may be -0.
+    return sums.joined() + T(0);
 }
 
 }  // namespace
