@@ -5,6 +5,7 @@
 
 #if defined(GLSUM_SIMD)
 #include <algorithm>
+#include <cmath>
 #include <random>
 #include <vector>
 
@@ -100,6 +101,28 @@ void check_slides_on_each(xsimd::arch_list<Architectures...>, std::size_t blocks
         }
     };
     (check(Architectures{}), ...);
+}
+
+// Accumulators that begin with 0: products of -0 add to 0, and not to -0.
+TEST(Simd, ASumOfNegativeZerosIsZeroOnEveryInstructionSet) {
+    const auto check_zeros = []<class... Architectures>(xsimd::arch_list<Architectures...>) {
+        const Table<float> a(8 * 16, -1.0F);
+        const Table<float> x(8 * 16, 0.0F);
+        const auto check_on = [&]<class Architecture>(Architecture) {
+            if (is_here<Architecture>()) {
+                for (const std::size_t blocks : {1, 3, 4, 5, 8}) {
+                    EXPECT_FALSE(
+                        std::signbit(glsum::simd_dot_on<float, false, Architecture>(a.data(), x.data(), blocks)))
+                        << Architecture::name() << ", " << blocks << " blocks";
+                    EXPECT_FALSE(
+                        std::signbit(glsum::simd_dot_on<float, true, Architecture>(a.data(), x.data(), blocks)))
+                        << Architecture::name() << ", fused, " << blocks << " blocks";
+                }
+            }
+        };
+        (check_on(Architectures{}), ...);
+    };
+    check_zeros(glsum::SimdArchitectures{});
 }
 
 TEST(Simd, SlidesInTheStatedOrderOnEveryInstructionSet) {
