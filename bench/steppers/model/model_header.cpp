@@ -106,14 +106,16 @@ std::string make_model_header(const ModelSpec& spec, const std::string& prefix, 
 }
 
 WrittenStepper written(const ModelSpec& spec, const std::string& prefix, std::string text) {
-    WrittenStepper stepper{prefix, std::move(text), {{}}, {}, {}};
+    WrittenStepper stepper{prefix, std::move(text), "f32", {{}}, {}, {}};
     SteppedModel stepped(spec);
     const std::size_t count = 4000 + stepped.design().design().delay;
     std::mt19937 chance(1);
+    float held = 0.0F;
     for (std::size_t k = 0; k < count; ++k) {
         const float jump = std::ldexp(static_cast<float>(chance() >> 8U), -23) - 1.0F;
-        stepper.inputs[0].push_back(k % 25 == 0 ? jump : stepper.inputs[0].back());
-        stepper.expected.push_back(std::bit_cast<std::uint32_t>(stepped.step(stepper.inputs[0].back())));
+        held = k % 25 == 0 ? jump : held;
+        stepper.inputs[0].push_back(std::bit_cast<std::uint32_t>(held));
+        stepper.expected.push_back(std::bit_cast<std::uint32_t>(stepped.step(held)));
     }
     const auto& tables = stepped.design().design().tables;
     if (!tables.empty() && tables[0].design().taps > 1) {
