@@ -52,31 +52,36 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
     if (!options.controller.empty()) {
         if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty()) {
             refuse(
-                "--controller: expected --out, --plant, --verify, --core, --json, --prefix, --licence, --max-error and "
-                "--samples alone beside it");
+                "--controller: expected --out, --plant, --format, --input-scale, --verify, --core, --json, --prefix, "
+                "--licence, --max-error and --samples alone beside it");
         }
         if (!budget.core.empty() && !options.verify) {
             refuse("--core: expected --verify beside it and --controller");
         }
-        generate_controller({options.controller, options.plant, options.json, options.out, options.prefix,
-                             options.licence, core, options.verify, budget.max_error, budget.samples},
-                            command);
+        generate_controller(
+            {options.controller, options.plant, options.json, options.out, options.prefix, options.licence, core,
+             options.verify, budget.max_error, budget.samples, options.format, options.input_scale},
+            command);
         return;
     }
     if (!options.model.empty()) {
         if (!options.kernel.empty() || !options.taps.empty() || !budget.derivative_error.empty() ||
             !options.plant.empty()) {
             refuse(
-                "--model: expected --out, --step-s, --max-error, --samples, --verify, --core, --json, --prefix and "
-                "--licence alone beside it");
+                "--model: expected --out, --step-s, --max-error, --samples, --format, --input-scale, --verify, --core, "
+                "--json, --prefix and --licence alone beside it");
         }
         if (!budget.core.empty() && !options.verify) {
             refuse("--core: expected --verify beside it and --model");
         }
         generate_model({options.model, options.json, options.out, options.prefix, options.licence, core, options.verify,
-                        budget.max_error, budget.step_s, budget.samples},
+                        budget.max_error, budget.step_s, budget.samples, options.format, options.input_scale},
                        command);
         return;
+    }
+    if (!options.format.empty() || options.input_scale != 0.0) {
+        refuse(fmt::format("{}: expected --controller or --model beside it; a sum's format is its kernel's",
+                           options.format.empty() ? "--input-scale" : "--format"));
     }
     if (!options.plant.empty()) {
         refuse("--plant: expected --controller beside it");
@@ -171,6 +176,12 @@ void add_options(Command& command, const Words& words) {
     command.add_option("--plant", options->plant,
                        "With --controller: a model file; the loop is measured beside full memory in double, and its "
                        "margins are told; an unstable one is refused");
+    command.add_option(
+        "--format", options->format,
+        "With --controller or --model: f32 (default), or q31, whose numbers are all fractions of a full scale");
+    command.add_option("--input-scale", options->input_scale,
+                       "With --format q31: the full scale of set point and measured value, or of a model's input; a "
+                       "controller's output has the larger of its limits, a model's what no input within scale leaves");
     options->json.add_to(command, "--json",
                          "What was found: with --controller schema glsum-controller-1, with --model glsum-model-1");
     command.add_flag(

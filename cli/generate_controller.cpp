@@ -15,6 +15,7 @@
 #include "bench/target/target_rows.hpp"
 #include "bench/texts/text.hpp"
 #include "cli/board.hpp"
+#include "cli/header_options.hpp"
 #include "drive/model_file.hpp"
 #include "qemu/emulate/foreign_program.hpp"
 
@@ -80,12 +81,13 @@ void generate_controller(const ControllerOptions& options, const std::string& co
         spec.max_error = options.max_error;
     }
     spec.horizon = options.samples != 0 ? options.samples : spec.horizon;
+    spec.input_full_scale = input_full_scale(options.format, options.input_scale, "set point and measured value");
     const std::string prefix = options.prefix.empty() ? generate::prefix_of_file(options.out) : options.prefix;
     generate::ControllerReport report{options.controller, options.out};
     std::vector<std::string> lines = {""};
     if (!options.plant.empty()) {
         report.loop = report_of_loop(spec, options);
-        for (const std::string& line : generate::to_lines(*report.loop, spec.horizon)) {
+        for (const std::string& line : generate::to_lines(*report.loop, spec)) {
             fmt::print("{}\n", line);
             lines.push_back(line);
         }
@@ -108,8 +110,8 @@ void generate_controller(const ControllerOptions& options, const std::string& co
     for (const generate::CheckedBits& checked : report.checked) {
         if (!checked.good()) {
             throw glsum::Failure(glsum::Exit::check_failed,
-                                 fmt::format("{}: expected the bits of the library's float stepper, found others {}",
-                                             options.out, checked.where));
+                                 fmt::format("{}: expected the bits of the library's {} stepper, found others {}",
+                                             options.out, spec.input_full_scale ? "q31" : "float", checked.where));
         }
     }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
@@ -12,6 +13,7 @@
 #include "bench/target/target_rows.hpp"
 #include "bench/texts/text.hpp"
 #include "cli/board.hpp"
+#include "cli/header_options.hpp"
 #include "drive/model_file.hpp"
 #include "qemu/emulate/foreign_program.hpp"
 
@@ -67,12 +69,14 @@ void generate_model(const ModelOptions& options, const std::string& command) {
     if (!(max_error > 0.0 && std::isfinite(max_error))) {
         throw Failure(Exit::bad_input, fmt::format("--max-error: expected a number above 0, found {}", max_error));
     }
+    const std::optional<double> scale = input_full_scale(options.format, options.input_scale, "the input");
     const drive::Model model =
         drive::parse_model(base::read_file(options.model, drive::most_model_bytes), options.model);
     const std::string prefix = options.prefix.empty() ? generate::prefix_of_file(options.out) : options.prefix;
     const std::size_t samples = options.samples != 0 ? options.samples : generate::ModelSpec{}.samples;
     generate::ModelReport report{options.model, options.out,
-                                 generate::choose_model(model, step_of(options, model), max_error, samples), max_error};
+                                 generate::choose_model(model, step_of(options, model), max_error, samples, scale),
+                                 max_error};
     std::vector<std::string> lines = {""};
     for (const std::string& line : generate::to_lines(report.choice)) {
         fmt::print("{}\n", line);

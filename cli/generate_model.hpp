@@ -19,6 +19,8 @@ struct ModelOptions {
     double max_error;     ///< 0: 1e-3
     double step_s;        ///< 0: the file's sample_time_s
     std::size_t samples;  ///< 0: 60 000
+    std::string format;   ///< empty: f32
+    double input_scale;   ///< 0: none was said
 };
 
 /// \throws glsum::Failure (check failed) where no length keeps the error, or bits are not the library's

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/failure.hpp"
 #include "base/glob.hpp"
@@ -15,6 +16,25 @@ namespace {
 [[noreturn]] void refuse(const std::string& what) { throw glsum::Failure(glsum::Exit::bad_input, what); }
 
 }  // namespace
+
+std::optional<double> input_full_scale(const std::string& format, double scale, const char* of) {
+    if (!format.empty() && format != "f32" && format != "q31") {
+        refuse(fmt::format("--format: expected f32 or q31, found {}", format));
+    }
+    if (format != "q31") {
+        if (scale != 0.0) {
+            refuse("--input-scale: expected --format q31 beside it");
+        }
+        return std::nullopt;
+    }
+    if (scale == 0.0) {
+        refuse(fmt::format("--format q31: expected --input-scale, the full scale of {}", of));
+    }
+    if (!(scale > 0.0 && std::isfinite(scale))) {
+        refuse(fmt::format("--input-scale: expected a number above 0, found {}", scale));
+    }
+    return scale;
+}
 
 std::vector<std::string> named_kernels(const std::string& glob, double order) {
     std::vector<std::string> kernels = generate::generatable();

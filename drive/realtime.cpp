@@ -151,6 +151,8 @@ RealtimeModel::RealtimeModel(const Model& model, Writing writing, const Memory& 
     design_.input_full_scale = 2.0;  // so that an input of 1 is exact
     design_.output_full_scale = power_of_two_above(most);
     design_.stored_full_scale = increments ? power_of_two_above(most_of_increments) : design_.output_full_scale;
+    // The output is read from a sum of increments: it cannot have a unit below theirs.
+    design_.output_full_scale = std::max(design_.output_full_scale, design_.stored_full_scale);
 }
 
 std::size_t largest_taps(double short_taps, double short_cost, double long_taps, double long_cost, double budget) {

@@ -33,15 +33,20 @@ struct Gain {
 /// h^-v. Two C libraries may differ in its last bit: compute it once, for host and target alike, where bits matter.
 [[nodiscard]] inline double step_factor(double order, double step_s) { return std::pow(step_s, -order); }
 
+/// What brings a number of `output_exponent` integer bits, times the gain's mantissa, to 32 bits of `result_exponent`.
+[[nodiscard]] constexpr int gain_shift(const Gain& gain, int output_exponent, int result_exponent) {
+    // 2^(e-31) 2^(g-30) product = 2^(E-31) result
+    const int shift = 30 - gain.exponent - output_exponent + result_exponent;
+    // 62 bits: a shift by more leaves nothing, a shift up by more than 62 saturates whatever is not zero.
+    return shift > 63 ? 63 : shift < -62 ? -62 : shift;
+}
+
 /// A kernel's output times the gain, as 32 bits with `result_exponent` integer bits, to nearest, halves up, saturated.
 /// \param output_exponent  the kernel's `Scale::output_exponent`
 [[nodiscard]] constexpr Rounded apply_gain(std::int32_t output, int output_exponent, const Gain& gain,
                                            int result_exponent) {
-    // 2^(e-31) 2^(g-30) product = 2^(E-31) result
-    const int shift = 30 - gain.exponent - output_exponent + result_exponent;
     const std::int64_t product = static_cast<std::int64_t>(output) * gain.mantissa;
-    // 62 bits: a shift by more leaves nothing, a shift up by more than 62 saturates whatever is not zero.
-    return round_shift(product, shift > 63 ? 63 : shift < -62 ? -62 : shift);
+    return round_shift(product, gain_shift(gain, output_exponent, result_exponent));
 }
 
 }  // namespace glsum

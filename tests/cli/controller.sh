@@ -29,9 +29,24 @@ expect 2 "growing.json: expected a plant that is stable or integrates, found 1 p
 [ ! -e "$folder/no.json" ] || { echo "what a refused header was found to do was written"; failures=$((failures + 1)); }
 [ ! -e "$folder/no.h" ] || { echo "a refused header was written"; failures=$((failures + 1)); }
 
-# NAME DEFINITIONS: generates NAME.h under one prefix, compiles it here and for the target, and runs the loop.
+expect 2 "--format: expected f32 or q31, found q15" generate --controller "$folder/pid.json" --format q15 --out "$folder/no.h"
+expect 2 "--format q31: expected --input-scale, the full scale of set point and measured value" generate --controller "$folder/pid.json" --format q31 --out "$folder/no.h"
+for scale in -2 inf nan; do
+    expect 2 "--input-scale: expected a number above 0, found $scale" generate --controller "$folder/pid.json" --format q31 --input-scale "$scale" --out "$folder/no.h"
+done
+expect 2 "--input-scale: expected --format q31 beside it" generate --controller "$folder/pid.json" --input-scale 2 --out "$folder/no.h"
+expect 2 "--format: expected --controller" generate --kernel ring_plain_f32 --order 0.5 --taps 3 --format q31 --out "$folder/no.h"
+sed 's/, "low": -2, "high": 2//' "$folder/pid.json" >"$folder/open.json"
+expect 2 "expected low and high in the controller's file" generate --controller "$folder/open.json" --format q31 --input-scale 2 --out "$folder/no.h"
+[ ! -e "$folder/no.h" ] || { echo "a refused header in q31 was written"; failures=$((failures + 1)); }
+
+# NAME DEFINITIONS: generates NAME.h under one prefix, compiles it here and for the target, and runs the loop. In the format $format.
+format=f32
 try() {
-    expect 0 "here, compiled by cc: the library's" generate --controller "$folder/$1.json" --prefix pid --out "$folder/$1.h" --verify
+    options=
+    [ $format = f32 ] || options="--format $format --input-scale 2"
+    # shellcheck disable=SC2086 # several words
+    expect 0 "here, compiled by cc: the library's" generate --controller "$folder/$1.json" $options --prefix pid --out "$folder/$1.h" --verify
     grep -q "not compared: \|on the emulated Cortex-M7: the library's" "$folder/said" || { echo "$1: the target is not told of"; failures=$((failures + 1)); }
     shift_name=$1
     shift
@@ -48,7 +63,10 @@ try() {
             cat "$folder/loop"
         fi
     done
-    printf '#include "%s.h"\nvoid step_all(pid_f32_instance *S, float *u);\nvoid step_all(pid_f32_instance *S, float *u) { *u = pid_step_f32(S, *u, 0.0F); pid_start_f32(S, 0.0F, 0.0F, *u); pid_set_gains_f32(S, 1.0F, 1.0F, 1.0F); }\n' "$shift_name" >"$folder/unit.c"
+    number=float
+    [ $format = f32 ] || number=int32_t
+    printf '#include "%s.h"\nvoid step_all(pid_f32_instance *S, float *u);\nvoid step_all(pid_f32_instance *S, float *u) { *u = pid_step_f32(S, *u, 0.0F); pid_start_f32(S, 0.0F, 0.0F, *u); pid_set_gains_f32(S, 1.0F, 1.0F, 1.0F); }\n' "$shift_name" |
+        sed "/step_all/{s/float/$number/g; s/_f32/_$format/g; s/\([01]\)\.0F/\1/g}" >"$folder/unit.c"
     for line in "arm-none-eabi-gcc -std=c99 -mcpu=cortex-m7 -mfpu=fpv5-sp-d16 -mfloat-abi=hard" "g++ -x c++"; do
         command -v ${line%% *} >/dev/null 2>&1 || continue
         $line -O2 -Wall -Wextra -Wconversion -Werror -c "$folder/unit.c" -o "$folder/unit.o" ||
@@ -58,12 +76,21 @@ try() {
 
 try_with() {
     name=$1 kd=$2 lambda=$3 mu=$4 filter=$5 weight=$6
-    set -- "$name" -DKP=0.3 -DKI=0.5 "-DKD=$kd" "-DLAMBDA=$lambda" "-DMU=$mu" "-DFILTER=$filter" "-DWEIGHT=$weight"
+    shift 6
+    set -- "$name" -DKP=0.3 -DKI=0.5 "-DKD=$kd" "-DLAMBDA=$lambda" "-DMU=$mu" "-DFILTER=$filter" "-DWEIGHT=$weight" "$@"
     try "$@"
 }
-try_with pid 0.02 0.9 0.7 0.01 0.8
-try_with pi 0 0.8 1 0 1
-try_with whole 0.001 1 1 0 1
+try_all() {
+    try_with pid 0.02 0.9 0.7 0.01 0.8 "$@"
+    try_with pi 0 0.8 1 0 1 "$@"
+    try_with whole 0.001 1 1 0 1 "$@"
+}
+try_all
+format=q31
+try_all -DQ31
+# The other core, where its board was built.
+expect 0 "compiled by cc" generate --controller "$folder/pid.json" --format q31 --input-scale 2 --prefix pid --out "$folder/pid.h" --verify --core cortex-m4-zerowait
+grep -q "not compared: \|on the emulated Cortex-M4: the library's" "$folder/said" || { echo "q31: the Cortex-M4 is not told of"; failures=$((failures + 1)); }
 
 # What a step costs, where there is a board: bytes of the state as the compiler here has them, beside an integer PID.
 expect 0 "compiled by cc" generate --controller "$folder/pid.json" --prefix pid --out "$folder/cost.h" --verify --json "$folder/cost.json"

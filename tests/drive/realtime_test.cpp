@@ -265,4 +265,23 @@ TEST(Realtime, TheLargestLengthLiesOnTheLineThroughTwo) {
     EXPECT_EQ(drive::largest_taps(100, 650, 600, 600, 1000), 0U);
 }
 
+// A lag far below the sample time: y follows at once, and its increments are twice as large as it is.
+TEST(RealtimeModel, InQ31HoldsOutputsThatMoveAtOnce) {
+    const drive::RealtimeModel model(drive::make_fopdt(1.0, 1e-4, 0.0), drive::Writing::delta, {2}, 0.001);
+    using Stepper = glsum::Stepper<glsum::ring_plain_q31>;
+    const glsum::ModelDesign& numbers = model.design();
+    std::vector<std::int32_t> table(8);
+    std::vector<std::int32_t> past(8);
+    std::vector<std::int32_t> waiting(Stepper::line_count(numbers.delay));
+    Stepper::State state;
+    ASSERT_EQ(Stepper::prepare(state, numbers, table, past, waiting), glsum::Status::ok);
+    double exact = 0.0;
+    for (int k = 0; k < 20; ++k) {
+        const double input = k % 2 == 0 ? 0.75 : -0.5;
+        const double own = Stepper::to_real(numbers, Stepper::step(state, Stepper::from_real(numbers, input)));
+        EXPECT_NEAR(own, exact, 1e-7) << k;
+        exact = (0.1 * exact + input) / 1.1;
+    }
+}
+
 }  // namespace

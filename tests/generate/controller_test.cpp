@@ -12,6 +12,7 @@
 #include "bench/steppers/controller/certificate.hpp"
 #include "bench/steppers/controller/controller_header.hpp"
 #include "bench/steppers/controller/report.hpp"
+#include "bench/steppers/controller/stepped.hpp"
 #include "bench/steppers/controller/written.hpp"
 #include "bench/steppers/stepper/verify.hpp"
 #include "bench/target/target_rows.hpp"
@@ -181,7 +182,7 @@ TEST(ControllerReport, HasMarginsAsAFileAndInWords) {
                               "\"sensitivity\": ", "\"unstable_poles\": 0", "\"deviation\": 0.0001"}) {
         EXPECT_NE(json.find(field), std::string::npos) << field;
     }
-    EXPECT_EQ(generate::to_lines(loop, 7).back(), generate::margins_text(margins) + ".");
+    EXPECT_EQ(generate::to_lines(loop, spec).back(), generate::margins_text(margins) + ".");
     EXPECT_EQ(generate::to_json({"pid.json", "pid.h"}, spec).find("loop"), std::string::npos);
 }
 

@@ -36,6 +36,7 @@ library_of() {
         kernels/glsum/design/band* | kernels/glsum/design/derivative.cpp | kernels/glsum/design/filter.cpp | kernels/glsum/design/rational.cpp)
             echo kernels/glsum/design/libglsum_filters.a ;;
         kernels/glsum/design/*) echo kernels/glsum/design/libglsum_design.a ;;
+        kernels/glsum/model/pid*) echo bench/libglsum_generate_steppers.a ;;
         kernels/glsum/model/*) echo kernels/glsum/model/libglsum_model.a ;;
         kernels/*) echo kernels/libglsum.a ;;
         base/*) echo base/libglsum_base.a ;;
@@ -76,6 +77,7 @@ tests_of() {
         kernels/glsum/design/held.hpp) echo choose_tests ;;
         kernels/glsum/design/rational.cpp) echo bench_tests choose_tests ;;
         kernels/glsum/design/*) echo modes_tests ;;
+        kernels/glsum/model/pid*) echo controller_tests ;;
         kernels/glsum/model/*) echo drive_tests ;;
         kernels/*) echo kernel_tests bench_tests ;;
         base/*) echo base_tests bench_tests ;;

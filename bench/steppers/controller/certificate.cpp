@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/failure.hpp"
+#include "bench/steppers/controller/held_controller.hpp"
 
 namespace generate {
 namespace {
@@ -22,11 +23,11 @@ tune::Margins certify(const ControllerSpec& spec, const drive::Model& plant, con
     const double step_s = spec.controller.sample_time_s;
     const drive::Gains& gains = spec.controller.gains;
     const tune::SampledPlant sampled(plant, step_s, plant_name);
-    const SteppedController stepped(spec);
+    const auto stepped = stepped_of(spec);
     constexpr double below = 0.01;  // of a state's corner: its phase is 0.6 degrees from the limit's
     const tune::Margins margins =
-        tune::margins_of(sampled, {[&](double w) { return stepped.response(w * step_s); }, gains.ki != 0.0 ? 1.0 : 0.0,
-                                   below * stepped.slowest() / step_s});
+        tune::margins_of(sampled, {[&](double w) { return stepped->response(w * step_s); }, gains.ki != 0.0 ? 1.0 : 0.0,
+                                   below * stepped->slowest() / step_s});
     if (!margins.stable()) {
         const bool exact = tune::margins_of({&sampled, gains}).stable();
         throw glsum::Failure(

@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "bench/steppers/controller/stepped.hpp"
+#include "bench/steppers/controller/controller_spec.hpp"
 #include "drive/model.hpp"
 #include "drive/tune/margins.hpp"
 
 namespace generate {
 
 /// Of the sampled loop, hold and dead time included, where no limit is met. The controller is the header's: the tables
-/// of its sums and its gains as single precision holds them, not the orders that they stand for.
+/// of its sums and its gains as its format holds them, not the orders that they stand for.
 /// \param name  of the controller's file \param plant_name  of the plant's
 /// \throws glsum::Failure (bad input) for an unstable loop, and for a plant as `tune::SampledPlant`
 [[nodiscard]] tune::Margins certify(const ControllerSpec& spec, const drive::Model& plant, const std::string& name,

@@ -1,11 +1,11 @@
 // A fractional PID controller as one C99 header: its two sums as `make_header` writes them, and the statements of
-// glsum/model/pid.h around them.
+// glsum/model/pid.h, in q31 of pid_q31.h, around them.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "bench/steppers/controller/stepped.hpp"
+#include "bench/steppers/controller/controller_spec.hpp"
 
 namespace generate {
 

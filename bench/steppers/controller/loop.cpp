@@ -1,10 +1,13 @@
 #include "bench/steppers/controller/loop.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "base/failure.hpp"
+#include "bench/steppers/controller/held_controller.hpp"
 #include "drive/fast_memory.hpp"
 #include "drive/simulation.hpp"
 #include "drive/whole_record.hpp"
@@ -70,7 +73,8 @@ private:
 
 // The plant's output in a loop with whatever puts out u for set point and reading.
 template <class Controller>
-std::vector<double> outputs_of(const drive::Model& plant, double step_s, std::size_t count, Controller&& controller) {
+std::vector<double> outputs_of(const drive::Model& plant, double step_s, std::size_t count, double level,
+                               Controller&& controller) {
     const auto delay = static_cast<std::size_t>(std::ceil(plant.delay_s / step_s - 1e-9));
     const std::vector<double> weights = drive::merged_weights(plant.denominator, step_s, count, true);
     const double constant = drive::constant_coefficient(plant.denominator);
@@ -89,7 +93,7 @@ std::vector<double> outputs_of(const drive::Model& plant, double step_s, std::si
         if (!std::isfinite(output[k])) {
             throw glsum::Failure(glsum::Exit::check_failed, "the loop does not stay finite");
         }
-        input[k] = controller(2 * k < count ? 1.0 : 0.4, output[k]);
+        input[k] = controller(2 * k < count ? level : second_level * level, output[k]);
     }
     return output;
 }
@@ -104,14 +108,19 @@ double largest_difference(const std::vector<double>& one, const std::vector<doub
 
 }  // namespace
 
+double first_level(const ControllerSpec& spec) {
+    return spec.input_full_scale ? std::min(1.0, 0.5 * *spec.input_full_scale) : 1.0;
+}
+
 LoopDeviation measure_loop(const ControllerSpec& spec, const drive::Model& plant, std::size_t samples) {
     if (plant.numerator.size() != 1 || plant.numerator[0].order != 0.0) {
         throw glsum::Failure(glsum::Exit::bad_input, "--plant: expected a numerator without derivatives");
     }
     const double step_s = spec.controller.sample_time_s;
+    const double level = first_level(spec);
     const auto full = [&](const drive::Fopid& controller, std::size_t count) {
         FullController stepped(controller, count);
-        return outputs_of(plant, controller.sample_time_s, count,
+        return outputs_of(plant, controller.sample_time_s, count, level,
                           [&](double setpoint, double measured) { return stepped.step(setpoint, measured); });
     };
     const std::vector<double> exact = full(spec.controller, samples);
@@ -119,10 +128,17 @@ LoopDeviation measure_loop(const ControllerSpec& spec, const drive::Model& plant
     for (const double value : exact) {
         peak = std::max(peak, std::fabs(value));
     }
-    SteppedController own(spec);
-    const std::vector<double> header = outputs_of(plant, step_s, samples, [&](double setpoint, double measured) {
-        return static_cast<double>(own.step(static_cast<float>(setpoint), static_cast<float>(measured)));
+    const auto own = stepped_of(spec);
+    const std::vector<double> header = outputs_of(plant, step_s, samples, level, [&](double setpoint, double measured) {
+        return own->step_real(setpoint, measured);
     });
+    if (spec.input_full_scale && peak > *spec.input_full_scale) {
+        throw glsum::Failure(
+            glsum::Exit::bad_input,
+            fmt::format("--input-scale: expected at least {:.3g}, what the loop reaches at a set point "
+                        "of {:.3g}, found {:.3g}",
+                        peak, level, *spec.input_full_scale));
+    }
     drive::Fopid finer = spec.controller;
     finer.sample_time_s = 0.5 * step_s;
     return {largest_difference(exact, header, 1) / peak, largest_difference(exact, full(finer, 2 * samples), 2) / peak};

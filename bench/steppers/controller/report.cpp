@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/steppers/controller/certificate.hpp"
+#include "bench/steppers/controller/stepped_q31.hpp"
 #include "bench/steppers/stepper/json.hpp"
 
 namespace generate {
@@ -50,8 +51,10 @@ std::string cost_table(const ControllerReport& report) {
     return cost_table(rows, report.core);
 }
 
-std::vector<std::string> to_lines(const LoopReport& loop, std::size_t samples) {
-    return {fmt::format("In a loop with {}, {} samples, the set point 1, then 0.4:", loop.plant_text, samples),
+std::vector<std::string> to_lines(const LoopReport& loop, const ControllerSpec& spec) {
+    const double level = first_level(spec);
+    return {fmt::format("In a loop with {}, {} samples, the set point {:g}, then {:g}:", loop.plant_text, spec.horizon,
+                        level, second_level * level),
             fmt::format("within {:.2g} of the same loop in double with full memory, as a part of the largest output;",
                         loop.deviation.header),
             fmt::format("the sampling's own error, by halving the step: {:.2g}.", loop.deviation.sampling),
@@ -63,11 +66,19 @@ std::vector<std::string> to_lines(const LoopReport& loop, std::size_t samples) {
 std::string to_json(const ControllerReport& report, const ControllerSpec& spec) {
     Json json{{"schema", "glsum-controller-1"}, {"controller", report.controller}, {"header", report.header}};
     json["sample_time_s"] = spec.controller.sample_time_s;
+    json["format"] = spec.format();
+    if (spec.input_full_scale) {
+        const FixedController stepped(spec);
+        json["input_full_scale"] = stepped.numbers().input_full_scale;
+        json["output_full_scale"] = stepped.numbers().output_full_scale;
+        json["rounding_error"] = stepped.error().direct;
+        json["rounding_error_per_sample"] = stepped.error().per_sample;
+    }
     json["max_error"] = spec.max_error;
     json["samples"] = spec.horizon;
-    json["integral"] = to_json(integral_sum(spec), integral_kernel);
+    json["integral"] = to_json(integral_sum(spec), integral_kernel(spec));
     if (spec.controller.gains.kd != 0.0) {
-        json["derivative"] = to_json(derivative_sum(spec), derivative_kernel);
+        json["derivative"] = to_json(derivative_sum(spec), derivative_kernel(spec));
     }
     if (report.loop) {
         json["loop"] = to_json(*report.loop);

@@ -30,7 +30,7 @@ struct ControllerReport {
 };
 
 /// Lines without an indentation.
-[[nodiscard]] std::vector<std::string> to_lines(const LoopReport& loop, std::size_t samples);
+[[nodiscard]] std::vector<std::string> to_lines(const LoopReport& loop, const ControllerSpec& spec);
 
 /// What a step costs beside the integer PID's; nothing without a cost.
 [[nodiscard]] std::string cost_table(const ControllerReport& report);

@@ -2,7 +2,12 @@
 
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <random>
+
+#include "bench/steppers/controller/stepped.hpp"
+#include "bench/steppers/controller/stepped_q31.hpp"
+#include "glsum/registry.hpp"
 
 namespace generate {
 
@@ -23,12 +28,27 @@ CheckRecord check_record() {
     return record;
 }
 
+std::int32_t to_fraction(float value) {
+    constexpr double full_scale = 16.0;
+    return glsum::modes_plain_q31::from_real(static_cast<double>(value) / full_scale);
+}
+
 WrittenStepper written(const ControllerSpec& spec, const std::string& prefix, std::string text) {
     const CheckRecord record = check_record();
-    WrittenStepper stepper{prefix, std::move(text), {record.setpoint, record.measured}, {}, {}};
-    SteppedController stepped(spec);
-    for (std::size_t k = 0; k < record.setpoint.size(); ++k) {
-        stepper.expected.push_back(std::bit_cast<std::uint32_t>(stepped.step(record.setpoint[k], record.measured[k])));
+    WrittenStepper stepper{prefix, std::move(text), spec.format(), {{}, {}}, {}, {}};
+    const auto run = [&](auto stepped, auto&& of_format) {
+        for (std::size_t k = 0; k < record.setpoint.size(); ++k) {
+            const auto setpoint = of_format(record.setpoint[k]);
+            const auto measured = of_format(record.measured[k]);
+            stepper.inputs[0].push_back(std::bit_cast<std::uint32_t>(setpoint));
+            stepper.inputs[1].push_back(std::bit_cast<std::uint32_t>(measured));
+            stepper.expected.push_back(std::bit_cast<std::uint32_t>(stepped->step(setpoint, measured)));
+        }
+    };
+    if (spec.input_full_scale) {
+        run(std::make_unique<FixedController>(spec), to_fraction);
+    } else {
+        run(std::make_unique<SteppedController>(spec), [](float value) { return value; });
     }
     if (integral_sum(spec).taps > 1) {
         stepper.tables.emplace_back("integral");

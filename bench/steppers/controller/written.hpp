@@ -1,10 +1,11 @@
 // A controller's header as it was written, with what it is checked over.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
-#include "bench/steppers/controller/stepped.hpp"
+#include "bench/steppers/controller/controller_spec.hpp"
 #include "bench/steppers/stepper/check_source.hpp"
 
 namespace generate {
@@ -18,6 +19,9 @@ struct CheckRecord {
 /// 4000 samples: steps of the set point, a reading that follows late and noisily; the last quarter is a hundred times
 /// as large, so that limits are met.
 [[nodiscard]] CheckRecord check_record();
+
+/// A value of the record in q31: of 16 as full scale, where the last quarter saturates.
+[[nodiscard]] std::int32_t to_fraction(float value);
 
 /// \param text  the header of `spec` with this prefix
 [[nodiscard]] WrittenStepper written(const ControllerSpec& spec, const std::string& prefix, std::string text);

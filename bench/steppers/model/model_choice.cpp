@@ -9,7 +9,8 @@
 
 #include "base/failure.hpp"
 #include "base/progress.hpp"
-#include "drive/fast_memory.hpp"
+#include "bench/steppers/model/full_memory.hpp"
+#include "bench/steppers/model/stepped_q31.hpp"
 #include "drive/response.hpp"
 #include "drive/stability.hpp"
 
@@ -18,12 +19,6 @@ namespace {
 
 constexpr std::size_t random_samples = 20'000;
 constexpr std::size_t most_modes = 16;
-constexpr std::size_t whole_order_taps = 64;  // more than orders up to 20 have; what is 0 is left out
-
-bool has_tail(const drive::Model& model) {
-    return std::any_of(model.denominator.begin(), model.denominator.end(),
-                       [](const drive::Term& term) { return term.order != std::floor(term.order); });
-}
 
 double peak_of(const std::vector<double>& values) {
     double peak = 0.0;
@@ -33,38 +28,13 @@ double peak_of(const std::vector<double>& values) {
     return peak;
 }
 
-// The spec's scheme in double with full memory.
-std::vector<double> full_memory(const ModelSpec& spec, const std::vector<double>& input) {
-    const std::size_t taps = has_tail(spec.model) ? input.size() + 1 : whole_order_taps;
-    const drive::RealtimeModel design(spec.model, spec.writing, {taps}, spec.step_s);
-    const glsum::ModelDesign& numbers = design.design();
-    std::vector<double> weights(input.size() + 1, 0.0);
-    if (!numbers.tables.empty()) {
-        const glsum::PastTable& table = numbers.tables[0];
-        weights[1] = table.factor;
-        for (std::size_t j = 0; j < std::min(table.ratios.size(), input.size() - 1); ++j) {
-            weights[2 + j] = table.factor * table.ratios[j];
-        }
-    }
-    drive::FastMemory memory(weights);
-    std::vector<double> output;
-    double y = 0.0;
-    const std::size_t behind = numbers.delay + 1;
-    const auto acting = [&](std::size_t k) { return k >= behind ? input[k - behind] : 0.0; };
-    for (std::size_t k = 0; k < input.size(); ++k) {
-        const double u = numbers.half_input ? 0.5 * (acting(k) + acting(k + 1)) : acting(k);
-        const double increment = numbers.input * u - numbers.constant * y - memory.past();
-        memory.push(increment);
-        y += increment;
-        output.push_back(y);
-    }
-    return output;
-}
-
 std::vector<ModelSpec> candidates(const ModelSpec& base, bool first_order) {
     std::vector<ModelSpec> all;
     const auto add = [&](drive::Writing writing, std::size_t near_taps, std::size_t modes) {
         for (const bool compensated : {false, true}) {
+            if (compensated && base.input_full_scale) {
+                continue;  // a state's step loses nothing there that it could keep
+            }
             ModelSpec spec = base;
             spec.writing = writing;
             spec.memory = {near_taps + 2 * modes, modes};
@@ -119,17 +89,35 @@ ModelJudge::ModelJudge(const drive::Model& model, double step_s, std::size_t sam
     }
 }
 
-double ModelJudge::error_of(const ModelSpec& spec, const Record& record) {
-    SteppedModel stepped(spec);
+template <class Step>
+double ModelJudge::error_of(const Record& record, Step&& step) {
     double largest = 0.0;
     for (std::size_t k = 0; k < record.input.size(); ++k) {
-        const double output = stepped.step(static_cast<float>(record.input[k]));
+        const double output = step(record.input[k]);
         largest = std::max(largest, std::fabs(output - record.expected[k]));
         if (!std::isfinite(output)) {
             return INFINITY;
         }
     }
     return largest / record.peak;
+}
+
+double ModelJudge::error_of(const ModelSpec& spec, const Record& record) const {
+    if (!spec.input_full_scale) {
+        SteppedModel stepped(spec);
+        return error_of(record, [&](double input) { return stepped.step(static_cast<float>(input)); });
+    }
+    FixedModel stepped(spec, swing(spec));
+    const double level = fixed_level * *spec.input_full_scale;
+    return error_of(record, [&](double input) { return stepped.step_real(level * input) / level; });
+}
+
+Swing ModelJudge::swing(const ModelSpec& spec) const {
+    auto& known = spec.writing == drive::Writing::delta ? swing_delta_ : swing_bdf2_;
+    if (!known) {
+        known = swing_of(spec);
+    }
+    return *known;
 }
 
 double ModelJudge::scheme_error(drive::Writing writing, const ModelSpec& spec) const {
@@ -148,12 +136,14 @@ ModelErrors ModelJudge::errors_of(const ModelSpec& spec) const {
             error_of(spec, spec.writing == drive::Writing::delta ? random_delta_ : random_bdf2_)};
 }
 
-ModelChoice choose_model(const drive::Model& model, double step_s, double max_error, std::size_t samples) {
+ModelChoice choose_model(const drive::Model& model, double step_s, double max_error, std::size_t samples,
+                         std::optional<double> input_full_scale) {
     if (drive::zeros_right_of_axis(model.denominator) > 0) {
         throw glsum::Failure(glsum::Exit::bad_input,
                              "expected a stable model, found one with poles right of the axis: glsum stability tells");
     }
-    const ModelSpec base{model, step_s, samples};
+    ModelSpec base{model, step_s, samples};
+    base.input_full_scale = input_full_scale;
     const ModelJudge judge(model, step_s, samples);
     const double delta = judge.scheme_error(drive::Writing::delta, base);
     const auto all = candidates(base, delta <= max_error);

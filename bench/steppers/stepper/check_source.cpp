@@ -2,18 +2,30 @@
 
 #include <fmt/format.h>
 
+#include <bit>
+
+#include "bench/generate/literals.hpp"
 #include "bench/texts/text.hpp"
 
 namespace generate {
 namespace {
 
-template <class Number>
-std::string list_of(const std::vector<Number>& numbers, const char* form) {
+template <class ToText>
+std::string list_of(const std::vector<std::uint32_t>& numbers, ToText&& to_text) {
     std::string text;
     for (std::size_t k = 0; k < numbers.size(); ++k) {
-        text += fmt::format(fmt::runtime(form), numbers[k]) + (k % 8 == 7 ? ",\n" : ", ");
+        text += to_text(numbers[k]) + (k % 8 == 7 ? ",\n" : ", ");
     }
     return text;
+}
+
+const char* number_of(const WrittenStepper& stepper) { return stepper.format == "q31" ? "int32_t" : "float"; }
+
+std::string inputs_of(const WrittenStepper& stepper, std::size_t argument) {
+    return list_of(stepper.inputs[argument], [&](std::uint32_t bits) {
+        return stepper.format == "q31" ? literal(std::bit_cast<std::int32_t>(bits))
+                                       : fmt::format("{:a}F", std::bit_cast<float>(bits));
+    });
 }
 
 std::string input_name(const WrittenStepper& stepper, std::size_t argument) {
@@ -28,7 +40,7 @@ std::string arguments(const WrittenStepper& stepper, const std::string& index) {
     }
     return text;
 }
-std::string parameters(const WrittenStepper& stepper, const char* before) {
+std::string parameters(const WrittenStepper& stepper, const std::string& before) {
     std::string text;
     for (std::size_t argument = 0; argument < stepper.inputs.size(); ++argument) {
         text += fmt::format(", {}x{}", before, argument);
@@ -40,7 +52,7 @@ std::string parameters(const WrittenStepper& stepper, const char* before) {
 std::string table_bytes(const WrittenStepper& stepper) {
     std::string sum = "0U";
     for (const std::string& table : stepper.tables) {
-        sum += fmt::format(" + sizeof {}_{}_f32_table", stepper.prefix, table);
+        sum += fmt::format(" + sizeof {}_{}_{}_table", stepper.prefix, table, stepper.format);
     }
     return sum;
 }
@@ -52,30 +64,31 @@ std::string check_source(const std::vector<WrittenStepper>& steppers) {
     std::string entries;
     for (const WrittenStepper& stepper : steppers) {
         for (std::size_t argument = 0; argument < stepper.inputs.size(); ++argument) {
-            text += fmt::format("static const float {}[{}] = {{\n{}}};\n", input_name(stepper, argument),
-                                stepper.inputs[argument].size(), list_of(stepper.inputs[argument], "{:a}F"));
+            text +=
+                fmt::format("static const {} {}[{}] = {{\n{}}};\n", number_of(stepper), input_name(stepper, argument),
+                            stepper.inputs[argument].size(), inputs_of(stepper, argument));
         }
         text += fmt::format(R"(#include "{0}.h"
-static {0}_f32_instance line_{0};
+static {0}_{4}_instance line_{0};
 static const uint32_t expected_{0}[{2}] = {{
 {1}}};
 static uint32_t check_{0}(void)
 {{
     uint32_t k;
-    {0}_init_f32(&line_{0});
+    {0}_init_{4}(&line_{0});
     for (k = 0U; k < {2}U; ++k) {{
-        const float output = {0}_step_f32(&line_{0}{3});
+        const {5} output = {0}_step_{4}(&line_{0}{3});
         uint32_t bits;
         memcpy(&bits, &output, sizeof bits);
         if (bits != expected_{0}[k]) {{
             return k + 1U;
         }}
     }}
-    return {0}_self_check_f32(&line_{0}) == 0U ? 0U : UINT32_MAX;
+    return {0}_self_check_{4}(&line_{0}) == 0U ? 0U : UINT32_MAX;
 }}
 )",
-                            stepper.prefix, list_of(stepper.expected, "0x{:08X}U"), stepper.expected.size(),
-                            arguments(stepper, "k"));
+                            stepper.prefix, list_of(stepper.expected, [](std::uint32_t bits) { return literal(bits); }),
+                            stepper.expected.size(), arguments(stepper, "k"), stepper.format, number_of(stepper));
         entries += fmt::format("    check_{},\n", stepper.prefix);
     }
     return text + "static uint32_t (*const entries[])(void) = {\n" + entries + "};\n";
@@ -88,14 +101,14 @@ std::string target_source(const std::vector<WrittenStepper>& steppers) {
     std::string sizes;
     for (const WrittenStepper& stepper : steppers) {
         for (const std::string& table : stepper.tables) {
-            text += fmt::format(
-                "#define {}_{}_F32_TABLE_ATTRIBUTES __attribute__((section(\".data.tables\"), aligned(8)))\n",
-                upper(stepper.prefix), upper(table));
+            text += fmt::format("#define {}_TABLE_ATTRIBUTES __attribute__((section(\".data.tables\"), aligned(8)))\n",
+                                upper(fmt::format("{}_{}_{}", stepper.prefix, table, stepper.format)));
         }
-        calls += fmt::format(R"(float count_{0}({0}_f32_instance *S{1});
-__attribute__((noipa, flatten)) float count_{0}({0}_f32_instance *S{1})
+        calls += fmt::format(
+            R"({4} count_{0}({0}_{5}_instance *S{1});
+__attribute__((noipa, flatten)) {4} count_{0}({0}_{5}_instance *S{1})
 {{
-    return {0}_step_f32(S{2});
+    return {0}_step_{5}(S{2});
 }}
 static void call_{0}(unsigned k)
 {{
@@ -103,8 +116,8 @@ static void call_{0}(unsigned k)
     __asm__ volatile(""); /* or the call would become a jump, which is no call to the plugin */
 }}
 )",
-                             stepper.prefix, parameters(stepper, "float "), parameters(stepper, ""),
-                             arguments(stepper, fmt::format("k % {}U", stepper.expected.size())));
+            stepper.prefix, parameters(stepper, std::string(number_of(stepper)) + " "), parameters(stepper, ""),
+            arguments(stepper, fmt::format("k % {}U", stepper.expected.size())), number_of(stepper), stepper.format);
         entries += fmt::format("    call_{},\n", stepper.prefix);
         sizes += fmt::format("    {{sizeof line_{}, {}}},\n", stepper.prefix, table_bytes(stepper));
     }

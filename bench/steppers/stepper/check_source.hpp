@@ -13,9 +13,10 @@ namespace generate {
 struct WrittenStepper {
     std::string prefix;
     std::string text;
-    std::vector<std::vector<float>> inputs;  ///< of each argument of its step, of equal length
-    std::vector<std::uint32_t> expected;     ///< bits of the library's outputs, as many
-    std::vector<std::string> tables;         ///< words between prefix and _f32_table; those that it has
+    std::string format;                              ///< f32 or q31: ends its names
+    std::vector<std::vector<std::uint32_t>> inputs;  ///< bits, of each argument of its step, of equal length
+    std::vector<std::uint32_t> expected;             ///< bits of the library's outputs, as many
+    std::vector<std::string> tables;                 ///< words between prefix and format; those that it has
 };
 
 /// C99 that includes each `<prefix>.h` and has, in their order, `entries[]`. An entry steps its header over the record

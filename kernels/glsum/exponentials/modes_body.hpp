@@ -2,27 +2,11 @@
 #pragma once
 
 #include "glsum/design_range.hpp"
+#include "glsum/exponentials/fixed_decay.hpp"
 #include "glsum/exponentials/modes_sum.hpp"
 #include "glsum/format/fixed.hpp"
-#include "glsum/power_of_two.hpp"
 
 namespace glsum {
-
-// d = mantissa 2^-shift, the mantissa of 30 bits: so its products with two samples stay, with their difference and half
-// a unit, within 64 bits.
-struct FixedDecay {
-    std::int32_t mantissa;
-    std::int32_t shift;
-};
-constexpr std::int32_t largest_shift = 62;
-
-constexpr FixedDecay to_fixed(double decay) {
-    std::int32_t shift = 30;
-    while (shift < largest_shift && decay * power_of_two(shift) < 0x1p29) {
-        ++shift;
-    }
-    return {round_to_integer<std::int32_t>(decay * power_of_two(shift)), shift};
-}
 
 template <class Technique, class Format>
 Status Sum<Modes, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,

@@ -7,12 +7,6 @@ namespace {
 
 constexpr double magnitude(double real) { return real < 0.0 ? -real : real; }
 
-// Of two inputs that act by half each: their mean, rounded down, as their sum need not fit.
-template <class Sample>
-Sample mean(Sample one, Sample other) {
-    return static_cast<Sample>((std::int64_t{one} + other) >> 1);
-}
-
 }  // namespace
 
 template <class K>
@@ -70,35 +64,11 @@ Status Stepper<K>::prepare(State& state, const ModelDesign& design, std::span<Co
 
 template <class K>
 auto Stepper<K>::step(State& state, Sample input) -> Output {
-    Sample acting = exchange(state, input);
-    if (state.half_input != 0) {
-        if constexpr (fixed) {
-            acting = mean(acting, state.line[state.line_at]);
-        } else {
-            acting = with_next(state, acting);
-        }
-    }
+    const Sample acting = exchange(state, input);
     if constexpr (fixed) {
-        const auto times = [&](std::int32_t value, int exponent, const Gain& gain, unsigned bit) {
-            const Rounded product = apply_gain(value, exponent, gain, 0);
-            state.saturations += product.saturated ? 1U : 0U;
-            return (state.negative >> bit & 1U) != 0 ? -std::int64_t{product.value} : std::int64_t{product.value};
-        };
-        std::int64_t sum = times(acting, 0, state.input, 16);
-        if (state.increments != 0) {
-            sum -= times(round_shift(state.output, state.output_shift).value, 0, state.constant, 17);
-        }
-        for_each_table(state, [&](std::uint32_t i) {
-            const std::int32_t past = K::step(state.sums[i], state.newest);
-            sum -= times(past, state.sums[i].scale.output_exponent, state.factor[i], i);
-        });
-        const Rounded stored = round_shift(sum, 0);
-        state.saturations += stored.saturated ? 1U : 0U;
-        state.newest = stored.value;
-        state.output = state.increments != 0 ? state.output + stored.value : stored.value;
-        return state.output;
+        return step_fixed<K>(state, state.half_input != 0 ? mean_with_next(state, acting) : acting);
     } else {
-        return step_floating<K>(state, acting);
+        return step_floating<K>(state, state.half_input != 0 ? with_next(state, acting) : acting);
     }
 }
 

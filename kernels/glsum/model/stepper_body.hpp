@@ -1,5 +1,5 @@
-// What a step of a model does around its sums, in floating point. Included by stepper.cpp alone; what stands behind
-// "C99" is also what a generated header holds (glsum/c99.hpp).
+// What a step of a model does around its sums, in floating and in fixed point. Included by stepper.cpp alone; what
+// stands behind "C99" is also what a generated header holds (glsum/c99.hpp).
 #pragma once
 
 #include <cstdint>
@@ -44,6 +44,15 @@ template <class State, class Sample>
     return acting;
 }
 
+// Their mean, rounded down, as their sum need not fit.
+template <class State, class Sample>
+[[gnu::always_inline]] inline Sample mean_with_next(const State& state, Sample acting) {
+    // C99: model half input fixed
+    acting = static_cast<Sample>((static_cast<std::int64_t>(acting) + state.line[state.line_at]) >> 1);
+    // C99 end
+    return acting;
+}
+
 template <class K, class State>
 [[gnu::always_inline]] inline typename K::Sample step_floating(State& state, typename K::Sample acting) {
     using Sample = typename K::Sample;
@@ -80,6 +89,64 @@ template <class K, class State>
     } else {
         // C99: model output
         state.output += sum;
+        // C99 end
+    }
+    return state.output;
+}
+
+// A factor as its product takes it.
+struct FixedFactor {
+    std::int32_t mantissa;
+    int shift;  // of the product
+    bool negative;
+};
+
+// \param exponent  integer bits of what it multiplies
+[[gnu::always_inline]] inline FixedFactor fixed_factor(const Gain& gain, int exponent, bool negative) {
+    return {gain.mantissa, gain_shift(gain, exponent, 0), negative};
+}
+
+template <class State>
+[[gnu::always_inline]] inline std::int64_t times(State& state, std::int32_t value, std::int32_t mantissa, int shift,
+                                                 bool negative) {
+    // C99: model times
+    const Rounded product = round_shift(static_cast<std::int64_t>(value) * mantissa, shift);
+    state.saturations += product.saturated ? 1U : 0U;
+    return negative ? -static_cast<std::int64_t>(product.value) : product.value;
+    // C99 end
+}
+
+template <class K, class State>
+[[gnu::always_inline]] inline std::int64_t step_fixed(State& state, std::int32_t acting) {
+    const auto negative = [&](unsigned bit) { return (state.negative >> bit & 1U) != 0; };
+    const FixedFactor input = fixed_factor(state.input, 0, negative(16));
+    // C99: model forcing fixed
+    std::int64_t sum = times(state, acting, input.mantissa, input.shift, input.negative);
+    // C99 end
+    if (state.increments != 0) {
+        const FixedFactor constant = fixed_factor(state.constant, 0, negative(17));
+        // C99: model constant fixed
+        const Rounded held = round_shift(state.output, state.output_shift);
+        sum -= times(state, held.value, constant.mantissa, constant.shift, constant.negative);
+        // C99 end
+    }
+    for_each_table(state, [&](std::uint32_t i) {
+        const FixedFactor factor = fixed_factor(state.factor[i], state.sums[i].scale.output_exponent, negative(i));
+        const std::int32_t past = K::step(state.sums[i], state.newest);
+        // C99: model past fixed
+        sum -= times(state, past, factor.mantissa, factor.shift, factor.negative);
+        // C99 end
+    });
+    // C99: model stored fixed
+    const Rounded stored = round_shift(sum, 0);
+    state.saturations += stored.saturated ? 1U : 0U;
+    state.newest = stored.value;
+    // C99 end
+    if (state.increments == 0) {
+        state.output = stored.value;
+    } else {
+        // C99: model output fixed
+        state.output += stored.value;
         // C99 end
     }
     return state.output;
