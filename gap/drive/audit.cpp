@@ -6,6 +6,8 @@
 #include <boost/math/statistics/linear_regression.hpp>
 #include <cmath>
 
+#include "gap/drive/clipped.hpp"
+
 namespace gap {
 namespace {
 
@@ -162,6 +164,10 @@ Audit audit(const std::vector<Record>& records) {
     found.held_share = held_share_of(records, found.quantum);
     found.noise = std::max(noise_of(records, found.quantum), 0.29 * found.quantum);
     found.levels = levels_of(records);
+    found.may_clip = std::any_of(records.begin(), records.end(), [](const Record& record) {
+        const std::vector<char> clipped = clipped_readings(record);
+        return !ends_would_show(record) || std::find(clipped.begin(), clipped.end(), 1) != clipped.end();
+    });
     if (found.quantum > 0.0) {
         found.notes.push_back(fmt::format("readings are multiples of {:.6g}", found.quantum));
     }

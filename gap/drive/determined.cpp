@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/drive/deviations.hpp"
 #include "gap/drive/ranking.hpp"
 
 namespace gap {
@@ -123,6 +124,24 @@ std::string untold_of(const Study& study, const Candidate& candidate) {
         }
     }
     return "";
+}
+
+bool leaves_open(const Study& study, const Candidate& candidate) {
+    constexpr double a_part = 0.05;
+    // What a record shows by itself, its level at rest, say, takes up nothing.
+    constexpr double shown = 0.05;
+    Candidate copy = candidate;
+    for (FreeParameter* number : free_numbers(copy, false)) {
+        number->fixed = number->upper - number->lower < shown * number->scale;
+    }
+    const std::vector<double> shares = untold_shares(study, copy);
+    const std::vector<FreeParameter*> free = free_numbers(copy, false);
+    for (std::size_t i = 0; i < free.size(); ++i) {
+        if (free[i]->name.find('.') != std::string::npos && shares[i] > a_part) {
+            return true;
+        }
+    }
+    return false;
 }
 
 std::string linear_of(const Candidate& candidate) {

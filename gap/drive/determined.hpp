@@ -16,9 +16,13 @@ void add_intervals(const Study& study, Candidate& candidate, const Whitener* whi
 /// there, for every number that can take it away. Empty: all are told. \param candidate  with its intervals
 [[nodiscard]] std::string untold_of(const Study& study, const Candidate& candidate);
 
-/// Of the first lasting effect that is linear with what was fitted, and so a part of another base. Empty: there is none.
-/// \param candidate  with its intervals
+/// Of the first lasting effect that is linear with what was fitted, and so a part of another base. Empty: there is
+/// none. \param candidate  with its intervals
 [[nodiscard]] std::string linear_of(const Candidate& candidate);
+
+/// Whether numbers of its effects move with the base's or with a record's own in a direction that training does not
+/// tell: others of them leave the same with another base.
+[[nodiscard]] bool leaves_open(const Study& study, const Candidate& candidate);
 
 /// Of a record's own numbers of an event: whether its size is told to differ from none. \param own  with intervals
 [[nodiscard]] bool needs_event(const Study& study, const std::vector<FreeParameter>& own, const Effect& effect);

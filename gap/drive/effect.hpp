@@ -38,6 +38,7 @@ struct Scales {
     double further_max;      ///< of |u| of the records' second input; 0: one has none
     bool swings = false;     ///< its second order has complex poles, as no flow has
     bool driven = true;      ///< something is put in; free motions otherwise
+    bool may_clip = true;    ///< readings end at a limit, or would not show it
     bool drains = true;      ///< its resistance may bend as an outflow's; what moves is braked by drag instead
 };
 

@@ -24,8 +24,4 @@ struct Effort {
 /// The same candidate on other records: base and lasting parameters stay, the records' own are fitted afresh.
 [[nodiscard]] Candidate carried_over(const Study& study, const Candidate& fitted, const Whitener* whitener);
 
-/// Standard deviations of all that was fitted, from the slopes of the residuals, whitened or not as they were fitted;
-/// infinite where nothing tells.
-void add_deviations(const Study& study, Candidate& candidate, const Whitener* whitener);
-
 }  // namespace gap

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "gap/drive/clipped.hpp"
+
 namespace gap {
 namespace {
 
@@ -66,8 +68,13 @@ std::vector<double> spread_of(const Study& study, const Candidate& candidate, st
     if (jitter == nullptr) {
         return {};
     }
-    return spreads(speed_of(study.courses[record].record(), residuals), whitener, (*jitter)[0].value,
-                   (*jitter)[1].value);
+    const Record& read = study.courses[record].record();
+    std::vector<double> spread = spreads(speed_of(read, residuals), whitener, (*jitter)[0].value, (*jitter)[1].value);
+    const std::vector<char> clipped = clipped_readings(read);
+    for (std::size_t i = 0; i < spread.size(); ++i) {
+        spread[i] = clipped[i] != 0 ? 1.0 : spread[i];
+    }
+    return spread;
 }
 
 void fit_jitter(const Study& study, Candidate& candidate, const Whitener& whitener) {
@@ -87,6 +94,11 @@ void fit_jitter(const Study& study, Candidate& candidate, const Whitener& whiten
             return;
         }
     }
+    // What a sensor's end holds has no noise, whenever it was read: that the rest has some is no jitter.
+    std::vector<std::vector<char>> clipped;
+    for (const Course& course : study.courses) {
+        clipped.push_back(clipped_readings(course.record()));
+    }
     // Normal, not heavy-tailed: the width is a second moment's.
     std::vector<std::vector<double>> white;
     for (const auto& record : residuals) {
@@ -98,7 +110,7 @@ void fit_jitter(const Study& study, Candidate& candidate, const Whitener& whiten
             const auto spread = spreads(speeds[r], whitener, half_width_s, noise_share);
             for (std::size_t i = whitener.coefficients.size(); i < spread.size(); ++i) {
                 const double size = white[r][i] / spread[i];
-                sum -= study.counts[r][i] != 0 ? 0.5 * size * size + std::log(spread[i]) : 0.0;
+                sum -= study.counts[r][i] != 0 && clipped[r][i] == 0 ? 0.5 * size * size + std::log(spread[i]) : 0.0;
             }
         }
         return sum;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "gap/drive/moments.hpp"
 #include "gap/drive/simulate.hpp"
 
 namespace gap {
@@ -36,24 +37,8 @@ std::vector<double> places_of(const Record& record) {
 
 // What a line through the response leaves of the reading; infinite where the response does not move.
 double left_by(std::span<const double> response, std::span<const double> reading) {
-    const auto count = static_cast<double>(reading.size());
-    double of_response = 0.0;
-    double of_reading = 0.0;
-    for (std::size_t i = 0; i < reading.size(); ++i) {
-        of_response += response[i] / count;
-        of_reading += reading[i] / count;
-    }
-    double moves = 0.0;
-    double along = 0.0;
-    double squares = 0.0;
-    for (std::size_t i = 0; i < reading.size(); ++i) {
-        const double x = response[i] - of_response;
-        const double y = reading[i] - of_reading;
-        moves += x * x;
-        along += x * y;
-        squares += y * y;
-    }
-    const double left = squares - along * along / moves;
+    const Moments sums = moments_of(response, reading);
+    const double left = sums.yy - sums.xy * sums.xy / sums.xx;
     return std::isfinite(left) ? left : std::numeric_limits<double>::infinity();
 }
 

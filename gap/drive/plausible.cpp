@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/failure.hpp"
+#include "gap/drive/moments.hpp"
 
 namespace gap {
 namespace {
@@ -54,24 +55,12 @@ void check_units(const Course& course, const drive::Model& model) {
     plain.model = model;
     const std::vector<double> simulated = simulate(plain, course);
     const std::vector<double>& measured = course.record().output;
-    const auto count = static_cast<double>(measured.size());
-    double mean_s = 0.0;
-    double mean_m = 0.0;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-        if (!std::isfinite(simulated[i])) {
+    for (const double reading : simulated) {
+        if (!std::isfinite(reading)) {
             refuse(course.record(), fmt::format("the model runs away on its input: {}", drive::to_text(model)));
         }
-        mean_s += simulated[i] / count;
-        mean_m += measured[i] / count;
     }
-    double ss = 0.0;
-    double mm = 0.0;
-    double sm = 0.0;
-    for (std::size_t i = 0; i < measured.size(); ++i) {
-        ss += (simulated[i] - mean_s) * (simulated[i] - mean_s);
-        mm += (measured[i] - mean_m) * (measured[i] - mean_m);
-        sm += (simulated[i] - mean_s) * (measured[i] - mean_m);
-    }
+    const auto [ss, sm, mm] = moments_of(simulated, measured);
     if (!(ss > 0.0)) {
         return;
     }
@@ -93,9 +82,10 @@ void check_plausible(const Study& study) {
     const drive::Model model = model_of(study.base.form);
     for (const Course& course : study.courses) {
         if (!study.scales.driven && course.record().simulated.empty()) {
-            refuse(course.record(),
-                   "the input is 0 throughout: from rest a given model stays there; --refit or --model fit find where a "
-                   "free motion begins");
+            refuse(
+                course.record(),
+                "the input is 0 throughout: from rest a given model stays there; --refit or --model fit find where a "
+                "free motion begins");
         }
         check_times(course.record(), model);
         check_units(course, model);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/drive/clipped.hpp"
 #include "gap/drive/fit.hpp"
 #include "gap/drive/plausible.hpp"
 
@@ -129,10 +130,15 @@ Ground prepare(const Question& question) {
     const Audit found = audit(train);
     Scales scales = scales_of(model_of(question.form), train, found);
     scales.drains = question.domain != Domain::mechanical;
-    Study study = make_study(question, train, split ? part_counts(train, question.split_s, false) : all_count(train),
+    const auto counted = [&](std::vector<std::vector<char>> counts, const std::vector<Record>& records) {
+        return question.past_clips ? without_clipped(std::move(counts), records) : counts;
+    };
+    Study study = make_study(question, train,
+                             counted(split ? part_counts(train, question.split_s, false) : all_count(train), train),
                              scales, found);
     Study validation = make_study(
-        question, validate, split ? part_counts(train, question.split_s, true) : all_count(validate), scales, found);
+        question, validate, counted(split ? part_counts(train, question.split_s, true) : all_count(validate), validate),
+        scales, found);
     check_plausible(study);
     check_plausible(validation);
     Candidate base = start_of(study);

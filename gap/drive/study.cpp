@@ -133,6 +133,7 @@ Scales scales_of(const drive::Model& model, const std::vector<Record>& records, 
     scales.orders = orders.size() - orders.count(0.0);
     scales.quantum = found.quantum;
     scales.held_share = found.held_share;
+    scales.may_clip = found.may_clip;
     scales.input_levels = found.levels;
     scales.deployed_step_s = deployed_step_of(model, scales);
     scales.driven = is_driven(records);

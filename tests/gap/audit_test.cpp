@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "gap/drive/clipped.hpp"
 
 namespace {
 
@@ -182,6 +185,66 @@ TEST(AuditNotes, SayWhatIsOdd) {
     EXPECT_THAT(
         gap::audit({record_of(values)}).notes,
         testing::AllOf(Contains(HasSubstr("readings are multiples of 0.5")), Not(Contains(HasSubstr("clipped")))));
+}
+
+// 400 noisy readings, of which some in a row are what a sensor ends at.
+std::vector<double> clipped(std::size_t from, std::size_t count, double limit) {
+    std::vector<double> values = noisy(400, 11);
+    std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(from), count, limit);
+    return values;
+}
+
+std::ptrdiff_t clipped_in(const std::vector<double>& output) {
+    const std::vector<char> found = gap::clipped_readings(record_of(output));
+    return std::count(found.begin(), found.end(), 1);
+}
+
+TEST(Clipped, AreTenEqualReadingsInARowAtAnExtreme) {
+    EXPECT_EQ(clipped_in(clipped(100, 10, 9.0)), 10);
+    EXPECT_EQ(clipped_in(clipped(100, 9, 9.0)), 0);
+    EXPECT_EQ(clipped_in(clipped(390, 10, -9.0)), 10);
+    EXPECT_EQ(clipped_in(clipped(100, 30, 0.5)), 0);  // held, in the middle
+    std::vector<double> apart = clipped(100, 20, 9.0);
+    apart[109] = 8.5;
+    EXPECT_EQ(clipped_in(apart), 10);
+    EXPECT_EQ(gap::clipped_readings(record_of(clipped(100, 10, 9.0)))[105], 1);
+}
+
+// Where every other reading repeats the one before, ten equal ones say nothing: they may be clipped all the same.
+TEST(Clipped, WouldNotShowAmongCoarseReadings) {
+    const auto coarse = [](std::size_t every) {
+        std::vector<double> values = clipped(100, 40, 9.0);
+        for (std::size_t i = 1; i < values.size(); i += every) {
+            values[i] = values[i] == 9.0 ? 9.0 : values[i - 1] == 9.0 ? 0.0 : values[i - 1];
+        }
+        return values;
+    };
+    EXPECT_TRUE(gap::ends_would_show(record_of(coarse(3))));
+    EXPECT_EQ(clipped_in(coarse(3)), 40);
+    EXPECT_FALSE(gap::ends_would_show(record_of(std::vector<double>(50, 2.0))));
+    std::vector<double> steps = clipped(100, 40, 9.0);
+    for (double& value : steps) {
+        value = value == 9.0 ? 9.0 : 5.0 * std::round(0.2 * value);
+    }
+    EXPECT_FALSE(gap::ends_would_show(record_of(steps)));
+    EXPECT_EQ(clipped_in(steps), 0);
+    EXPECT_TRUE(gap::audit({record_of(steps)}).may_clip);
+    EXPECT_FALSE(gap::audit({record_of(noisy(400, 12))}).may_clip);
+    EXPECT_TRUE(gap::audit({record_of(noisy(400, 12)), record_of(clipped(100, 10, 9.0))}).may_clip);
+}
+
+TEST(Clipped, DoNotCountWhereFiftyOthersDo) {
+    const auto left = [](std::size_t count) {
+        const auto counts = gap::without_clipped({std::vector<char>(400, 1)}, {record_of(clipped(0, count, 9.0))});
+        return std::count(counts[0].begin(), counts[0].end(), 1);
+    };
+    EXPECT_EQ(left(40), 360);
+    EXPECT_EQ(left(350), 50);
+    EXPECT_EQ(left(351), 400);
+    std::vector<char> aside(400, 1);
+    std::fill_n(aside.begin() + 200, 100, 0);
+    const auto counts = gap::without_clipped({aside}, {record_of(clipped(0, 40, 9.0))});
+    EXPECT_EQ(std::count(counts[0].begin(), counts[0].end(), 1), 260);
 }
 
 }  // namespace

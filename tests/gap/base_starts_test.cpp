@@ -57,6 +57,22 @@ TEST(Leftover, IsNothingOfWhatIsLinear) {
     }
 }
 
+// What a sensor's end holds says nothing of how far the plant went beyond.
+TEST(Leftover, IsNothingBesideReadingsThatAreClipped) {
+    drive::Model lag = of({{2.0, 1.0}, {1.0, 0.0}});
+    gap::Record record = record_of(200, levels);
+    lag.gain = 3.0;
+    record.output = response(record, lag);
+    for (double& z : record.output) {
+        z = std::min(z, 2.0);
+    }
+    lag.gain = 1.0;
+    const gap::Leftover left = gap::leftover_of(lag, courses_of({record}), true);
+    EXPECT_LT(left.squares, 1e-16);
+    EXPECT_NEAR(left.gain, 3.0, 1e-9);
+    EXPECT_LT(gap::leftovers_of(lag, courses_of({record}), true, 1.5).whole.squares, 1e-16);
+}
+
 TEST(Leftover, OfWhatRunsAwayIsInfinite) {
     const gap::Record record = record_of(200, levels);
     EXPECT_TRUE(std::isinf(gap::leftover_of(of({{-0.2, 1.0}, {1.0, 0.0}}), courses_of({record}), true).squares));

@@ -8,6 +8,8 @@
 #include <random>
 #include <set>
 
+#include "gap/drive/determined.hpp"
+#include "gap/drive/deviations.hpp"
 #include "gap/drive/fit.hpp"
 #include "gap/drive/jitter.hpp"
 #include "gap/drive/start.hpp"
@@ -313,6 +315,30 @@ TEST(FitDeviations, OfWhatNothingTellsAreInfinite) {
     gap::add_deviations(made.study, two, nullptr);
     EXPECT_FALSE(two.lasting[0][0].moves_nothing);
     EXPECT_GT(two.lasting[0][0].deviation, 0.0);
+    // Half of each lies in their difference.
+    EXPECT_THAT(gap::untold_shares(made.study, two),
+                testing::ElementsAre(testing::DoubleNear(0.5, 1e-6), testing::DoubleNear(0.5, 1e-6)));
+    EXPECT_TRUE(gap::leaves_open(made.study, two));
+    two.effects.pop_back();
+    two.lasting.pop_back();
+    EXPECT_THAT(gap::untold_shares(made.study, two), testing::ElementsAre(0.0));
+    EXPECT_FALSE(gap::leaves_open(made.study, two));
+}
+
+// Friction of two levels beside an operating point: what one has more than the other moves the point, unless the record
+// shows it by resting.
+TEST(FitDeviations, OfTwoLevelsOfFrictionAreOfTheirMean) {
+    const Made made(lag(), {stepped()}, true);
+    gap::Candidate uneven;
+    uneven.effects = {&gap::effect_named("direction_dependent_friction")};
+    uneven.base = gap::base_of(made.study);
+    uneven.own = {gap::state_of(made.study, made.records[0])};
+    uneven.lasting = {gap::parameters_of(*uneven.effects[0], made.study.scales, 2)};
+    EXPECT_FALSE(gap::leaves_open(made.study, uneven));
+    gap::FreeParameter& offset = uneven.own[0][0];
+    offset.lower = -10.0;
+    offset.upper = 10.0;
+    EXPECT_TRUE(gap::leaves_open(made.study, uneven));
 }
 
 // --- Jitter: what shifts of a stamp by up to a half width make of a speed.
@@ -348,6 +374,15 @@ TEST(Jitter, SpreadsReadingsByTheirSpeed) {
         const double shift = speed == 0.0 ? 0.0 : std::clamp(left[i] / speed * moved / (moved + noise), -0.2, 0.2);
         EXPECT_NEAR(without[i], left[i] - speed * shift, 1e-9) << i;
     }
+    // What a sensor's end holds has no noise whenever it is read.
+    gap::Record& held = made.records[0];
+    std::fill_n(held.output.begin() + 10, 12, 9.0);
+    for (std::size_t i = 25; i < held.output.size(); ++i) {
+        held.output[i] += 1e-6 * static_cast<double>(i * i % 7);
+    }
+    const auto at_end = gap::spread_of(made.study, candidate, 0, left, whitener);
+    EXPECT_EQ(at_end[15], 1.0);
+    EXPECT_NE(at_end[30], 1.0);
     candidate.lasting[0][0].value = 0.0;
     EXPECT_EQ(gap::without_jitter(made.study, candidate, 0, left, whitener), left);
     candidate.effects.clear();

@@ -37,6 +37,7 @@ gap::Scales eventful() {
     gap::Scales scales = gap::scales_of(gap::model_of(gap_test::linear_form()), {record}, gap::audit({record}));
     scales.quantum = 0.001;
     scales.held_share = 0.1;
+    scales.may_clip = true;
     scales.deployed_step_s = 0.02;
     scales.turn = 2.0;
     scales.further_max = 1.0;

@@ -274,6 +274,9 @@ TEST(EffectNumbers, OfTheOutputTheSensorAndTheLogger) {
                     high + 0.02 * span,
                     high + 0.02 * span,
                     {high - 0.01 * span, high - 0.15 * span}}});
+    gap::Scales unclipped = scales();
+    unclipped.may_clip = false;
+    expect_none("sensor_saturation", unclipped);
     expect_ranges("logger_filter", scales(), {{"window_s", "s", 0.0, 3.0 * tc, 0.0, {0.1 * tc, 0.4 * tc}}});
     expect_ranges(
         "sampling_jitter", scales(),

@@ -136,6 +136,20 @@ TEST(Prepared, JudgesByTheValidationOrByWhatIsKeptAside) {
 }
 
 // A fiftieth of the record ahead, or as it is asked; one sample at least.
+// While a base is looked for, what a sensor's end holds counts for nothing.
+TEST(Prepared, LooksPastClippedReadings) {
+    gap::Question question = question_of(true);
+    std::vector<double>& read = question.train[0].output;
+    std::fill_n(read.begin() + 120, 25, 2.5);
+    const auto counted = [&] {
+        const gap::Ground ground = gap::prepare(question);
+        return std::count(ground.study.counts[0].begin(), ground.study.counts[0].end(), 1);
+    };
+    EXPECT_EQ(counted(), 401);
+    question.past_clips = true;
+    EXPECT_EQ(counted(), 376);
+}
+
 TEST(Prepared, PredictsSoFarAhead) {
     gap::Question question = question_of();
     question.metric = gap::Metric::prediction;

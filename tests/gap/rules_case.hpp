@@ -48,6 +48,7 @@ protected:
         const std::size_t at = ranking_.size() - 1;
         known_.objections[at] = "";
         known_.remainders[at] = {};
+        known_.open[at] = false;
         return at;
     }
 

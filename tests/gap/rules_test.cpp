@@ -162,6 +162,39 @@ TEST_F(Rules, WhatCannotBePartedIsNamedByTheSimplerOne) {
     EXPECT_THAT(after("what_cannot_be_parted", attributed(sensor)).effects, ElementsAre(sensor));
 }
 
+// A force in one direction alone is an operating point: where that is fitted, friction has one level or two.
+TEST_F(Rules, WhatCannotBePartedIsAlsoTheWiderOneWhereTheBaseTakesItUp) {
+    const std::size_t even = add({"coulomb_friction"}, 0.5, 50.0);
+    const std::size_t uneven = add({"direction_dependent_friction"}, 0.5, 49.0);
+    known_.open[uneven] = true;
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(even)).effects, ElementsAre(even));
+    beside_a_form();
+    const gap::Decision decision = after("what_cannot_be_parted", attributed(even));
+    EXPECT_EQ(decision.outcome, Outcome::ambiguous);
+    EXPECT_THAT(decision.effects, ElementsAre(even, uneven));
+    // From the wider one the simpler one is found, and both are said.
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(even, uneven));
+    // Training that tells both levels of it says that they are one.
+    known_.open[uneven] = false;
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(even)).effects, ElementsAre(even));
+    known_.open[uneven] = true;
+    ranking_[uneven].by_sample.assign(samples, 43.97 / samples);
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(even)).effects, ElementsAre(even));
+}
+
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsSimplerWhereItLeavesATenthMore) {
+    const std::size_t uneven = add({"direction_dependent_friction"}, 0.1, 900.0);
+    const std::size_t even = add({"coulomb_friction"}, 0.1095, 500.0);
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(uneven));
+    beside_a_form();
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(even));
+    ranking_[even].gap_after = 0.1105;
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(uneven));
+    ranking_[even].gap_after = 0.1095;
+    known_.objections[even] = "open";
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(uneven));
+}
+
 TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatGoesAsFar) {
     const std::size_t cubic = add({"cubic_stiffness"}, 0.30, 900.0);
     const std::size_t curve = add({"input_curve"}, 0.35, 500.0);

@@ -3,6 +3,8 @@
 #include <Eigen/QR>
 #include <cmath>
 
+#include "gap/drive/clipped.hpp"
+
 namespace gap {
 namespace {
 
@@ -20,6 +22,20 @@ void keep_quick(Eigen::MatrixXd& matrix, const std::vector<Course>& courses, dou
             now -= lately;
         }
         row += static_cast<Eigen::Index>(time_s.size());
+    }
+}
+
+// What a sensor's end holds tells nothing of the plant but that it is beyond.
+void forget_clipped(Eigen::MatrixXd& matrix, const std::vector<Course>& courses) {
+    Eigen::Index row = 0;
+    for (const Course& course : courses) {
+        const auto counts = without_clipped({std::vector<char>(course.record().size(), 1)}, {course.record()});
+        for (const char count : counts.front()) {
+            if (count == 0) {
+                matrix.row(row).setZero();
+            }
+            ++row;
+        }
     }
 }
 
@@ -91,14 +107,18 @@ Eigen::MatrixXd columns_of(const drive::Model& model, const std::vector<Course>&
 }  // namespace
 
 Leftover leftover_of(const drive::Model& model, const std::vector<Course>& courses, bool driven) {
-    return solve(columns_of(model, courses, driven), driven);
+    Eigen::MatrixXd matrix = columns_of(model, courses, driven);
+    forget_clipped(matrix, courses);
+    return solve(matrix, driven);
 }
 
 Leftovers leftovers_of(const drive::Model& model, const std::vector<Course>& courses, bool driven, double quick_s) {
     Eigen::MatrixXd matrix = columns_of(model, courses, driven);
-    const Leftover whole = solve(matrix, driven);
-    keep_quick(matrix, courses, quick_s);
-    return {whole, solve(matrix, driven)};
+    Eigen::MatrixXd quick = matrix;
+    keep_quick(quick, courses, quick_s);
+    forget_clipped(matrix, courses);
+    forget_clipped(quick, courses);
+    return {solve(matrix, driven), solve(quick, driven)};
 }
 
 }  // namespace gap

@@ -51,30 +51,57 @@ bool goes_as_far(const Evidence& evidence, std::size_t i, std::size_t chosen) {
 // In [0.5, 0.97], by how far the nearest rival is.
 double confidence_by(double advantage) { return 0.5 + 0.47 * (1.0 - std::exp(-std::max(0.0, advantage) / 8.0)); }
 
+bool is_near(const Evidence& evidence, std::size_t chosen, std::size_t i, const Interval& over) {
+    return over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage) ||
+           goes_as_far(evidence, i, chosen);
+}
+
+// The candidate, or the special case of it that says as much. Beside a fitted form a wider one follows a part of the
+// misfit with its further number: a tenth of what is left is none of the drive's.
+std::size_t simplest(const Evidence& evidence, std::size_t chosen) {
+    constexpr double as_much = 1.1;
+    for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
+        if (!generalises(evidence.ranking[chosen].trained, evidence.ranking[i].trained) ||
+            !evidence.objection(i).empty()) {
+            continue;
+        }
+        if (is_near(evidence, chosen, i, advantage(evidence.ranking[chosen], evidence.ranking[i])) ||
+            (evidence.beside_form() && evidence.gap(i) < as_much * evidence.gap(chosen))) {
+            return i;
+        }
+    }
+    return chosen;
+}
+
 void part(const Evidence& evidence, Decision& decision) {
     if (decision.outcome != Outcome::attributed) {
         return;
     }
-    const std::size_t chosen = decision.chosen;
+    const std::size_t chosen = decision.chosen = simplest(evidence, decision.chosen);
+    decision.effects = {chosen};
     const Candidate& mine = evidence.ranking[chosen].trained;
     double nearest = advantage(evidence.ranking[chosen], evidence.ranking[evidence.none()]).mean;
     for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
         const Candidate& other = evidence.ranking[i].trained;
-        if (i == chosen || other.effects.size() != mine.effects.size() || generalises(other, mine)) {
+        if (i == chosen || other.effects.size() != mine.effects.size()) {
+            continue;
+        }
+        // What is wider says as much with more numbers. Where the base takes up what they differ by (a force in one
+        // direction, as an operating point), it is as near to the truth.
+        const bool wider = generalises(other, mine);
+        if (wider && !(evidence.beside_form() && evidence.is_open(i))) {
             continue;
         }
         const Interval over = advantage(evidence.ranking[chosen], evidence.ranking[i]);
-        const bool near = over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage) ||
-                          goes_as_far(evidence, i, chosen);
-        if (!near) {
+        if (!is_near(evidence, chosen, i, over)) {
             nearest = std::min(nearest, over.mean);
+        } else if (wider) {
+            decision.effects.push_back(i);
         } else if (!evidence.objection(i).empty()) {
             continue;
         } else if (evidence.beside_form() && other.has_events() && !mine.has_events()) {
             // An event is located where it is judged; what kept its numbers and goes as far says more.
             nearest = std::min(nearest, parting_advantage);
-        } else if (generalises(mine, other) && decision.effects.front() == chosen) {
-            decision.effects.front() = decision.chosen = i;  // the simpler one says as much
         } else {
             decision.effects.push_back(i);
         }

@@ -43,7 +43,7 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
 // What cannot be named and yet goes most of the way, as likely as any, is more than nothing.
 std::optional<std::size_t> goes_most_of_the_way(const Evidence& evidence, const Decision& decision) {
     constexpr double most = 0.5;
-    if (decision.base_gap < small_gap_of_a_form) {
+    if (evidence.is_small_of_a_form(decision.base_gap)) {
         return std::nullopt;
     }
     for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {

@@ -21,7 +21,7 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
         constexpr double a_tenth = 0.1;
         constexpr double a_quarter = 0.25;
         const double left = after / decision.base_gap;
-        decision.at_most(left < a_tenth ? 0.95 : left < a_quarter ? 0.9 : 0.7);
+        decision.at_most(left < a_tenth ? 0.95 : left < a_quarter ? 0.8 : 0.7);
     }
     if (evidence.ranking[decision.chosen].trained.has_events()) {
         decision.at_most(an_event);

@@ -55,6 +55,15 @@ double Evidence::over_noise(double gap) const {
     return gap::over_noise(validation, gap * output_deviation(validation));
 }
 
+bool Evidence::leaves_noise_alone(double left) const {
+    constexpr double a_twentieth = 0.05;
+    return left < a_twentieth * gap(none()) && !is_no_noise(left);
+}
+
+bool Evidence::is_small_of_a_form(double gap) const {
+    return gap < small_gap_of_clean_readings || (gap < small_gap_of_a_form && !is_no_noise(gap));
+}
+
 const Flexible& Evidence::remainder(std::size_t i) const {
     const auto known = known_.remainders.find(i);
     if (known != known_.remainders.end()) {
@@ -117,15 +126,21 @@ const std::string& Evidence::objection(std::size_t i) const {
         }
         if (what.empty() && beside_form() && trained.has_events()) {
             what = doubt_of_events(study, trained, validation, ranking[i].candidate);
-            what = what.empty() ? objection_to_events(trained, ranking[i].candidate)
+            what = what.empty() ? objection_to_events(trained, ranking[i].candidate, gap(i))
                                 : what + ": an event from outside does not";
         }
     }
     return known_.objections.emplace(i, std::move(what)).first->second;
 }
 
+bool Evidence::is_open(std::size_t i) const {
+    const auto known = known_.open.find(i);
+    return known != known_.open.end() ? known->second
+                                      : known_.open.emplace(i, leaves_open(study, ranking[i].trained)).first->second;
+}
+
 // Of events beside a fitted form. \param trained  with its intervals
-std::string Evidence::objection_to_events(const Candidate& trained, Candidate judged) const {
+std::string Evidence::objection_to_events(const Candidate& trained, Candidate judged, double left) const {
     add_intervals(validation, judged, nullptr);
     for (const Effect* effect : trained.effects) {
         if (effect->kind != Kind::event) {
@@ -140,7 +155,7 @@ std::string Evidence::objection_to_events(const Candidate& trained, Candidate ju
         if (validated == 0) {
             return fmt::format("validation does not tell {} from none", effect->name);
         }
-        if (!same_records &&
+        if (!same_records && !leaves_noise_alone(left) &&
             fitted + validated == static_cast<std::ptrdiff_t>(trained.own.size() + judged.own.size())) {
             return fmt::format("every record needs a {} of its own", effect->name);
         }

@@ -15,6 +15,7 @@ namespace gap {
 struct FoundOut {
     std::map<std::size_t, std::string> objections;
     std::map<std::size_t, Flexible> remainders;
+    std::map<std::size_t, bool> open;
 };
 
 class Evidence {
@@ -36,12 +37,18 @@ public:
     /// Why a candidate cannot be named, whatever its likelihood: training leaves it open, or its events are no events.
     /// Empty: it can.
     [[nodiscard]] const std::string& objection(std::size_t i) const;
+    /// Whether other numbers of a candidate's effects would leave the same, with another base.
+    [[nodiscard]] bool is_open(std::size_t i) const;
     [[nodiscard]] double gap(std::size_t i) const { return ranking[i].gap_after; }
     [[nodiscard]] bool beside_form() const { return study.base.refit; }
     /// A gap over what differs from sample to sample.
     [[nodiscard]] double over_noise(double gap) const;
     /// Whether a gap is more than a sensor's noise: that is seldom so coloured.
     [[nodiscard]] bool is_no_noise(double gap) const { return over_noise(gap) > usual_ratio; }
+    /// Whether a gap is noise, and a twentieth of the base's at most: no event follows a form's misfit so far.
+    [[nodiscard]] bool leaves_noise_alone(double gap) const;
+    /// Whether a gap is so little that it may be a fitted form's own misfit.
+    [[nodiscard]] bool is_small_of_a_form(double gap) const;
     /// What a model without physics still takes off a candidate's residuals on the validation.
     [[nodiscard]] const Flexible& remainder(std::size_t i) const;
     /// Of the squared gap of a fitted base alone: what its operating point has moved by since it was fitted.
@@ -53,7 +60,7 @@ public:
     static constexpr double usual_ratio = 7.0;
 
 private:
-    [[nodiscard]] std::string objection_to_events(const Candidate& trained, Candidate judged) const;
+    [[nodiscard]] std::string objection_to_events(const Candidate& trained, Candidate judged, double gap) const;
 
     const Whitener& whitener_;
     mutable FoundOut known_;
@@ -62,7 +69,10 @@ private:
 /// A likelihood ratio that chance does not reach among some hundred candidates.
 constexpr double clear_advantage = 8.0;
 [[nodiscard]] bool is_clear(const Interval& over);
-/// A fitted form that leaves less than so much of the deviation, two thousandths of the variance, has all that matters.
+/// A fitted form that leaves less than so much of the deviation, two thousandths of the variance, has all that matters
+/// where noise hides what it leaves,
 constexpr double small_gap_of_a_form = 0.0447;
+/// and less than that, an eightieth of the deviation, where clean readings show it.
+constexpr double small_gap_of_clean_readings = 0.0125;
 
 }  // namespace gap

@@ -40,8 +40,8 @@ void look_for_more(const Evidence& evidence, Decision& decision) {
     const bool expansion = evidence.ranking[decision.chosen].trained.effects.size() >= 3;
     // A fitted form's own misfit: within so much of the rms, or small, it is none of the drive's effects.
     constexpr double misfit_share = 0.11;
-    const bool misfit =
-        evidence.beside_form() && none && (after - rest.left < misfit_share * after || after < small_gap_of_a_form);
+    const bool misfit = evidence.beside_form() && none &&
+                        (after - rest.left < misfit_share * after || evidence.is_small_of_a_form(after));
     const bool is_main = evidence.beside_form() && !none && !expansion && rest.is_minor();
     constexpr double material = 0.02;  // of the base's
     if (rest.share > 0.0 && !misfit && !is_main && (rest.is_too_much || expansion) &&
@@ -55,7 +55,7 @@ void look_for_more(const Evidence& evidence, Decision& decision) {
 bool is_slow(const Evidence& evidence, const Decision& decision) {
     const double after = evidence.gap(decision.chosen);
     if (decision.outcome == Outcome::no_gap) {
-        if (evidence.beside_form() && after < small_gap_of_a_form) {
+        if (evidence.beside_form() && evidence.is_small_of_a_form(after)) {
             return false;
         }
         constexpr double small = 0.05;

@@ -1,4 +1,5 @@
-// The reading ends at a limit, and at its opposite.
+// The reading ends at a limit, and at its opposite. What it holds there repeats exactly, noise and all: where readings
+// at their extremes differ like others, it is the plant that ends.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +11,10 @@ const Effect& sensor_saturation();
 
 namespace {
 
-std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
+std::vector<EffectParameter> parameters(const Scales& scales) {
+    if (!scales.may_clip) {
+        return {};
+    }
     return {{"limit",
              "y",
              scales.output_low + 0.2 * scales.output_span,
@@ -38,6 +42,7 @@ const Effect& sensor_saturation() {
         .place = Place::sensor,
         .numbers = {{"limit"}},
         .uneven_noise = true,
+        .hides_base = true,
     };
     return effect;
 }

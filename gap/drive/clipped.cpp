@@ -1,0 +1,70 @@
+#include "gap/drive/clipped.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace gap {
+namespace {
+
+// By sample: whether its reading is the record's highest, or its lowest.
+std::vector<char> extremes_of(const Record& record) {
+    const auto [low, high] = std::minmax_element(record.output.begin(), record.output.end());
+    std::vector<char> extreme(record.size());
+    for (std::size_t i = 0; i < extreme.size(); ++i) {
+        extreme[i] = record.output[i] == *low || record.output[i] == *high ? 1 : 0;
+    }
+    return extreme;
+}
+
+}  // namespace
+
+bool ends_would_show(const Record& record) {
+    // Of such readings ten in a row are equal once in a thousand.
+    constexpr double most_repeat = 0.5;
+    const std::vector<char> extreme = extremes_of(record);
+    double elsewhere = 0.0;
+    double repeated = 0.0;
+    for (std::size_t i = 1; i < record.size(); ++i) {
+        if (extreme[i] == 0) {
+            elsewhere += 1.0;
+            repeated += record.output[i] == record.output[i - 1] ? 1.0 : 0.0;
+        }
+    }
+    return elsewhere > 0.0 && repeated < most_repeat * elsewhere;
+}
+
+std::vector<char> clipped_readings(const Record& record) {
+    constexpr std::size_t fewest = 10;
+    std::vector<char> clipped(record.size(), 0);
+    if (!ends_would_show(record)) {
+        return clipped;
+    }
+    const std::vector<char> extreme = extremes_of(record);
+    for (std::size_t from = 0, to = 0; from < record.size(); from = to) {
+        for (to = from + 1; to < record.size() && record.output[to] == record.output[from]; ++to) {
+        }
+        if (extreme[from] != 0 && to - from >= fewest) {
+            std::fill(clipped.begin() + static_cast<std::ptrdiff_t>(from),
+                      clipped.begin() + static_cast<std::ptrdiff_t>(to), 1);
+        }
+    }
+    return clipped;
+}
+
+std::vector<std::vector<char>> without_clipped(std::vector<std::vector<char>> counts,
+                                               const std::vector<Record>& records) {
+    constexpr std::ptrdiff_t fewest = 50;
+    for (std::size_t r = 0; r < counts.size(); ++r) {
+        const std::vector<char> clipped = clipped_readings(records[r]);
+        std::vector<char> left = counts[r];
+        for (std::size_t i = 0; i < left.size(); ++i) {
+            left[i] = clipped[i] != 0 ? 0 : left[i];
+        }
+        if (std::count(left.begin(), left.end(), 1) >= fewest) {
+            counts[r] = std::move(left);
+        }
+    }
+    return counts;
+}
+
+}  // namespace gap
