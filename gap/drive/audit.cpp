@@ -187,11 +187,10 @@ Audit audit(const std::vector<Record>& records) {
             found.notes.push_back(fmt::format("{}: a gap of {:.4g} s between stamps, usually {:.4g} s", record.name,
                                               longest, record.usual_interval_s));
         }
-        const auto [low, high] = std::minmax_element(record.output.begin(), record.output.end());
-        const auto at_top = std::count(record.output.begin(), record.output.end(), *high);
-        if (at_top >= 10 && !(found.quantum > 0.01 * (*high - *low))) {
-            found.notes.push_back(
-                fmt::format("{}: {} readings are {:.6g}, the highest: clipped?", record.name, at_top, *high));
+        const std::vector<char> clipped = clipped_readings(record);
+        if (const auto held = std::count(clipped.begin(), clipped.end(), 1); held > 0) {
+            found.notes.push_back(fmt::format("{}: {} readings are held at {:.6g}, the highest: clipped?", record.name,
+                                              held, *std::max_element(record.output.begin(), record.output.end())));
         }
     }
     return found;

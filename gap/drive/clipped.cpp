@@ -1,17 +1,18 @@
 #include "gap/drive/clipped.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 namespace gap {
 namespace {
 
-// By sample: whether its reading is the record's highest, or its lowest.
+// By sample: whether its reading is the record's highest, or the opposite of that.
 std::vector<char> extremes_of(const Record& record) {
-    const auto [low, high] = std::minmax_element(record.output.begin(), record.output.end());
+    const double high = *std::max_element(record.output.begin(), record.output.end());
     std::vector<char> extreme(record.size());
     for (std::size_t i = 0; i < extreme.size(); ++i) {
-        extreme[i] = record.output[i] == *low || record.output[i] == *high ? 1 : 0;
+        extreme[i] = std::fabs(record.output[i]) == std::fabs(high) ? 1 : 0;
     }
     return extreme;
 }

@@ -1,4 +1,5 @@
-// Readings that a sensor's end holds: noise and all, the same again and again at the highest or at the lowest.
+// Readings that a sensor's end holds: noise and all, the same again and again at the highest, or at its opposite. The
+// lowest alone may be where the plant rests.
 #pragma once
 
 #include <vector>
@@ -11,8 +12,8 @@ namespace gap {
 /// none differ, they tell nothing.
 [[nodiscard]] bool ends_would_show(const Record& record);
 
-/// By sample: whether it is one of ten or more equal ones in a row, at the record's highest reading or its lowest. None
-/// where they would not be seen.
+/// By sample: whether it is one of ten or more equal ones in a row, at the record's highest reading or its opposite.
+/// None where they would not be seen.
 [[nodiscard]] std::vector<char> clipped_readings(const Record& record);
 
 /// What counts, less what is clipped; of a record that would be left without fifty samples all that counted.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drive/solve.hpp"
 #include "gap/drive/clued_start.hpp"
 #include "gap/drive/cost.hpp"
 

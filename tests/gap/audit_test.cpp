@@ -169,16 +169,15 @@ TEST(AuditNotes, SayWhatIsOdd) {
         record.time_s[i] += 0.03;
     }
     EXPECT_THAT(gap::audit({record}).notes, Contains(HasSubstr("made: a gap of 0.52 s between stamps, usually 0.1 s")));
-    // Ten readings at the top are clipped, nine may be chance.
+    // Ten readings in a row at the top are clipped, nine may be chance.
     std::vector<double> values = noisy(400, 11);
     const double top = *std::max_element(values.begin(), values.end()) + 0.1;
-    for (std::size_t i = 0; i < 9; ++i) {
-        values[40 * i] = top;
-    }
+    std::fill_n(values.begin() + 40, 9, top);
     EXPECT_THAT(gap::audit({record_of(values)}).notes, IsEmpty());
-    values[390] = top;
-    EXPECT_THAT(gap::audit({record_of(values)}).notes, Contains(HasSubstr("made: 10 readings are ")));
+    values[49] = top;
+    EXPECT_THAT(gap::audit({record_of(values)}).notes, Contains(HasSubstr("made: 10 readings are held at ")));
     // Coarse steps are often the highest.
+    values = noisy(400, 11);
     for (double& value : values) {
         value = 0.5 * std::round(std::clamp(value, -1.0, 1.0) / 0.5);
     }
@@ -202,7 +201,10 @@ std::ptrdiff_t clipped_in(const std::vector<double>& output) {
 TEST(Clipped, AreTenEqualReadingsInARowAtAnExtreme) {
     EXPECT_EQ(clipped_in(clipped(100, 10, 9.0)), 10);
     EXPECT_EQ(clipped_in(clipped(100, 9, 9.0)), 0);
-    EXPECT_EQ(clipped_in(clipped(390, 10, -9.0)), 10);
+    EXPECT_EQ(clipped_in(clipped(390, 10, -9.0)), 0);  // at rest, perhaps
+    std::vector<double> both = clipped(390, 10, -9.0);
+    std::fill_n(both.begin() + 20, 12, 9.0);
+    EXPECT_EQ(clipped_in(both), 22);
     EXPECT_EQ(clipped_in(clipped(100, 30, 0.5)), 0);  // held, in the middle
     std::vector<double> apart = clipped(100, 20, 9.0);
     apart[109] = 8.5;
