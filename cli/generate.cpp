@@ -9,6 +9,7 @@
 
 #include "base/failure.hpp"
 #include "base/files.hpp"
+#include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/derivative_text.hpp"
 #include "bench/choose/provenance.hpp"
 #include "bench/choose/report.hpp"
@@ -111,6 +112,7 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
         specs = {to_spec(options, budget, answer->choice.chosen->kernel, answer->choice.chosen->taps)};
         if (answer->derivative) {
             specs.front().fitted = answer->derivative->filter;
+            specs.front().fitted_by = choose::text_of(answer->question.by);
             specs.front().use = choose::use_of(*answer->derivative, *answer->question.goal);
         }
     } else {

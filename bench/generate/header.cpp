@@ -58,11 +58,9 @@ std::string make_header(const Spec& spec) {
     places["body"] = body.substr(0, body.size() - 1);
     places["helpers"] = helpers.substr(0, helpers.size() - 1);
     const std::string code = text.section("header", "code");
-    const std::string design = fmt::format(
-        "{}, {}, v = {}{}", spec.kernel, length_of(spec).text(), spec.order,
-        (spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "") + (spec.past_of_model ? ", the past of a model"
-                                                                        : spec.fitted ? ", fitted to the derivative"
-                                                                                      : ""));
+    const std::string made = spec.past_of_model ? ", the past of a model" : spec.fitted ? ", " + spec.fitted_by : "";
+    const std::string design = fmt::format("{}, {}, v = {}{}{}", spec.kernel, length_of(spec).text(), spec.order,
+                                           spec.step_s ? fmt::format(", h = {} s", *spec.step_s) : "", made);
     return opening_comment(spec, text) +
            include_guard(places["name"], design, fingerprint(places["constants"] + code)) +
            text.section("header", "head") + code;

@@ -22,7 +22,8 @@ struct Spec {
     std::string licence = {};      ///< what the comment ends with; nothing where it is empty
     std::size_t horizon = 5000;    ///< samples that a design with modes is for
     std::optional<glsum::design::FittedFilter> fitted = {};  ///< in place of the order's own weights, with `step_s`
-    bool past_of_model = false;                              ///< what is fitted stands for a model's past
+    std::string fitted_by = "a filter fitted to the derivative";  ///< whose filter that is
+    bool past_of_model = false;                                   ///< what is fitted stands for a model's past
     std::string use = {};  ///< with it, what the comment says first: where it may be used, and how near it comes
     std::vector<std::string> provenance;  ///< lines of the comment: where it comes from, what was measured
 };

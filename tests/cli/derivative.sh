@@ -44,6 +44,9 @@ grep -q "within .* % from 0.05 to 80 Hz" "$folder/half.h" || { echo "the header 
 for rule in oustaloup charef; do
     expect 0 "measured" generate $at --derivative-error 5% --band 0.5..80 --design $rule --prefix half --out "$folder/$rule.h"
     grep -q "rule, tuned to the band" "$folder/$rule.h" || { echo "the header does not name its rule"; failures=$((failures + 1)); }
+    # Two of one prefix are told apart by it.
+    grep -iq "^#define HALF_.*_DESIGN .*$rule's filter, tuned to the band\"" "$folder/$rule.h" ||
+        { echo "the header's design does not name its rule: $(grep -m 1 _DESIGN "$folder/$rule.h")"; failures=$((failures + 1)); }
 done
 for compiler in gcc clang; do
     command -v $compiler >/dev/null 2>&1 || continue

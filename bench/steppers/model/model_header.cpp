@@ -52,16 +52,18 @@ std::string fixed_body_of(const glsum::ModelDesign& numbers, bool has_past) {
     Words words{{"state.line_length", "@NAME@_WAITING"},
                 {"state.line_at", "S->waiting_at"},
                 {"state.line", "S->waiting"},
-                {"times(state, ", "@prefix@_q31_times(S, "},
                 {"state.output_shift", "@NAME@_OUTPUT_SHIFT"},
                 {"round_shift(", "@prefix@_q31_round_shift("},
                 {"Rounded", "@prefix@_q31_rounded"},
                 {"state.", "S->"}};
-    for (const char* const factor : {"input", "constant", "factor"}) {
-        for (const char* const part : {"mantissa", "shift", "negative"}) {
-            words[fmt::format("{}.{}", factor, part)] = fmt::format("@NAME@_{}_{}", upper(factor), upper(part));
-        }
-    }
+    // In a header a factor's numbers are constants.
+    const auto product = [&](const char* value, const char* of_stepper, const char* factor) {
+        words[fmt::format("times(state, {}, {})", value, of_stepper)] = fmt::format(
+            "@prefix@_q31_times(S, {0}, @NAME@_{1}_MANTISSA, @NAME@_{1}_SHIFT, @NAME@_{1}_NEGATIVE)", value, factor);
+    };
+    product("acting", "0, state.input, 16", "INPUT");
+    product("held.value", "0, state.constant, 17", "CONSTANT");
+    product("past", "state.sums[i].scale.output_exponent, state.factor[i], i", "FACTOR");
     std::string body = shared("model input", words);
     body += numbers.half_input ? shared("model half input fixed", words) : "";
     // Declarations come first in C.
@@ -168,7 +170,7 @@ std::string code_q31(const ModelSpec& spec, FixedModel& stepped, const std::stri
     places["helpers"] = format.section("format", "helper saturate") + format.section("format", "helper round_shift");
     const Words words{
         {"Rounded", "@prefix@_q31_rounded"}, {"round_shift(", "@prefix@_q31_round_shift("}, {"state.", "S->"}};
-    places["times"] = fill(shared("model times", words), places);
+    places["times"] = fill(shared("model times", words) + shared("model times signed", words), places);
     places["body"] = fill(fixed_body_of(numbers, has_past), places);
     std::string code = has_past ? past_header(spec, numbers.tables[0], prefix + "_past", licence)
                                 : "#include <stdint.h>\n#include <string.h>\n";

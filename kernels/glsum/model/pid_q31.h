@@ -6,9 +6,9 @@
  * Every number is an integer, a fraction of a full scale: r and y of the input's, e and w of twice that, which no r and
  * y leave; u of the output's. A gain is 32 bits that its own shift brings to the units of the integral, and those are
  * the output's with further bits behind. Full scales, products and added sums together fill half of what its 64 bits
- * hold at most (bench/steppers/controller/fixed_pid sees to it), so that nothing overflows, whatever the samples and the
- * gains are. Every product is rounded once,
- * to nearest, halves up. Where u meets a limit it stays there, and the integral waits.
+ * hold at most (bench/steppers/controller/fixed_pid sees to it), so that nothing overflows, whatever the samples and
+ * the gains are. Every product is rounded once, to nearest, halves up. Where u meets a limit it stays there, and the
+ * integral waits.
  *
  * Before the inclusion: GLSUM_PID_ROUND(value, shift), value 2^-shift to nearest as 32 bits, saturated;
  * GLSUM_PID_NUMBER(name), a number of the design: SHIFT_KP, SHIFT_KI, SHIFT_KD, from the products to the integral's

@@ -94,47 +94,36 @@ template <class K, class State>
     return state.output;
 }
 
-// A factor as its product takes it.
-struct FixedFactor {
-    std::int32_t mantissa;
-    int shift;  // of the product
-    bool negative;
-};
-
-// \param exponent  integer bits of what it multiplies
-[[gnu::always_inline]] inline FixedFactor fixed_factor(const Gain& gain, int exponent, bool negative) {
-    return {gain.mantissa, gain_shift(gain, exponent, 0), negative};
-}
-
+// A factor's product in units of the increments. \param exponent  integer bits of the value \param bit  of its sign
 template <class State>
-[[gnu::always_inline]] inline std::int64_t times(State& state, std::int32_t value, std::int32_t mantissa, int shift,
-                                                 bool negative) {
+inline std::int64_t times(State& state, std::int32_t value, int exponent, const Gain& gain, unsigned bit) {
+    const std::int32_t mantissa = gain.mantissa;
+    const int shift = gain_shift(gain, exponent, 0);
     // C99: model times
     const Rounded product = round_shift(static_cast<std::int64_t>(value) * mantissa, shift);
     state.saturations += product.saturated ? 1U : 0U;
-    return negative ? -static_cast<std::int64_t>(product.value) : product.value;
+    // C99 end
+    const bool negative = (state.negative >> bit & 1U) != 0;
+    // C99: model times signed
+    return negative ? -static_cast<std::int64_t>(product.value) : static_cast<std::int64_t>(product.value);
     // C99 end
 }
 
 template <class K, class State>
 [[gnu::always_inline]] inline std::int64_t step_fixed(State& state, std::int32_t acting) {
-    const auto negative = [&](unsigned bit) { return (state.negative >> bit & 1U) != 0; };
-    const FixedFactor input = fixed_factor(state.input, 0, negative(16));
     // C99: model forcing fixed
-    std::int64_t sum = times(state, acting, input.mantissa, input.shift, input.negative);
+    std::int64_t sum = times(state, acting, 0, state.input, 16);
     // C99 end
     if (state.increments != 0) {
-        const FixedFactor constant = fixed_factor(state.constant, 0, negative(17));
         // C99: model constant fixed
         const Rounded held = round_shift(state.output, state.output_shift);
-        sum -= times(state, held.value, constant.mantissa, constant.shift, constant.negative);
+        sum -= times(state, held.value, 0, state.constant, 17);
         // C99 end
     }
     for_each_table(state, [&](std::uint32_t i) {
-        const FixedFactor factor = fixed_factor(state.factor[i], state.sums[i].scale.output_exponent, negative(i));
         const std::int32_t past = K::step(state.sums[i], state.newest);
         // C99: model past fixed
-        sum -= times(state, past, factor.mantissa, factor.shift, factor.negative);
+        sum -= times(state, past, state.sums[i].scale.output_exponent, state.factor[i], i);
         // C99 end
     });
     // C99: model stored fixed
@@ -143,12 +132,11 @@ template <class K, class State>
     state.newest = stored.value;
     // C99 end
     if (state.increments == 0) {
-        state.output = stored.value;
-    } else {
-        // C99: model output fixed
-        state.output += stored.value;
-        // C99 end
+        state.output = 0;
     }
+    // C99: model output fixed
+    state.output += stored.value;
+    // C99 end
     return state.output;
 }
 
