@@ -50,9 +50,10 @@ void run(Options options) {
         "Largest |H - (jw)^v| / w^v over each band at h = {:g} s, and modelled cycles of {}. Oustaloup's and Charef's "
         "filters are tuned to\neach band: its edges, the mapping (matched, Tustin's, impulse-invariant) and the gain; "
         "in "
-        "parallel form they stand in the cheapest\nkernel that can hold as many poles. The fitted filter is the best "
-        "within these cycles. All are certified as the kernel holds them in\nsingle precision, with the noise of its "
-        "arithmetic.\n{}",
+        "parallel form they stand in the cheapest\nkernel that can hold as many poles, and as a cascade of "
+        "second-order "
+        "sections in cascade_df2t_f32. The fitted filter is the best\nwithin these cycles. All are certified as the "
+        "kernel holds them in single precision, with the noise of its arithmetic.\n{}",
         study.step_s, study.core, bench::to_table(study, points));
     bench::Sweep sweep;
     sweep.targets = {"m7"};

@@ -156,6 +156,14 @@ const DerivativeErrors::Judged& DerivativeErrors::judged(const std::string& kern
     }
     std::call_once(once->flag, [&] {
         once->judged = judge(kernel, taps, key);
+        if (!once->judged.fault.empty() && key.poles == design::Poles::one_may_swing && by_ == FilterDesign::fitted) {
+            // A cascade may have no room for the pole that swings, whose weight tends to have the other sign.
+            Key decaying = key;
+            decaying.poles = design::Poles::decaying;
+            if (Judged other = judge(kernel, taps, decaying); other.fault.empty()) {
+                once->judged = std::move(other);
+            }
+        }
         const bool loud = once->judged.fault.empty() && once->judged.noise > 0.5 * once->judged.error.largest();
         for (const double cost : {1e-3, 3e-3, 1e-2}) {
             if (loud && key.modes > 0 && by_ == FilterDesign::fitted) {

@@ -134,6 +134,9 @@ Held hold(const glsum::Design& made, const design::DerivativeGoal& goal, const d
     if constexpr (std::is_same_v<History, glsum::Modes>) {
         found.filter = scaled(design::held<Technique, Format>(line.state()), fitted.factor);
         run_noise<K>(line, goal, fitted.factor, found);
+    } else if constexpr (std::is_same_v<History, glsum::Cascade>) {
+        found.filter = scaled(design::held_in_parallel<Technique, Format>(line.state()), fitted.factor);
+        run_noise<K>(line, goal, fitted.factor, found);
     } else if constexpr (std::is_same_v<History, glsum::ModesDelta>) {
         found.filter = design::of_samples(scaled(design::held<Technique, Format>(line.state()), fitted.factor));
         run_noise<K>(line, goal, fitted.factor, found);

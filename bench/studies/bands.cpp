@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <optional>
@@ -23,7 +24,7 @@ namespace design = glsum::design;
 
 // Single precision with modes: what is cheapest on the core. Of windows so short that they cost as little nothing lasts
 // over a decade.
-constexpr const char* kernels[] = {"modes_plain_f32", "modesdelta_plain_f32", "modessum_plain_f32"};
+constexpr const char* kernels[] = {"modes_plain_f32", "modesdelta_plain_f32", "modessum_plain_f32", "cascade_df2t_f32"};
 constexpr std::size_t longest = 20;
 
 struct Case {
@@ -31,10 +32,12 @@ struct Case {
     design::Band band;
 };
 
-bool is_ours(const BandPoint& point) { return point.way != oustaloup_way && point.way != charef_way; }
+bool is_ours(const BandPoint& point) { return rival_of(point.way) == nullptr; }
 
-// The kernel that a filter of others costs as much as, with P poles behind one tap.
-const char* kernel_of_poles(double order) { return order > 1.0 ? kernels[1] : kernels[0]; }
+// The kernel that a filter of others stands in, with P poles behind one tap.
+const char* kernel_of(const Rival& rival, double order) {
+    return rival.cascade ? kernels[3] : order > 1.0 ? kernels[1] : kernels[0];
+}
 
 BandPoint point_of(const Case& of, const std::string& way, std::size_t near_taps, std::size_t modes, double error) {
     return {way, fmt::format("{}+{}", near_taps, modes), of.order, of.band, error, 0.0, 0.0, 0.0};
@@ -46,13 +49,15 @@ struct Asked {
     choose::Case cost;
 };
 
-// As ours: what the kernel holds of it, certified, with the noise of its arithmetic.
-double error_of_rational(design::RationalRule rule, const design::DerivativeGoal& goal, std::size_t poles,
-                         const choose::Case& holder) {
-    const design::TunedRational tuned = design::tune_rational(rule, goal, poles);
+// As ours: what the kernel holds of it, certified, with the noise of its arithmetic. Empty of a cascade that cannot.
+std::optional<double> error_of_rational(const Rival& rival, const design::DerivativeGoal& goal, std::size_t poles,
+                                        const choose::Case& holder) {
+    const design::TunedRational tuned = design::tune_rational(rival.rule, goal, poles);
     const choose::Held held =
-        choose::hold(holder.first, holder.second, goal, design::as_modes(rule, goal, poles, tuned));
-    return held.fault.empty() ? held.added_to(design::certified_error(held.filter, goal)).largest() : tuned.error;
+        choose::hold(holder.first, holder.second, goal, design::as_modes(rival.rule, goal, poles, tuned));
+    return held.fault.empty() ? std::optional(held.added_to(design::certified_error(held.filter, goal)).largest())
+           : rival.cascade    ? std::nullopt
+                              : std::optional(tuned.error);
 }
 
 std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
@@ -72,12 +77,15 @@ std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
             }
         }
     }
-    for (const auto& [way, rule] : {std::pair(oustaloup_way, design::RationalRule::oustaloup),
-                                    std::pair(charef_way, design::RationalRule::charef)}) {
+    for (const Rival& rival : rivals) {
+        // Above order 1 the filter is one of increments, which no cascade keeps.
+        if (!design::has_rational(of.order) || (rival.cascade && of.order > 1.0)) {
+            continue;
+        }
         for (const std::size_t poles : study.poles) {
-            if (design::has_rational(of.order)) {
-                const choose::Case holder{kernel_of_poles(of.order), 1 + 2 * poles};
-                points.push_back({point_of(of, way, 1, poles, error_of_rational(rule, goal, poles, holder)), holder});
+            const choose::Case holder{kernel_of(rival, of.order), 1 + 2 * poles};
+            if (const auto error = error_of_rational(rival, goal, poles, holder)) {
+                points.push_back({point_of(of, rival.way, 1, poles, *error), holder});
             }
         }
     }
@@ -102,6 +110,11 @@ void add_costs(choose::CostSource& source, const std::vector<Asked>& of_case, st
 }
 
 }  // namespace
+
+const Rival* rival_of(const std::string& way) {
+    const auto* const found = std::ranges::find(rivals, way, &Rival::way);
+    return found == std::end(rivals) ? nullptr : found;
+}
 
 std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board) {
     std::vector<Case> cases;

@@ -9,6 +9,7 @@
 
 #include "bench/rows/row.hpp"
 #include "glsum/design/derivative.hpp"
+#include "glsum/design/rational.hpp"
 #include "qemu/emulate/firmware.hpp"
 
 namespace bench {
@@ -24,7 +25,7 @@ struct BandStudy {
 
 /// A filter at a length, of one order and band.
 struct BandPoint {
-    std::string way;   ///< a kernel, `oustaloup_f32` or `charef_f32`
+    std::string way;   ///< a kernel, or one of `rivals`
     std::string taps;  ///< "1+5"
     double order;
     glsum::design::Band band;
@@ -34,12 +35,23 @@ struct BandPoint {
     double bytes;
 };
 
-inline constexpr const char* oustaloup_way = "oustaloup_f32";
-inline constexpr const char* charef_way = "charef_f32";
+/// A filter of others in one of its forms.
+struct Rival {
+    const char* way;
+    glsum::design::RationalRule rule;
+    bool cascade;  ///< second-order sections; else one tap and modes
+};
+inline constexpr Rival rivals[] = {{"oustaloup_f32", glsum::design::RationalRule::oustaloup, false},
+                                   {"oustaloup_df2t_f32", glsum::design::RationalRule::oustaloup, true},
+                                   {"charef_f32", glsum::design::RationalRule::charef, false},
+                                   {"charef_df2t_f32", glsum::design::RationalRule::charef, true}};
+/// Null for a kernel.
+[[nodiscard]] const Rival* rival_of(const std::string& way);
 
 /// Of kernels: every length up to 20 taps, certified, with the format's rounding and the arithmetic's noise. Of others'
-/// filters the same, in parallel form in the cheapest kernel that can hold them (`modes_plain_f32`, above order 1
-/// `modesdelta_plain_f32`, 1+P), or where it cannot, the error in double at the points of a search.
+/// filters the same, in both forms: in parallel form in the cheapest kernel that can hold them (`modes_plain_f32`,
+/// above order 1 `modesdelta_plain_f32`, 1+P), or where it cannot, the error in double at the points of a search; and,
+/// up to order 1, as a cascade of second-order sections (`cascade_df2t_f32`), where single precision holds its poles.
 /// \throws glsum::Failure for a core without a file
 [[nodiscard]] std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board);
 

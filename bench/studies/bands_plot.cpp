@@ -15,11 +15,15 @@ struct Series {
     bool (*has)(const BandPoint&);
 };
 
+bool is_by(const BandPoint& point, glsum::design::RationalRule rule) {
+    const Rival* const rival = rival_of(point.way);
+    return rival != nullptr && rival->rule == rule;
+}
+
 constexpr Series all_series[] = {
-    {"Oustaloup, tuned", 1, [](const BandPoint& p) { return p.way == oustaloup_way; }},
-    {"Charef, tuned", 2, [](const BandPoint& p) { return p.way == charef_way; }},
-    {"fitted, as the kernel holds it", 0,
-     [](const BandPoint& p) { return p.way != oustaloup_way && p.way != charef_way; }},
+    {"Oustaloup, tuned", 1, [](const BandPoint& p) { return is_by(p, glsum::design::RationalRule::oustaloup); }},
+    {"Charef, tuned", 2, [](const BandPoint& p) { return is_by(p, glsum::design::RationalRule::charef); }},
+    {"fitted, as the kernel holds it", 0, [](const BandPoint& p) { return rival_of(p.way) == nullptr; }},
 };
 
 // Those that no other of the series betters, by rising cycles.

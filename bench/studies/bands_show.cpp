@@ -20,27 +20,35 @@ const BandRival* find(const std::vector<BandRival>& compared, const char* way, d
     return nullptr;
 }
 
+// Both filters of so many poles in one form; empty where a kernel cannot hold one of them.
+std::string line(const std::vector<BandRival>& compared, double order, const glsum::design::Band& band,
+                 std::size_t poles, bool cascade) {
+    const std::string taps = fmt::format("1+{}", poles);
+    const BandRival* const oustaloup = find(compared, rivals[cascade ? 1 : 0].way, order, band, taps);
+    const BandRival* const charef = find(compared, rivals[cascade ? 3 : 2].way, order, band, taps);
+    if (oustaloup == nullptr || charef == nullptr) {
+        return "";
+    }
+    return fmt::format("  {:<12} {:>5}  {:<8} {:>7.1f} {:>8} % {:>8} % {:>8} %  {:<22} {:>6.1f}\n",
+                       fmt::format("{}..{}", band.low_hz, band.high_hz), poles, cascade ? "cascade" : "parallel",
+                       oustaloup->rival.model_cycles, percent(oustaloup->rival.error), percent(charef->rival.error),
+                       percent(oustaloup->ours.error), oustaloup->ours.way + " " + oustaloup->ours.taps,
+                       std::min(oustaloup->ratio(), charef->ratio()));
+}
+
 }  // namespace
 
 std::string to_table(const BandStudy& study, const std::vector<BandPoint>& points) {
     const std::vector<BandRival> compared = compare_bands(points);
     std::string text;
     for (const double order : study.orders) {
-        text += fmt::format("\nOrder {}\n  {:<12} {:>5} {:>7} {:>10} {:>10} {:>10}  {:<22} {:>6}\n", order, "band, Hz",
-                            "poles", "cycles", "Oustaloup", "Charef", "fitted", "kernel", "factor");
+        text += fmt::format("\nOrder {}\n  {:<12} {:>5}  {:<8} {:>7} {:>10} {:>10} {:>10}  {:<22} {:>6}\n", order,
+                            "band, Hz", "poles", "form", "cycles", "Oustaloup", "Charef", "fitted", "kernel", "factor");
         for (const auto& band : study.bands) {
             for (const std::size_t poles : study.poles) {
-                const std::string taps = fmt::format("1+{}", poles);
-                const BandRival* oustaloup = find(compared, oustaloup_way, order, band, taps);
-                const BandRival* charef = find(compared, charef_way, order, band, taps);
-                if (oustaloup == nullptr || charef == nullptr) {
-                    continue;
+                for (const bool cascade : {false, true}) {
+                    text += line(compared, order, band, poles, cascade);
                 }
-                text += fmt::format(
-                    "  {:<12} {:>5} {:>7.1f} {:>8} % {:>8} % {:>8} %  {:<22} {:>6.1f}\n",
-                    fmt::format("{}..{}", band.low_hz, band.high_hz), poles, oustaloup->rival.model_cycles,
-                    percent(oustaloup->rival.error), percent(charef->rival.error), percent(oustaloup->ours.error),
-                    oustaloup->ours.way + " " + oustaloup->ours.taps, std::min(oustaloup->ratio(), charef->ratio()));
             }
         }
     }

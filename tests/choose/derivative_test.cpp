@@ -221,7 +221,7 @@ TEST(DerivativeErrors, OustaloupsAndCharefsFiltersAreCertifiedAsKernelsHoldThem)
         const DerivativeGoal goal = goal_of(order, 0.0);
         for (const FilterDesign by : {FilterDesign::oustaloup, FilterDesign::charef}) {
             DerivativeErrors errors(goal, by);
-            for (const char* kernel : {"modes_plain_f32", "modes_plain_q31"}) {
+            for (const char* kernel : {"modes_plain_f32", "modes_plain_q31", "cascade_df2t_f32", "cascade_df1_q31"}) {
                 for (const std::size_t taps : {5U, 7U, 9U, 11U}) {
                     const auto at = errors.error(kernel, taps);
                     ASSERT_EQ(at.fault, "") << kernel << ", " << order << ", " << taps;

@@ -13,6 +13,7 @@ for made in b.json b.svg b.png; do
     [ -s "$folder/$made" ] || { echo "expected $made"; failures=$((failures + 1)); }
 done
 grep -q '"band/oustaloup_f32/order:0.5/taps:1+3/hz:8..80"' "$folder/b.json" || { echo "expected Oustaloup's row"; failures=$((failures + 1)); }
+grep -q '"band/oustaloup_df2t_f32/order:0.5/taps:1+3/hz:8..80"' "$folder/b.json" || { echo "expected Oustaloup's cascade"; failures=$((failures + 1)); }
 grep -q '"band/modes_plain_f32/order:0.5/taps:1+3/hz:8..80"' "$folder/b.json" || { echo "expected the kernel's row"; failures=$((failures + 1)); }
 "$program" bench bands 8..80 --orders 0.5 --poles 2,3 --out "$folder/c.json" 2>/dev/null | grep -q "errs more in 0;" ||
     { echo "expected the fitted filter to be behind in none"; failures=$((failures + 1)); }
