@@ -10,6 +10,7 @@ CORE = "stm32f746-itcm"
 IN_C = {
     "window": "--kernel ring_plain_f32 --taps 400",
     "exponentials": "--kernel modes_plain_f32 --taps 2+9",
+    "filter": "--kernel cascade_df2t_f32 --taps 2+9",
     "logmemory": "--kernel nested_plain_f32 --taps 32",
     "lookahead": "--kernel block_oldestfma_f32 --taps 400",
     "transposed": "--kernel transposed_oldest_f32 --taps 400",
@@ -17,6 +18,7 @@ IN_C = {
 PAGES = {
     "window": ("accuracy", "fast-loops"),
     "exponentials": ("full-memory", "histories", "derivative"),
+    "filter": ("histories", "derivative"),
     "logmemory": ("full-memory", "histories"),
     "lookahead": ("histories", "fast-loops"),
     "transposed": ("histories", "fast-loops"),
