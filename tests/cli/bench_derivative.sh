@@ -3,7 +3,7 @@
 set -u
 program=$1
 . "$(dirname "$0")/expect.sh"
-half="--orders 0.5 --kernels modes_plain_f32,ring_plain_f32"
+half="--orders 0.5 --kernels modes_plain_f32,cascade_df2t_f32,ring_plain_f32"
 expect 2 "expected --band, --step-until or both" bench --derivative-error 5%
 expect 2 "expected a share above 0, as in 5%, found five" bench --derivative-error five --band 1..2
 expect 2 "two rising frequencies in Hz, as in 0.05..80, found 80..0.05" bench --derivative-error 5% --band 80..0.05
@@ -13,7 +13,7 @@ expect 2 "the nearest is modes_plain_f32" bench --derivative-error 5% --band 1..
 expect 2 "--derivative-error is required" bench derivative --band 1..2
 expect 2 "found count alone" bench --derivative-error 5% --band 1..2 --core count
 expect 1 "order 0.5: no kernel comes within 0.001 %" bench --derivative-error 0.001% --band 0.5..80 $half --out "$folder/none.json"
-expect 0 "1 of 2 kernels" bench --quick --derivative-error 5% --band 0.05..80 --step-until 60 $half --targets m7,host --out "$folder/d.json"
+expect 0 "2 of 3 kernels" bench --quick --derivative-error 5% --band 0.05..80 --step-until 60 $half --targets m7,host --out "$folder/d.json"
 for row in m7:stm32f746-itcm host; do
     grep -q "\"derivative/modes_plain_f32/order:0.5/taps:1+5/$row/hz:0.05..80/until:60\"" "$folder/d.json" ||
         { echo "expected a row of $row"; failures=$((failures + 1)); }
