@@ -130,11 +130,11 @@ for my $file (grep { m{(?:^|/)README\.md$} } @files) {
     }
 }
 
-# What a sentence of a page may have. What commands print is held to nothing, and the diagnosis not yet.
+# What a sentence of a page may have. What commands print is held to nothing.
 sub most_words_in_sentence {
     my ($file) = @_;
     return $most{words_in_sentence} if $file =~ m{(?:^|/)README\.md$};
-    return if $file =~ m{^docs/(?:measured/|diagnosis\.md$)} || $file !~ m{^(?:docs/|CHANGELOG\.md$)};
+    return if $file =~ m{^docs/measured/} || $file !~ m{^(?:docs/|CHANGELOG\.md$)};
     return $most{words_in_sentence_of_docs};
 }
 
