@@ -234,9 +234,8 @@ auto Sum<Cascade, Technique, Format>::step(State& state, Sample newest) -> Outpu
         for (std::size_t i = 0; i < near_samples - 1; ++i) {
             sum = Format::multiply_add(sum, table[i], past[i]);
         }
-        const Sample value = filtered(state, past[near_samples - 1]);
         // C99: cascade closing
-        sum = Format::multiply_add(sum, table[near_samples - 1], value);
+        sum = Format::multiply_add(sum, table[near_samples - 1], filtered(state, past[near_samples - 1]));
         // C99 end
         for (std::size_t i = near_samples - 1; i > 0; --i) {
             past[i] = past[i - 1];
