@@ -52,8 +52,9 @@ void run(Options options) {
         "in "
         "parallel form they stand in the cheapest\nkernel that can hold as many poles, and as a cascade of "
         "second-order "
-        "sections in cascade_df2t_f32. The fitted filter is the best\nwithin these cycles. All are certified as the "
-        "kernel holds them in single precision, with the noise of its arithmetic.\n{}",
+        "sections in cascade_df2t_f32, above order 1 in\ncascadedelta_df2t_f32. The fitted filter is the best within "
+        "these cycles. All are certified as the kernel holds them in single\nprecision, with the noise of its "
+        "arithmetic. Bytes are of state and coefficients.\n{}",
         study.step_s, study.core, bench::to_table(study, points));
     bench::Sweep sweep;
     sweep.targets = {"m7"};

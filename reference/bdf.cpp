@@ -67,6 +67,7 @@ std::vector<Real> times(const std::vector<Real>& series, const std::vector<Real>
 
 // (1 - z)^(first_order) times the other factors to the power `order`.
 std::vector<Real> product(unsigned steps, const Real& first_order, const Real& order, std::size_t count) {
+    free_constants_with_thread();
     std::vector<Real> all = weights(first_order, count);
     const Roots roots = roots_of(steps);
     for (const Real& root : roots.real) {
@@ -98,6 +99,7 @@ std::vector<Real> product(unsigned steps, const Real& first_order, const Real& o
 }  // namespace
 
 Real bdf_first_weight(unsigned steps, const Real& order) {
+    free_constants_with_thread();
     Real first = 0;
     for (unsigned i = 1; i <= steps; ++i) {
         first += Real(1) / i;

@@ -10,6 +10,7 @@ namespace {
 
 // t^exponent at a time the derivatives exist at.
 Real power_of_time(const Real& t, const Real& exponent) {
+    free_constants_with_thread();
     if (!(t > 0)) {
         throw std::domain_error("derivative: expected a time above 0");
     }

@@ -140,6 +140,10 @@ Held hold(const glsum::Design& made, const design::DerivativeGoal& goal, const d
     } else if constexpr (std::is_same_v<History, glsum::ModesDelta>) {
         found.filter = design::of_samples(scaled(design::held<Technique, Format>(line.state()), fitted.factor));
         run_noise<K>(line, goal, fitted.factor, found);
+    } else if constexpr (std::is_same_v<History, glsum::CascadeDelta>) {
+        found.filter =
+            design::of_samples(scaled(design::held_in_parallel<Technique, Format>(line.state()), fitted.factor));
+        run_noise<K>(line, goal, fitted.factor, found);
     } else if constexpr (std::is_same_v<History, glsum::Integrator>) {
         found.filter = scaled(design::held_with_integrator<Technique, Format>(line.state()), fitted.factor);
         run_noise<K>(line, goal, fitted.factor, found);

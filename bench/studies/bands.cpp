@@ -24,7 +24,8 @@ namespace design = glsum::design;
 
 // Single precision with modes: what is cheapest on the core. Of windows so short that they cost as little nothing lasts
 // over a decade.
-constexpr const char* kernels[] = {"modes_plain_f32", "modesdelta_plain_f32", "modessum_plain_f32", "cascade_df2t_f32"};
+constexpr const char* kernels[] = {"modes_plain_f32", "modesdelta_plain_f32", "modessum_plain_f32", "cascade_df2t_f32",
+                                   "cascadedelta_df2t_f32"};
 constexpr std::size_t longest = 20;
 
 struct Case {
@@ -36,7 +37,8 @@ bool is_ours(const BandPoint& point) { return rival_of(point.way) == nullptr; }
 
 // The kernel that a filter of others stands in, with P poles behind one tap.
 const char* kernel_of(const Rival& rival, double order) {
-    return rival.cascade ? kernels[3] : order > 1.0 ? kernels[1] : kernels[0];
+    const bool increments = order > 1.0;
+    return rival.cascade ? kernels[increments ? 4 : 3] : kernels[increments ? 1 : 0];
 }
 
 BandPoint point_of(const Case& of, const std::string& way, std::size_t near_taps, std::size_t modes, double error) {
@@ -78,8 +80,7 @@ std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
         }
     }
     for (const Rival& rival : rivals) {
-        // Above order 1 the filter is one of increments, which no cascade keeps.
-        if (!design::has_rational(of.order) || (rival.cascade && of.order > 1.0)) {
+        if (!design::has_rational(of.order)) {
             continue;
         }
         for (const std::size_t poles : study.poles) {
@@ -174,6 +175,7 @@ std::vector<Json> rows_of_bands(const std::vector<BandPoint>& points) {
         row.set(Counter::band_error, point.error);
         row.set(Counter::model_cycles_per_sample, point.model_cycles);
         row.set(Counter::model_cycles_high, point.model_cycles_high);
+        row.set(Counter::memory_bytes, point.bytes);
         rows.push_back(std::move(row).take());
     }
     return rows;

@@ -32,7 +32,7 @@ struct BandPoint {
     double error;  ///< over the band, relative to w^v
     double model_cycles;
     double model_cycles_high;
-    double bytes;
+    double bytes;  ///< of state and coefficients
 };
 
 /// A filter of others in one of its forms.
@@ -50,8 +50,9 @@ inline constexpr Rival rivals[] = {{"oustaloup_f32", glsum::design::RationalRule
 
 /// Of kernels: every length up to 20 taps, certified, with the format's rounding and the arithmetic's noise. Of others'
 /// filters the same, in both forms: in parallel form in the cheapest kernel that can hold them (`modes_plain_f32`,
-/// above order 1 `modesdelta_plain_f32`, 1+P), or where it cannot, the error in double at the points of a search; and,
-/// up to order 1, as a cascade of second-order sections (`cascade_df2t_f32`), where single precision holds its poles.
+/// above order 1 `modesdelta_plain_f32`, 1+P), or where it cannot, the error in double at the points of a search; and
+/// as a cascade of second-order sections (`cascade_df2t_f32`, `cascadedelta_df2t_f32`), where single precision holds
+/// its poles.
 /// \throws glsum::Failure for a core without a file
 [[nodiscard]] std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board);
 
@@ -63,7 +64,7 @@ struct BandRival {
 };
 [[nodiscard]] std::vector<BandRival> compare_bands(const std::vector<BandPoint>& points);
 
-/// Rows `band/<way>/order:<v>/taps:<L>/hz:<low>..<high>` with `band_error` and cycles.
+/// Rows `band/<way>/order:<v>/taps:<L>/hz:<low>..<high>` with `band_error`, cycles and bytes.
 [[nodiscard]] std::vector<Json> rows_of_bands(const std::vector<BandPoint>& points);
 
 /// A table for each order, and in how many of all comparisons ours err less, by which factor.

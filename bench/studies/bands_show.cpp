@@ -29,10 +29,11 @@ std::string line(const std::vector<BandRival>& compared, double order, const gls
     if (oustaloup == nullptr || charef == nullptr) {
         return "";
     }
-    return fmt::format("  {:<12} {:>5}  {:<8} {:>7.1f} {:>8} % {:>8} % {:>8} %  {:<22} {:>6.1f}\n",
+    return fmt::format("  {:<12} {:>5}  {:<8} {:>6.1f} {:>5} {:>8} % {:>8} % {:>8} %  {:<25} {:>5} {:>6.1f}\n",
                        fmt::format("{}..{}", band.low_hz, band.high_hz), poles, cascade ? "cascade" : "parallel",
-                       oustaloup->rival.model_cycles, percent(oustaloup->rival.error), percent(charef->rival.error),
-                       percent(oustaloup->ours.error), oustaloup->ours.way + " " + oustaloup->ours.taps,
+                       oustaloup->rival.model_cycles, oustaloup->rival.bytes, percent(oustaloup->rival.error),
+                       percent(charef->rival.error), percent(oustaloup->ours.error),
+                       oustaloup->ours.way + " " + oustaloup->ours.taps, oustaloup->ours.bytes,
                        std::min(oustaloup->ratio(), charef->ratio()));
 }
 
@@ -42,8 +43,9 @@ std::string to_table(const BandStudy& study, const std::vector<BandPoint>& point
     const std::vector<BandRival> compared = compare_bands(points);
     std::string text;
     for (const double order : study.orders) {
-        text += fmt::format("\nOrder {}\n  {:<12} {:>5}  {:<8} {:>7} {:>10} {:>10} {:>10}  {:<22} {:>6}\n", order,
-                            "band, Hz", "poles", "form", "cycles", "Oustaloup", "Charef", "fitted", "kernel", "factor");
+        text += fmt::format("\nOrder {}\n  {:<12} {:>5}  {:<8} {:>6} {:>5} {:>10} {:>10} {:>10}  {:<25} {:>5} {:>6}\n",
+                            order, "band, Hz", "poles", "form", "cycles", "bytes", "Oustaloup", "Charef", "fitted",
+                            "kernel", "bytes", "factor");
         for (const auto& band : study.bands) {
             for (const std::size_t poles : study.poles) {
                 for (const bool cascade : {false, true}) {

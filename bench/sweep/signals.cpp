@@ -18,6 +18,7 @@ using reference::Real;
 // Sines and powers in 50 digits, rounded once: the last bit of the C library's own depends on which of its variants a
 // processor gets, and so would every accuracy that is measured on the record.
 std::vector<double> sine(double hz, std::size_t samples, double h_s) {
+    reference::free_constants_with_thread();
     const Real turn = 2 * boost::math::constants::pi<Real>();
     const double period = std::round(1.0 / (hz * h_s));
     // A step that divides the period repeats, to the last bit.
@@ -57,6 +58,7 @@ std::vector<double> weights(double order, std::size_t count) {
 // y_0 = 0 and the forcing from the second sample, which leaves 5.4e-4 to the exact response at 1 ms: a fifteenth of a
 // count. The scheme errs by its step, so that a record of larger steps is taken from one of at most 1 ms.
 std::vector<double> step_response(std::size_t samples, double h_s) {
+    reference::free_constants_with_thread();
     const double high = 0.18234 * static_cast<double>(pow(Real(h_s), Real(-1.9909)));
     const double low = 0.65536 * static_cast<double>(pow(Real(h_s), Real(-0.98319)));
     const std::vector<double> high_weights = weights(1.9909, samples);

@@ -204,7 +204,7 @@ TEST(Discretisation, ModesKeepTheErrorsThatTheyAreDesignedFor) {
 TEST(Discretisation, KernelsThatCannotSumNamedWeightsSayWhy) {
     for (const char* kernel : {"ring_plain_f32", "mirror_smlaldshaped_q15", "mirror_scaled_q15", "ring_horner_f32",
                                "nested_plain_q31", "block_oldestfma_f32", "modes_plain_q31", "modesdelta_plain_f32",
-                               "mirrordelta_plain_f32", "null", "peer_std_f32"}) {
+                               "cascadedelta_df2t_f32", "mirrordelta_plain_f32", "null", "peer_std_f32"}) {
         EXPECT_EQ(bench::why_not_served(kernel, Discretisation::bdf2), "") << kernel;
     }
     for (const char* kernel : {"mirrorhold_plain_f32", "mirrorlinear_plain_f32", "ring_horner_q31"}) {

@@ -73,6 +73,10 @@ TEST(HeldFilter, OfIncrementsIsOneOfSamples) {
     }
     EXPECT_NEAR(held.filter.modes[0].weight / expected.modes[0].weight, 1.0, 1e-13);
     EXPECT_LT(held.step_noise, 1e-10);
+    // In single precision, as a cascade, whose poles and zeros move by their last places.
+    const auto cascaded = hold("cascadedelta_df2t_f32", 10, goal, fitted);
+    EXPECT_EQ(cascaded.fault, "");
+    EXPECT_NEAR(certified_error(cascaded.filter, goal).band, certified_error(held.filter, goal).band, 1e-3);
     // A window of increments, whose noise is its promised bound.
     const FittedFilter window = fit_filter(goal, 20, 0, FilterKind::increments);
     EXPECT_EQ(hold("mirrordelta_oldest_f64", 20, goal, window).fault, "");
@@ -103,13 +107,14 @@ TEST(HeldFilter, NoiseOfASineIsRelativeToTheDerivativeAtItsOwnFrequency) {
     };
     check(-0.9, "modes_plain_f32", FilterKind::samples);
     check(1.5, "modesdelta_plain_f32", FilterKind::increments);
+    check(1.5, "cascadedelta_df2t_f32", FilterKind::increments);
 }
 
 TEST(DerivativeReport, WhatRunningGivesIsWithinTheCertificate) {
     for (const double order : {0.5, 0.9, -0.5}) {
         const DerivativeGoal goal = goal_of(order, 2.0);
         for (const char* kernel : {"modes_plain_f32", "modes_compensated_f32", "modes_plain_q31", "modessum_plain_f32",
-                                   "modesdelta_plain_f32"}) {
+                                   "modesdelta_plain_f32", "cascadedelta_df2t_f32"}) {
             if (std::string(kernel) == "modessum_plain_f32" && order > 0.0) {
                 continue;
             }

@@ -14,7 +14,15 @@ for made in b.json b.svg b.png; do
 done
 grep -q '"band/oustaloup_f32/order:0.5/taps:1+3/hz:8..80"' "$folder/b.json" || { echo "expected Oustaloup's row"; failures=$((failures + 1)); }
 grep -q '"band/oustaloup_df2t_f32/order:0.5/taps:1+3/hz:8..80"' "$folder/b.json" || { echo "expected Oustaloup's cascade"; failures=$((failures + 1)); }
+# One tap and three modes: of each a word of state and two coefficients, beside the five words of a sum.
+jq -e '[.. | objects | select(.name? == "band/oustaloup_f32/order:0.5/taps:1+3/hz:8..80") | .memory_bytes] == [56]' "$folder/b.json" >"$folder/said" ||
+    { echo "expected 56 bytes of Oustaloup's three poles"; failures=$((failures + 1)); }
 grep -q '"band/modes_plain_f32/order:0.5/taps:1+3/hz:8..80"' "$folder/b.json" || { echo "expected the kernel's row"; failures=$((failures + 1)); }
 "$program" bench bands 8..80 --orders 0.5 --poles 2,3 --out "$folder/c.json" 2>/dev/null | grep -q "errs more in 0;" ||
     { echo "expected the fitted filter to be behind in none"; failures=$((failures + 1)); }
+# Above order 1 both forms stand on increments, and hold the same filter.
+expect 0 "times in the median" bench bands 8..80 --orders 1.5 --poles 2 --out "$folder/d.json"
+jq -e '[.. | objects | select(.name? == ("band/oustaloup_f32/order:1.5/taps:1+2/hz:8..80", "band/oustaloup_df2t_f32/order:1.5/taps:1+2/hz:8..80")).band_error]
+    | length == 2 and .[0] / .[1] > 0.99 and .[0] / .[1] < 1.01' "$folder/d.json" >"$folder/said" ||
+    { echo "expected Oustaloup's filter of order 1.5 to err alike in both forms"; failures=$((failures + 1)); }
 [ "$failures" -eq 0 ]

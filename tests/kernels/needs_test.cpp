@@ -80,6 +80,9 @@ TEST(Needs, OfModesAreTwoCoefficientsAndAState) {
     expect_needs<Sum<Modes, Compensated, F32>>(design, {3 + 6, 3 + 6, 9});
     expect_needs<Sum<Modes, Plain, Q31>>(design, {3 + 9, 3 + 3, 9});
     expect_needs<Sum<ModesDelta, Plain, F32>>(design, {3 + 6, 3 + 3, 9});
+    // A section of two poles has four and two states, one of a single pole two and one.
+    expect_needs<Sum<Cascade, DirectForm2Transposed, F32>>(design, {3 + 6, 3 + 3, 9});
+    expect_needs<Sum<CascadeDelta, DirectForm2Transposed, F32>>(design, {3 + 6, 3 + 3, 9});
     expect_needs<Sum<Modes, Plain, F32>>({0.5, 10}, {9, 9, 9});
     // Of a running sum the weight lies in the state, and its pole needs no product.
     expect_needs<Sum<Integrator, Plain, F32>>(design, {3 + 4, 3 + 2, 8});

@@ -12,9 +12,6 @@
 
 namespace glsum {
 
-template <>
-inline constexpr bool keeps_modes<Cascade> = true;
-
 template <class Technique, class Format>
 struct Sum<Cascade, Technique, Format> : SumOf<Cascade, Technique, Format> {
     static constexpr bool fixed = Format::fixed_point;

@@ -1,5 +1,5 @@
-// mirrordelta, modesdelta: in place of the samples their increments d_k = x_k - x_(k-1), with x = 0 before k = 0. Since
-// (1-z)^v = (1-z)^(v-1) (1-z), the sum of order v is that of order v - 1 over the increments,
+// mirrordelta, modesdelta, cascadedelta: in place of the samples their increments d_k = x_k - x_(k-1), with x = 0
+// before k = 0. Since (1-z)^v = (1-z)^(v-1) (1-z), the sum of order v is that of order v - 1 over the increments,
 //
 //   S_k = d_k + b_1 d_(k-1) + ... + b_(L-1) d_(k-L+1),     b_j the weights of order v - 1,
 //
@@ -21,6 +21,7 @@
 #include <type_traits>
 
 #include "glsum/exponentials/modes.hpp"
+#include "glsum/filter/cascade.hpp"
 #include "glsum/window/mirror.hpp"
 
 namespace glsum {
@@ -28,8 +29,10 @@ namespace glsum {
 /// Increments, kept as `Kept` keeps samples.
 template <class Kept>
 struct Delta {
-    static_assert(std::is_same_v<Kept, Mirror> || std::is_same_v<Kept, Modes>);
-    static constexpr std::string_view word = std::is_same_v<Kept, Mirror> ? "mirrordelta" : "modesdelta";
+    static_assert(std::is_same_v<Kept, Mirror> || std::is_same_v<Kept, Modes> || std::is_same_v<Kept, Cascade>);
+    static constexpr std::string_view word = std::is_same_v<Kept, Mirror>  ? "mirrordelta"
+                                             : std::is_same_v<Kept, Modes> ? "modesdelta"
+                                                                           : "cascadedelta";
     static constexpr std::string_view text = "delta";
     using kept = Kept;
     static constexpr Family family = Kept::family;
@@ -43,6 +46,7 @@ struct Delta {
 };
 using MirrorDelta = Delta<Mirror>;
 using ModesDelta = Delta<Modes>;
+using CascadeDelta = Delta<Cascade>;
 
 template <class History>
 inline constexpr bool keeps_increments = false;
@@ -54,6 +58,8 @@ template <class History>
 inline constexpr bool keeps_modes = false;
 template <>
 inline constexpr bool keeps_modes<Modes> = true;
+template <>
+inline constexpr bool keeps_modes<Cascade> = true;
 template <class Kept>
 inline constexpr bool keeps_modes<Delta<Kept>> = keeps_modes<Kept>;
 

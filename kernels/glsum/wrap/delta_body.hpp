@@ -3,6 +3,7 @@
 
 #include "glsum/design_range.hpp"
 #include "glsum/exponentials/modes_body.hpp"
+#include "glsum/filter/cascade_body.hpp"
 #include "glsum/window/window_body.hpp"
 #include "glsum/wrap/delta_sum.hpp"
 

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "glsum/exponentials/modes_sum.hpp"
+#include "glsum/filter/cascade_sum.hpp"
 #include "glsum/window/window_sum.hpp"
 #include "glsum/wrap/delta.hpp"
 
