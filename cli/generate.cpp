@@ -80,7 +80,7 @@ void run(const HeaderOptions& options, Budget budget, const std::string& command
                        command);
         return;
     }
-    if (!options.format.empty() || options.input_scale != 0.0) {
+    if (!options.format.empty() || options.input_scale) {
         refuse(fmt::format("{}: expected --controller or --model beside it; a sum's format is its kernel's",
                            options.format.empty() ? "--input-scale" : "--format"));
     }

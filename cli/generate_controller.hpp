@@ -1,6 +1,7 @@
 // generate --controller: a fractional PID as one C99 header.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli/command.hpp"
@@ -17,10 +18,10 @@ struct ControllerOptions {
     std::string licence;
     std::string core;  ///< of the timing model
     bool verify = false;
-    double max_error = 0.0;    ///< 0: the usual one
-    std::size_t samples = 0;   ///< 0: a million
-    std::string format;        ///< empty: f32
-    double input_scale = 0.0;  ///< 0: none was said
+    double max_error = 0.0;   ///< 0: the usual one
+    std::size_t samples = 0;  ///< 0: a million
+    std::string format;       ///< empty: f32
+    std::optional<double> input_scale;
 };
 
 /// \param command  as it was typed \throws glsum::Failure as the readers and `make_controller_header`

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "cli/output.hpp"
@@ -20,7 +21,7 @@ struct ModelOptions {
     double step_s;        ///< 0: the file's sample_time_s
     std::size_t samples;  ///< 0: 60 000
     std::string format;   ///< empty: f32
-    double input_scale;   ///< 0: none was said
+    std::optional<double> input_scale;
 };
 
 /// \throws glsum::Failure (check failed) where no length keeps the error, or bits are not the library's

@@ -17,21 +17,21 @@ namespace {
 
 }  // namespace
 
-std::optional<double> input_full_scale(const std::string& format, double scale, const char* of) {
+std::optional<double> input_full_scale(const std::string& format, const std::optional<double>& scale, const char* of) {
     if (!format.empty() && format != "f32" && format != "q31") {
         refuse(fmt::format("--format: expected f32 or q31, found {}", format));
     }
     if (format != "q31") {
-        if (scale != 0.0) {
+        if (scale) {
             refuse("--input-scale: expected --format q31 beside it");
         }
         return std::nullopt;
     }
-    if (scale == 0.0) {
+    if (!scale) {
         refuse(fmt::format("--format q31: expected --input-scale, the full scale of {}", of));
     }
-    if (!(scale > 0.0 && std::isfinite(scale))) {
-        refuse(fmt::format("--input-scale: expected a number above 0, found {}", scale));
+    if (!(*scale > 0.0 && std::isfinite(*scale))) {
+        refuse(fmt::format("--input-scale: expected a number above 0, found {}", *scale));
     }
     return scale;
 }

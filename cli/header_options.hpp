@@ -22,14 +22,15 @@ struct HeaderOptions {
     std::string model;
     std::string plant;
     std::string format;
-    double input_scale = 0.0;  ///< 0: none was said
+    std::optional<double> input_scale;
     Output json;
     bool verify = false;
 };
 
 /// The full scale of what comes in, of a header in q31; none in f32. \param of  what it is the full scale of
 /// \throws glsum::Failure (bad input) for another format, a scale that lacks, is not above 0 or has no use
-[[nodiscard]] std::optional<double> input_full_scale(const std::string& format, double scale, const char* of);
+[[nodiscard]] std::optional<double> input_full_scale(const std::string& format, const std::optional<double>& scale,
+                                                     const char* of);
 
 /// Kernels that match what was typed; one that is there but cannot be generated is refused by name later. Of several
 /// those that do not take the order are left out, and named on the terminal.

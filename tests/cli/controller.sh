@@ -31,7 +31,7 @@ expect 2 "growing.json: expected a plant that is stable or integrates, found 1 p
 
 expect 2 "--format: expected f32 or q31, found q15" generate --controller "$folder/pid.json" --format q15 --out "$folder/no.h"
 expect 2 "--format q31: expected --input-scale, the full scale of set point and measured value" generate --controller "$folder/pid.json" --format q31 --out "$folder/no.h"
-for scale in -2 inf nan; do
+for scale in -2 0 inf nan; do
     expect 2 "--input-scale: expected a number above 0, found $scale" generate --controller "$folder/pid.json" --format q31 --input-scale "$scale" --out "$folder/no.h"
 done
 expect 2 "--input-scale: expected --format q31 beside it" generate --controller "$folder/pid.json" --input-scale 2 --out "$folder/no.h"

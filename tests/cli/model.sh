@@ -22,6 +22,7 @@ grep -q sample_time_s "$folder/timeless.json" && fail "expected a model without 
 expect 2 "timeless.json: no sample_time_s; expected one there, or --step-s" generate --model "$folder/timeless.json" --out "$folder/no.h"
 expect 2 "--format: expected f32 or q31, found f64" generate --model "$plant" --format f64 --out "$folder/no.h"
 expect 2 "--format q31: expected --input-scale, the full scale of the input" generate --model "$plant" --format q31 --out "$folder/no.h"
+expect 2 "--input-scale: expected a number above 0, found 0" generate --model "$plant" --format q31 --input-scale 0 --out "$folder/no.h"
 expect 2 "--input-scale: expected a number above 0, found -1" generate --model "$plant" --format q31 --input-scale -1 --out "$folder/no.h"
 expect 2 "--input-scale: expected --format q31 beside it" generate --model "$plant" --input-scale 1 --out "$folder/no.h"
 [ ! -e "$folder/no.h" ] || fail "a refused header was written"
