@@ -71,8 +71,7 @@ private:
         Sample first;
         Sample second;
     };
-    [[gnu::always_inline]] static inline Passed pass(const Coefficient* of_section, const Sample* kept,
-                                                     Sample before) requires(!fixed);
+    [[gnu::always_inline]] static inline Passed pass(const Coefficient* of_section, const Sample* kept, Sample before);
     [[gnu::always_inline]] static inline void keep(Sample* kept, const Passed& passed);
     [[gnu::always_inline]] static inline Sample filtered(State& state, Sample entering);
 };
