@@ -136,6 +136,14 @@ TEST(Tune, FillsWhatARequestLeavesOpen) {
         const SampledPlant plant(other, 0.01, "plant");
         EXPECT_NEAR(tune::margins_of({&plant, tuned.integer->controller.gains}).phase_deg, margin, 1e-6) << gain;
     }
+    // A flat phase at a crossover leaves an integer PID nothing free; orders are tried on a grid of 77 by 77, some 6000
+    // places, and up to 400 more from each of the eight best. Without a flat phase its slope is free: 400 places, and
+    // as many.
+    EXPECT_EQ(tuned.integer->tries, 1U);
+    EXPECT_GT(tuned.fractional->tries, 77U * 77U + 8U);
+    EXPECT_LE(tuned.fractional->tries, 77U * 77U + 8U * 400U);
+    EXPECT_GT(tuned.steep->tries, 400U + 8U);
+    EXPECT_LE(tuned.steep->tries, 400U + 8U * 400U);
     // The area that was searched is one without limits, of a load of 1.
     EXPECT_NEAR(tuned.integer->course.load_iae / 0.5 / tuned.integer->load_iae, 1.0, 0.03);
 }
