@@ -110,6 +110,24 @@ TEST(ChoiceJson, SaysHowFarNothingFits) {
               std::string::npos);
 }
 
+// A cost that could not be measured, or was not, is none of 0.
+TEST(ChoiceJson, HasTheCostsThatAreKnown) {
+    Answer answer = asked();
+    Candidate candidates[] = {candidate("ring_plain_f32", 50, 0.01, 400.0, 420.0, 408.0),
+                              candidate("ring_plain_f32", 50, 0.01, 400.0, 420.0, 408.0),
+                              candidate("ring_plain_f32", 50, 0.01, 0.0, 0.0, 0.0)};
+    candidates[1].cost.fault = "it crashed";
+    for (const Candidate& one : candidates) {
+        answer.choice.kernels.push_back({"ring_plain_f32", Standing::costlier, one, {}, {}, ""});
+    }
+    answer.choice.chosen = candidates[0];
+    const bench::Json kernels = to_json(answer).at("kernels");
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(kernels[i].contains("model_cycles_per_sample"), i == 0) << i;
+        EXPECT_EQ(kernels[i].contains("bytes"), i == 0) << kernels[i].dump();
+    }
+}
+
 TEST(ChoiceTable, SaysWhatWasAskedWhatWasChosenAndWhyTheOthersLost) {
     Answer answer = asked();
     const Candidate first = candidate("ring_plain_f32", 50, 0.01, 400.0, 420.0, 408.0);
