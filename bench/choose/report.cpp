@@ -171,6 +171,12 @@ std::string cost_text(const Answer& answer, const Candidate& candidate) {
     return fmt::format("{} {}", count(cost.value), answer.unit);
 }
 
+// How many instructions the core issues in a cycle at most: 2 where no machine is known.
+unsigned width_of(const Question& question) {
+    const base::Machine* const machine = machine_of(question.target);
+    return machine != nullptr ? machine->issues_a_cycle : 2;
+}
+
 std::string budget_share(const Answer& answer, const Candidate& candidate) {
     const Question& question = answer.question;
     if (!question.clock_hz || !question.rate_hz) {
@@ -181,8 +187,7 @@ std::string budget_share(const Answer& answer, const Candidate& candidate) {
         fmt::format("{} at {} samples a second leave {} cycles a sample", hertz(*question.clock_hz),
                     fmt::format("{:g}", *question.rate_hz), count(budget));
     if (answer.unit == "instructions") {
-        const base::Machine* const machine = machine_of(question.target);
-        const unsigned width = machine != nullptr ? machine->issues_a_cycle : 2;
+        const unsigned width = width_of(question);
         const double least = candidate.cost.value / width;
         return fmt::format(
             "{}; a core that issues {} a cycle needs at least {} of them for {} instructions: "
@@ -331,7 +336,8 @@ bench::Json to_json(const Answer& answer) {
             real_time["cycles_a_sample"] = budget;
             const bool counted = answer.unit == "instructions";
             real_time[counted ? "share_at_least" : "share"] =
-                (counted ? answer.choice.chosen->cost.value / 2.0 : answer.choice.chosen->cost.limited) / budget;
+                (counted ? answer.choice.chosen->cost.value / width_of(question) : answer.choice.chosen->cost.limited) /
+                budget;
             real_time["text"] = share;
         }
     }

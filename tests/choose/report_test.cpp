@@ -104,6 +104,28 @@ TEST(ChoiceJson, SaysHowFarNothingFits) {
     answer.choice.chosen = candidate("ring_plain_f32", 50, 0.01, 400.0, 400.0, 408.0);
     EXPECT_EQ(to_json(answer).at("choice").at("instructions_per_sample"), 400.0);
     EXPECT_NEAR(to_json(answer).at("real_time").at("share_at_least").get<double>(), 200.0 / 216000.0, 1e-15);
+    answer.question.target = choose::Target::m4;  // issues one: in the file as in the text
+    EXPECT_NEAR(to_json(answer).at("real_time").at("share_at_least").get<double>(), 400.0 / 216000.0, 1e-15);
+    EXPECT_NE(to_json(answer).at("real_time").at("text").get<std::string>().find("at least 0.185 %"),
+              std::string::npos);
+}
+
+// A cost that could not be measured, or was not, is none of 0.
+TEST(ChoiceJson, HasTheCostsThatAreKnown) {
+    Answer answer = asked();
+    Candidate candidates[] = {candidate("ring_plain_f32", 50, 0.01, 400.0, 420.0, 408.0),
+                              candidate("ring_plain_f32", 50, 0.01, 400.0, 420.0, 408.0),
+                              candidate("ring_plain_f32", 50, 0.01, 0.0, 0.0, 0.0)};
+    candidates[1].cost.fault = "it crashed";
+    for (const Candidate& one : candidates) {
+        answer.choice.kernels.push_back({"ring_plain_f32", Standing::costlier, one, {}, {}, ""});
+    }
+    answer.choice.chosen = candidates[0];
+    const bench::Json kernels = to_json(answer).at("kernels");
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_EQ(kernels[i].contains("model_cycles_per_sample"), i == 0) << i;
+        EXPECT_EQ(kernels[i].contains("bytes"), i == 0) << kernels[i].dump();
+    }
 }
 
 TEST(ChoiceTable, SaysWhatWasAskedWhatWasChosenAndWhyTheOthersLost) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "gap/drive/coverage.hpp"
+#include "gap/drive/effect.hpp"
 #include "gap/drive/outside.hpp"
 #include "gap/drive/residuals/locate.hpp"
 #include "gap/drive/residuals/pattern.hpp"
@@ -284,6 +285,21 @@ TEST(PatternEdges, AStretchHasTenSamplesAndThereAreEight) {
     EXPECT_NEAR(ratio(80, 0.1), 100.0, 1e-9);
     EXPECT_EQ(ratio(79, 0.1), 0.0);
     EXPECT_NEAR(ratio(240, 3.0), 1.0 + 99.0 / 3.0, 1e-9);  // ten of thirty
+}
+
+// Whenever it was sent, before the record or beyond its last interval, an input that never moves arrives as it is.
+TEST(EffectInputs, ThatNeverMoveArriveAsTheyAreAtWhateverDelay) {
+    for (const double depth_s : {0.4, -0.4}) {
+        gap::Scenario scenario;
+        scenario.model.delay_s = 0.5;
+        scenario.input_before = 0.75;
+        gap::effect_named("variable_delay").add_to(scenario, std::vector{depth_s, 0.7, 0.3});
+        std::vector<double> held(40, 0.75);
+        scenario.input.at(0)(held, gap::Grid{0.0, 0.1, 40});
+        for (std::size_t k = 0; k < held.size(); ++k) {
+            EXPECT_NEAR(held[k], 0.75, 1e-9) << depth_s << ' ' << k;
+        }
+    }
 }
 
 }  // namespace

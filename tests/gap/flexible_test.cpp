@@ -202,4 +202,24 @@ TEST(Flexible, HasNothingToGoByWhereNothingMoves) {
     EXPECT_FALSE(explained().certain);
 }
 
+// Of 24 blocks each fourth is foreseen by the others alone: where they leave what the output makes and these nothing,
+// it is taken off these, too, in whole.
+TEST(Flexible, ForeseesEachFourthOf24BlocksByTheOthers) {
+    const Made& m = made();
+    constexpr std::size_t block = samples / 24;
+    for (std::size_t fold = 0; fold < 4; ++fold) {
+        const auto of_fold = [fold](std::size_t i) { return i / block % 4 == fold; };
+        const auto found = gap::explain({m.leaving([&](std::size_t i) { return of_fold(i) ? 0.0 : m.y[i]; }, 1e-6)}, {},
+                                        delay_s, time_constant_s);
+        EXPECT_GT(found.explained, 0.0);
+        double along = 0.0;
+        double square = 0.0;
+        for (std::size_t i = 0; i < samples; ++i) {
+            along += of_fold(i) ? found.left[0][i] * m.y[i] : 0.0;
+            square += of_fold(i) ? m.y[i] * m.y[i] : 0.0;
+        }
+        EXPECT_NEAR(along / square, -1.0, 0.06) << fold;
+    }
+}
+
 }  // namespace

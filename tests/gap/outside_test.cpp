@@ -51,6 +51,38 @@ TEST(Outside, WhatLastsThroughoutIsNoEvent) {
     EXPECT_FALSE(gap::lasts_throughout(record, {5.6, 20.0}, 0.5));
     EXPECT_FALSE(gap::lasts_throughout(record, {5.4, 19.5}, 0.5));
     EXPECT_FALSE(gap::lasts_throughout(record, {5.4, std::nullopt}, 0.5));  // a jump
+    // To within a fiftieth of the record's end, from before the first move has settled.
+    EXPECT_TRUE(gap::lasts_throughout(record, {5.4, 0.981 * 20.0}, 0.5));
+    EXPECT_FALSE(gap::lasts_throughout(record, {5.4, 0.979 * 20.0}, 0.5));
+    EXPECT_TRUE(gap::lasts_throughout(record, {5.499, 20.0}, 0.5));
+    EXPECT_FALSE(gap::lasts_throughout(record, {5.501, 20.0}, 0.5));
+    gap::Record still = record;
+    still.input.assign(still.input.size(), 0.0);
+    EXPECT_TRUE(gap::lasts_throughout(still, {0.4, 20.0}, 0.5));
+    EXPECT_FALSE(gap::lasts_throughout(still, {0.6, 20.0}, 0.5));
+}
+
+// A move is of more than 3 % of the greatest input, whatever its sign; the record's begin is one.
+TEST(Outside, SmallStepsAreNoMoves) {
+    gap::Record record = stepped();
+    const auto chance_at = [&](double time_s) { return gap::chance_of_meeting(record, time_s, 0.0); };
+    const double without = chance_at(16.0);
+    const auto add_from_15_s = [&](double by) {
+        record = stepped();
+        for (std::size_t i = 1500; i < record.size(); ++i) {
+            record.input[i] += by;
+        }
+        return chance_at(16.0);
+    };
+    EXPECT_EQ(add_from_15_s(0.029), without);
+    EXPECT_EQ(add_from_15_s(-0.029), without);
+    EXPECT_NEAR(add_from_15_s(0.031), 6.0 / 20.0, 1e-9);  // within a second of one of three moves
+    EXPECT_NEAR(add_from_15_s(-0.031), 6.0 / 20.0, 1e-9);
+    record = stepped();
+    for (double& u : record.input) {
+        u = 1.0 - u;  // it is on as the record begins
+    }
+    EXPECT_NEAR(chance_at(1.0), 5.0 / 20.0, 1e-9);
 }
 
 // A spring that is harder the further it is bent: under one level a force as long as the level.

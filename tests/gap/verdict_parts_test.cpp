@@ -405,6 +405,7 @@ TEST(VerdictPage, DrawsTheInputAndTheNextRecordInSteps) {
     EXPECT_THAT(page,
                 HasSubstr("<polyline class=\"input\" points=\"64.0,86.0 320.5,86.0 577.0,86.0 577.0,8.0 833.5,8.0 "
                           "1090.0,8.0 1090.0,86.0 \"/>"));
+    EXPECT_THAT(page, HasSubstr("<polyline class=\"input\" points=\"64.0,86.0 577.0,86.0 577.0,8.0 1090.0,8.0 \"/>"));
     EXPECT_THAT(page, HasSubstr("<polyline class=\"after\" points=\"64.0,186.0 577.0,97.0 1090.0,8.0 \"/>"));
     EXPECT_THAT(page, HasSubstr("<polyline class=\"base\" points=\"64.0,186.0 577.0,186.0 1090.0,8.0 \"/>"));
     EXPECT_THAT(page, HasSubstr("output, simulated: a &lt;step&gt;"));

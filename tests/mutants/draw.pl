@@ -9,6 +9,8 @@ use strict;
 use warnings;
 
 my ($root, $seed, $count, $area) = @ARGV;
+my $check = $seed eq '--check';
+($seed, $count, $area) = (0, 0, 'all') if $check;
 my @areas = $area eq 'all' ? qw(kernels bench qemu gap drive) : ($area);
 # What every room uses is drawn with the room that uses most of it.
 my %folders = (bench => "bench base reference");
@@ -20,7 +22,7 @@ draw(2) for 1 .. 10;
 
 my %equivalent;
 if (open my $list, '<', "$root/tests/mutants/equivalent.txt") {
-    while (<$list>) { $equivalent{$1} = 1 if /^([^#\s][^|]*?)\s*\|/; }
+    while (<$list>) { $equivalent{"$1 | $2"} = 1 if /^([^#\s][^|]*?) \| [^|]+ \| (.*)$/; }
 }
 
 # Operators as they stand in our format, between spaces; each with what it is swapped for.
@@ -93,19 +95,30 @@ for my $one (@areas) {
             # What is blanked for the search is as it was where it is put back.
             for (places(code_of($line))) {
                 next if $file =~ $no_numbers && $_->[1] =~ /^\d/;
-                push @{$places_of{$one}}, [$file, $., $_->[0], substr($line, $_->[0], length $_->[1]), $_->[2]];
+                push @{$places_of{$one}}, [$file, $., $_->[0], substr($line, $_->[0], length $_->[1]), $_->[2], $line =~ s/^\s+|\s+$//gr];
             }
         }
     }
 }
 
+sub change_of { my ($old, $new) = @_; return $new eq ';' ? 'removed' : spelled($old) . '-to-' . spelled($new); }
+# As equivalent.txt has it: without the line's number, with its code.
+sub entry_of { my ($file, undef, $column, $old, $new, $code) = @_; return "$file:" . ($column + 1) . ':' . change_of($old, $new) . " | $code"; }
+
+if ($check) {
+    delete $equivalent{entry_of(@$_)} for map { @$_ } values %places_of;
+    print "equivalent.txt: no such change in today's code: $_\n" for sort keys %equivalent;
+    exit(%equivalent ? 1 : 0);
+}
+
 my %drawn;
 for (my $i = 0; $i < $count;) {
     my $all = $places_of{$areas[$i % @areas]} or die "draw.pl: no code in $areas[$i % @areas]\n";
-    my ($file, $line, $column, $old, $new) = @{$all->[draw(scalar @$all)]};
-    my $name = "$file:$line:" . ($column + 1) . ':' . ($new eq ';' ? 'removed' : spelled($old) . '-to-' . spelled($new));
+    my $place = $all->[draw(scalar @$all)];
+    my ($file, $line, $column, $old, $new) = @$place;
+    my $name = "$file:$line:" . ($column + 1) . ':' . change_of($old, $new);
     next if $drawn{$name}++;
     ++$i;
-    if ($equivalent{$name}) { print "# equivalent: $name\n"; next; }
+    if ($equivalent{entry_of(@$place)}) { print "# equivalent: $name\n"; next; }
     print "$name | $file | $line:@{[$column + 1]} | $old => $new\n";
 }

@@ -1,11 +1,13 @@
 #!/bin/sh
-# run.sh --seed S --count N [--area A] [--alone]: draws N one-line changes of the product's code (draw.pl), makes them one at a
+# run.sh --seed S --count N [--area A] [--alone] | --check: draws N one-line changes of the product's code (draw.pl), makes them one at a
 # time in the copy that planted/plant.sh builds, and says which the unit tests notice. A: kernels, bench, qemu, gap or drive; all
 # of them in turn unless it is given. --alone: quicker and a bit too strict, as plant.sh has it. The last line: "killed K of M",
 # where M leaves out what does not compile and what alters nothing. Exit 0 however many survive.
+#   --check  draws none: names the entries of equivalent.txt that are no change in today's code, exit 1 if any
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
+[ "${1-}" != --check ] || exec perl "$here/draw.pl" "$source" --check
 seed=
 count=
 area=all
@@ -16,7 +18,7 @@ while [ $# -gt 0 ]; do
         --count) count=$2; shift 2 ;;
         --area) area=$2; shift 2 ;;
         --alone) alone=--alone; shift ;;
-        *) echo "run.sh: expected --seed, --count, --area or --alone, found $1" >&2; exit 2 ;;
+        *) echo "run.sh: expected --seed, --count, --area, --alone or --check, found $1" >&2; exit 2 ;;
     esac
 done
 case $seed$count in '' | *[!0-9]*) echo "run.sh: expected --seed and --count, two numbers, found '$seed' and '$count'" >&2; exit 2 ;; esac

@@ -169,4 +169,36 @@ TEST_F(TimedProgram, MarksThatDoNotPairAreBadInputUnlessTheProgramFailed) {
                 HasSubstr("never met glsum_mark_end; a.elf under the emulator exited with 7"));
 }
 
+// The vector table has 16 vectors of the core, whatever they hold, and interrupts up to what is no function's
+// beginning; hard, memory, bus and usage faults are its third to sixth. A vector of 0 is where the core locks up.
+TEST_F(TimedProgram, NamesTheHandlersOfTheVectorTable) {
+    const auto asked_with = [&](const std::vector<std::uint32_t>& table) {
+        test::MadeElf made = test::program();
+        made.sections.push_back({0, test::bytes_of(table)});
+        made.write(folder_.file("a.elf"));
+        (void)time();
+        const std::string text = text_of("request");
+        return text.substr(text.find('\n') + 1, text.find("core a-core") - text.find('\n') - 1);
+    };
+    std::vector<std::uint32_t> table{0x20001000, 0x401, 0x441, 0x501, 0x511, 0, 0x801, 0x811};
+    table.resize(16, 0x821);
+    const std::string of_core =
+        "handler 0\nhandler 1024\nhandler 1088\nhandler 1280\nhandler 1296\nhandler 2048\n"
+        "handler 2064\nhandler 2080\n";
+    const std::string faults = "faults 0\nfaults 1280\nfaults 1296\nfaults 2048\n";
+    table.insert(table.end(), {0x401, 0, 0x403, 0x831});
+    EXPECT_THAT(asked_with(table), EndsWith(of_core + faults));
+    table[18] = 0x841;
+    EXPECT_THAT(asked_with(table), EndsWith(of_core + "handler 2096\nhandler 2112\n" + faults));
+    table[18] = 0xF01;  // beyond every function
+    EXPECT_THAT(asked_with(table), EndsWith(of_core + faults));
+    table.resize(5);
+    EXPECT_THAT(asked_with(table), EndsWith("handler 1088\nhandler 1280\nhandler 1296\nfaults 1280\nfaults 1296\n"));
+    // Of no more than 496 interrupts.
+    table.assign(600, 0x401);
+    table[511] = 0x501;
+    table[512] = 0x801;
+    EXPECT_THAT(asked_with(table), EndsWith("handler 1024\nhandler 1280\nfaults 1024\n"));
+}
+
 }  // namespace

@@ -1,0 +1,122 @@
+// Where a fit begins again: within what its page says of each parameter. Every descent ends where it begins here, since
+// any error is accepted, and the best of the beginnings is what is told.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "drive/fit.hpp"
+#include "drive/response.hpp"
+
+namespace {
+
+using drive::Form;
+using drive::Kind;
+using drive::Model;
+using drive::Record;
+
+constexpr double length_s = 6.0;
+
+Record stepped(const Model& model) {
+    Record record;
+    record.name = "step";
+    record.changes = {{0.0, 1.0}};
+    for (int k = 0; k <= 12; ++k) {
+        record.time_s.push_back(0.5 * k);
+    }
+    record.output = drive::respond(model, record.changes, record.time_s);
+    return record;
+}
+
+struct Seen {
+    double least = std::numeric_limits<double>::infinity();
+    double most = -std::numeric_limits<double>::infinity();
+};
+
+// The values of one free parameter at which a fit of two starts begins, over many seeds; of the given start and another
+// that which is nearer to the truth.
+Seen starts_of(const char* name, const Model& given, const Model& truth) {
+    Form form(given.kind == Kind::fotf ? Kind::niopdt : given.kind, given);
+    for (drive::Parameter& parameter : form.parameters()) {
+        parameter.fixed = parameter.name != name;
+    }
+    Seen seen;
+    const Record record = stepped(truth);
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        const drive::Fit fit = drive::fit(form, {record}, {.accepted_error = 1e300, .starts = 2, .seed = seed});
+        EXPECT_EQ(fit.starts, 2U);
+        for (const drive::Estimate& estimate : fit.parameters) {
+            if (estimate.name == name) {
+                seen.least = std::min(seen.least, estimate.value);
+                seen.most = std::max(seen.most, estimate.value);
+            }
+        }
+    }
+    return seen;
+}
+
+// Any up to half of the longest record.
+TEST(FitStarts, DeadTimesAreOfHalfTheRecord) {
+    const Model late = drive::make_fopdt(1.0, 0.5, 0.9 * length_s);
+    const Seen near = starts_of("delay_s", late, drive::make_fopdt(1.0, 0.5, 0.0));
+    EXPECT_GE(near.least, 0.0);
+    EXPECT_LT(near.least, 0.005 * length_s);
+    EXPECT_LE(near.most, 0.5 * length_s);
+    EXPECT_GT(near.most, 0.495 * length_s);
+}
+
+// A factor of e^-1.2 to e^1.2 of the value that was given.
+TEST(FitStarts, GainsAndTimesAreWithinAFactorOfTheGiven) {
+    const double factor = std::exp(1.2);
+    const Model given = drive::make_fopdt(1.0, 0.5, 0.2);
+    const Seen up = starts_of("gain", given, drive::make_fopdt(4.0, 0.5, 0.2));
+    EXPECT_GE(up.least, 1.0);
+    EXPECT_LE(up.most, factor);
+    EXPECT_GT(up.most, 0.99 * factor);
+    const Seen down = starts_of("time_constant_s", given, drive::make_fopdt(1.0, 0.05, 0.2));
+    EXPECT_GE(down.least, 0.5 / factor);
+    EXPECT_LT(down.least, 1.01 * 0.5 / factor);
+}
+
+// Orders move by up to 0.3 to either side.
+TEST(FitStarts, OrdersAreWithinThreeTenthsOfTheGiven) {
+    Model given;
+    given.denominator = {{0.3, 1.8}, {0.8, 0.9}, {1.0, 0.0}};
+    Model low = given;
+    low.denominator[1].order = 0.5;
+    Model high = given;
+    high.denominator[1].order = 1.3;
+    const Seen down = starts_of("alpha1", given, low);
+    EXPECT_GE(down.least, 0.6);
+    EXPECT_LT(down.least, 0.604);
+    const Seen up = starts_of("alpha1", given, high);
+    EXPECT_LE(up.most, 1.2);
+    EXPECT_GT(up.most, 1.196);
+}
+
+// Starts agree whose sums of squares are within a thousandth of the least; one that stands alone is warned of.
+TEST(FitStarts, AgreeWhoseErrorsAreAlike) {
+    Form form(Kind::fopdt, drive::make_fopdt(1.0, 0.5, 0.2));
+    for (drive::Parameter& parameter : form.parameters()) {
+        parameter.fixed = parameter.name != "gain";
+    }
+    const Record record = stepped(drive::make_fopdt(2.0, 0.5, 0.2));
+    const drive::Fit alone = drive::fit(form, {record}, {.accepted_error = 1e300, .starts = 4});
+    EXPECT_EQ(alone.starts_that_agree, 1U);
+    const auto says_so = [](const drive::Fit& fit) {
+        return std::any_of(fit.warnings.begin(), fit.warnings.end(), [](const std::string& warning) {
+            return warning.find("only one of 4 starts ends here") != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(says_so(alone));
+    Record noisy = record;  // so that there is a least
+    for (std::size_t k = 0; k < noisy.output.size(); ++k) {
+        noisy.output[k] += k % 2 == 0 ? 0.01 : -0.01;
+    }
+    const drive::Fit together = drive::fit(form, {noisy}, {.starts = 4});
+    EXPECT_EQ(together.starts_that_agree, 4U);
+    EXPECT_FALSE(says_so(together));
+}
+
+}  // namespace
