@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "gap/drive/jitter.hpp"
+#include "gap/drive/settle.hpp"
 
 namespace gap {
 namespace {
@@ -309,8 +310,11 @@ private:
     void take(const std::vector<Candidate>& candidates) {
         std::vector<Ranked> more(candidates.size());
         base::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
-            more[i] =
-                validated(of_.ground.validation, candidates[i], found_.whitener, fits_by(), of_.ground.same_records);
+            const bool untold = of_.ground.study.base.refit && !of_.ground.same_records;
+            const Settled settled =
+                untold ? settle(of_.ground.study, of_.ground.validation, candidates[i]) : Settled{candidates[i]};
+            more[i] = validated(of_.ground.validation, settled.trained, found_.whitener, fits_by(),
+                                of_.ground.same_records, settled.numbers);
         });
         std::move(more.begin(), more.end(), std::back_inserter(found_.ranking));
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
