@@ -61,12 +61,6 @@ void doubt_events(const Evidence& evidence, Decision& decision) {
     decision.notes.push_back(fmt::format("{}: an event from outside does not", doubt));
 }
 
-// Whether a candidate has all effects of another.
-bool contains(const Candidate& wider, const Candidate& narrower) {
-    return std::all_of(narrower.effects.begin(), narrower.effects.end(),
-                       [&](const Effect* effect) { return wider.has(effect->name); });
-}
-
 // What cannot be named, and has nothing of what is named, says that it is none of the two.
 void doubt_what_is_outdone(const Evidence& evidence, Decision& decision) {
     const Ranked& chosen = evidence.ranking[decision.chosen];

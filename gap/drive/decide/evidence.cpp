@@ -25,6 +25,11 @@ std::vector<Remainder> remainders(const Study& study, const std::vector<std::vec
 
 }  // namespace
 
+bool contains(const Candidate& wider, const Candidate& narrower) {
+    return std::all_of(narrower.effects.begin(), narrower.effects.end(),
+                       [&](const Effect* effect) { return wider.has(effect->name); });
+}
+
 bool is_clear(const Interval& over) { return over.mean > clear_advantage && over.low > 0.0; }
 
 Evidence::Evidence(const std::vector<Ranked>& ranked, const Whitener& whitener, const Study& trained,

@@ -66,6 +66,9 @@ private:
     mutable FoundOut known_;
 };
 
+/// Whether a candidate has all effects of another.
+[[nodiscard]] bool contains(const Candidate& wider, const Candidate& narrower);
+
 /// A likelihood ratio that chance does not reach among some hundred candidates.
 constexpr double clear_advantage = 8.0;
 [[nodiscard]] bool is_clear(const Interval& over);
