@@ -99,6 +99,9 @@ public:
                 }
             }
         }
+        for (std::size_t size = 2; of_.ground.study.base.refit && has_sized(size); ++size) {
+            take(simplified(size));
+        }
         take(with_jitter());
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
         return std::move(found_);
@@ -221,6 +224,32 @@ private:
             narrower[i] = fit(of_.ground.study, fewer, best, fits_by());
         });
         return narrower;
+    }
+
+    // The best of a size with special cases in place of what covers them: of each lead few are fitted to the end, and
+    // the wider one, which follows more, comes first.
+    std::vector<Candidate> simplified(std::size_t size) const {
+        const Candidate& best = best_of(size).trained;
+        std::vector<Effects> simpler;
+        for (std::size_t i = 0; i < best.effects.size(); ++i) {
+            for (const Effect* special : of_.ground.list) {
+                Effects effects = best.effects;
+                effects[i] = special;
+                if (best.effects[i]->covers(*special) && !best.has(special->name) && !is_known(effects)) {
+                    simpler.push_back(std::move(effects));
+                }
+            }
+        }
+        std::vector<Candidate> fitted(simpler.size());
+        base::parallel_for(simpler.size(), of_.jobs,
+                           [&](std::size_t i) { fitted[i] = fit(of_.ground.study, simpler[i], best, fits_by()); });
+        return fitted;
+    }
+
+    [[nodiscard]] bool is_known(const Effects& effects) const {
+        return std::any_of(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
+            return std::ranges::is_permutation(ranked.trained.effects, effects);
+        });
     }
 
     // All of them quickly, the best to the end.
