@@ -71,6 +71,20 @@ TEST_F(Rules, EventsThatEveryRecordNeedsAreNoneUnlessTheyExplainAll) {
     EXPECT_EQ(objection_where(0.049, 0.049 / 6.97), "");
 }
 
+// An interval is a straight line's: what training is missed by without an effect tells more.
+TEST_F(Rules, WhatTrainingNeedsIsToldWhateverItsInterval) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    beside_a_form();
+    known_.objections.erase(drag);
+    ranking_[drag].trained.cost = 1.0;
+    ranking_[0].trained.cost = 3.99;
+    EXPECT_FALSE(evidence().training_needs(drag, gap::effect_named("quadratic_drag")));
+    EXPECT_THAT(evidence().objection(drag), HasSubstr("training leaves quadratic_drag"));
+    ranking_[0].trained.cost = 4.01;
+    EXPECT_TRUE(evidence().training_needs(drag, gap::effect_named("quadratic_drag")));
+    EXPECT_EQ(evidence().objection(drag), "");
+}
+
 TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
     const std::size_t load = add({"load_disturbance"}, 0.5, 100.0);
     const std::size_t drag = add({"quadratic_drag"}, 0.5, 99.0);
