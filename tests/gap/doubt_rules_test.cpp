@@ -172,6 +172,23 @@ TEST_F(Rules, WhatCannotBeNamedOutdoesWhatIs) {
     EXPECT_EQ(outcome(), Outcome::attributed);
 }
 
+// A lag that another base has helps whatever it stands beside.
+TEST_F(Rules, WhatGoesFartherByALagAloneOutdoesNothing) {
+    const std::size_t bend = add({"input_curve"}, 0.5, 100.0);
+    const std::size_t other = add({"output_curve", "direction_asymmetry"}, 0.2, 200.0);
+    const std::size_t helped = add({"direction_asymmetry", "input_curve"}, 0.1, 199.9);
+    known_.objections[other] = known_.objections[helped] = "its lags up and down may be the same";
+    const auto outcome = [&] { return after("what_is_outdone", attributed(bend)).outcome; };
+    beside_a_form();
+    set_noise(0.01);
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    ranking_[helped].log_likelihood = 200.1;
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    // What is no lag is another cause.
+    ranking_[other].trained.effects[1] = &gap::effect_named("missed_counts");
+    EXPECT_EQ(outcome(), Outcome::unknown);
+}
+
 TEST_F(Rules, LogsOfAnotherDriveAreExplainedByNothing) {
     const std::size_t drag = add({"quadratic_drag"}, 0.502, 100.0);
     const gap::Decision decision = after("logs_of_another_drive", attributed(drag, 0.602));
