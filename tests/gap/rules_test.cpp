@@ -117,6 +117,7 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEventBesideAFormTakesHalf) {
     ranking_[both].gap_after = 0.2495;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     // Two thousandths of the variance are what a form may leave itself.
+    ranking_[0].gap_after = 0.4;
     ranking_[both].gap_after = 0.01;
     ranking_[drag].gap_after = 0.0449;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
