@@ -184,28 +184,6 @@ TEST(Search, PairsAStepThatShows) {
     EXPECT_GT(pairs(0.125), 0U);
 }
 
-// Of each lead few partners are fitted to the end beside a fitted base: what covers another goes as far at least, and
-// its special case is fitted in its place, too.
-TEST(Search, FitsTheSpecialCaseOfThePartnerThatIsFound) {
-    const Tried tried = search(
-        {.truth = {{"input_dead_zone", {0.2}}, {"coulomb_friction", {0.3, 0.0}}},
-         .list = {"input_dead_zone", "direction_dependent_friction", "backlash", "input_curve", "coulomb_friction"},
-         .noise = 0.002,
-         .model = drive::make_sopdt(2.0, 0.5, 0.0),
-         .refit = true});
-    expect_a_ranking(tried);
-    const auto frictions = [&](const char* name) {
-        std::size_t count = 0;
-        for (const std::string& pair : tried.sized(2)) {
-            count += pair.find(name) != std::string::npos ? 1 : 0;
-        }
-        return count;
-    };
-    EXPECT_GT(frictions("direction_dependent_friction"), 0U);
-    EXPECT_GE(frictions("coulomb_friction"), frictions("direction_dependent_friction"))
-        << testing::PrintToString(tried.sized(2));
-}
-
 // What was deployed is of the model that is given: beside what makes it another one it says nothing.
 TEST(Search, PairsNoDeployedErrorWithAnotherModel) {
     drive::Model model;
