@@ -11,6 +11,7 @@
 #include "gap/drive/determined.hpp"
 #include "gap/drive/experiment.hpp"
 #include "gap/drive/search.hpp"
+#include "gap/drive/superfluous.hpp"
 
 namespace gap {
 namespace {
@@ -86,6 +87,7 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     }
     say("deciding");
     answer.decision = decide(answer.ranking, answer.whitener, study, validation, split);
+    drop_superfluous(question, ground, answer.ranking, answer.whitener, answer.decision);
     const Whitener* fits_by = question.refit ? nullptr : &answer.whitener;
     if (question.refit) {
         Candidate best = answer.ranking.front().trained;

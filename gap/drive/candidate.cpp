@@ -151,12 +151,13 @@ std::vector<FreeParameter> state_of(const Study& study, const Record& record) {
     const double last =
         std::accumulate(record.output.end() - tenth, record.output.end(), 0.0) / static_cast<double>(tenth);
     const double rests_at = !study.scales.driven ? last : record.input.front() == 0.0 ? first : 0.0;
-    std::vector<FreeParameter> state = {study.scales.steady ? to_free("offset", rests_at, -far, far, span)
-                                                            : to_free("bias", 0.0, -force, force, 0.1 * force),
-                                        to_free("initial_output", first, first - 3.0 * span, first + 3.0 * span, span),
-                                        to_free("initial_velocity", 0.0, -3.0 * speed, 3.0 * speed, speed),
-                                        to_free("input_before", 0.0, -study.scales.input_max, study.scales.input_max,
-                                                std::max(study.scales.input_max, 1e-300))};
+    std::vector<FreeParameter> state = {
+        study.scales.steady ? to_free("offset", rests_at, -far, far, span)
+                            : to_free("bias", 0.0, -force, force, 0.1 * force),
+        to_free("initial_output", first, first - 3.0 * span, first + 3.0 * span, span),
+        to_free("initial_velocity", 0.0, -3.0 * speed, 3.0 * speed, speed),
+        to_free("input_before", std::clamp(record.input.front(), -study.scales.input_max, study.scales.input_max),
+                -study.scales.input_max, study.scales.input_max, std::max(study.scales.input_max, 1e-300))};
     state[3].fixed = !study.scales.driven;
     if (const auto rest = rest_of(study, record)) {
         for (const std::size_t i : {0, 1}) {

@@ -93,7 +93,8 @@ void add_intervals(const Study& study, Candidate& candidate, const Whitener* whi
     }
 }
 
-std::string untold_of(const Study& study, const Candidate& candidate) {
+std::string untold_of(const Study& study, const Candidate& candidate,
+                      const std::function<bool(const Effect&)>& needed) {
     std::size_t lasting = 0;
     for (std::size_t e = 0; e < candidate.effects.size(); ++e) {
         const Effect& effect = *candidate.effects[e];
@@ -117,7 +118,7 @@ std::string untold_of(const Study& study, const Candidate& candidate) {
         const bool told = asked.empty() || std::any_of(asked.begin(), asked.end(), [&](std::size_t i) {
                               return !holds(numbers[i], named[i].none);
                           });
-        if (!told) {
+        if (!told && !(needed && needed(effect))) {
             const FreeParameter& first = numbers[asked.front()];
             return fmt::format("training leaves {} anywhere between {:.4g} and {:.4g}, where {:.4g} is no effect",
                                first.name, first.low, first.high, named[asked.front()].none);

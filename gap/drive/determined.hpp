@@ -1,6 +1,7 @@
 // What the training records tell of a candidate's numbers: an effect whose size they do not tell is known from nowhere.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "gap/drive/fit.hpp"
@@ -14,7 +15,9 @@ void add_intervals(const Study& study, Candidate& candidate, const Whitener* whi
 
 /// Of the first lasting effect that training does not tell: an interval that holds the value at which the effect is not
 /// there, for every number that can take it away. Empty: all are told. \param candidate  with its intervals
-[[nodiscard]] std::string untold_of(const Study& study, const Candidate& candidate);
+/// \param needed  whether training is known to need an effect, whatever its intervals are
+[[nodiscard]] std::string untold_of(const Study& study, const Candidate& candidate,
+                                    const std::function<bool(const Effect&)>& needed = {});
 
 /// Of the first lasting effect that is linear with what was fitted, and so a part of another base. Empty: there is
 /// none. \param candidate  with its intervals

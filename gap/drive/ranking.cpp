@@ -13,7 +13,7 @@ constexpr std::size_t most_coefficients = 8;
 
 // A number that was fitted where it is judged costs what chance gains by it; where an event happened was searched for
 // besides.
-double penalty_of(const Candidate& candidate, const Study& validation) {
+double penalty_of(const Candidate& candidate, std::size_t settled, const Study& validation) {
     double samples = 0.0;
     for (const auto& count : validation.counts) {
         samples += static_cast<double>(std::count(count.begin(), count.end(), 1));
@@ -23,7 +23,7 @@ double penalty_of(const Candidate& candidate, const Study& validation) {
         events += effect->kind == Kind::event ? 1.0 : 0.0;
     }
     const double chance = std::log(std::max(samples, 3.0));
-    return 0.5 * chance * static_cast<double>(candidate.event_parameters()) +
+    return 0.5 * chance * static_cast<double>(candidate.event_parameters() + settled) +
            events * chance * static_cast<double>(validation.courses.size()) +
            2.0 * static_cast<double>(candidate.effect_parameters() + candidate.effects.size());
 }
@@ -114,13 +114,14 @@ void judge(Ranked& ranked, const Study& validation, const Whitener& whitener) {
     const double slow =
         std::max(std::isfinite(left_rms) ? left_rms : Ranked::ran_away, (within_steps ? 0.05 : 0.29) * step) /
         output_deviation(validation);
-    ranked.penalty = penalty_of(ranked.candidate, validation) +
+    ranked.penalty = penalty_of(ranked.candidate, ranked.settled, validation) +
                      (by_size ? 0.0 : blocks * std::log(std::clamp(slow, 1e-9, Ranked::ran_away)));
 }
 
 Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener, const Whitener* fits_by,
-                 bool same_records) {
+                 bool same_records, std::size_t settled) {
     Ranked ranked;
+    ranked.settled = settled;
     ranked.trained = trained;
     ranked.candidate = same_records ? trained : carried_over(validation, trained, fits_by);
     ranked.residuals = all_residuals(validation, ranked.candidate);

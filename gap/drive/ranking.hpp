@@ -14,14 +14,16 @@ struct Ranked {
     double gap_after = 0.0;         ///< rms of what counts over the deviation of the measured output
     double log_likelihood = 0.0;    ///< over what counts
     std::vector<double> by_sample;  ///< its summands
+    std::size_t settled = 0;        ///< numbers of lasting effects that validation told
     double penalty = 0.0;           ///< for what is fitted there, and for effects and their numbers
     [[nodiscard]] double score() const { return log_likelihood - penalty; }
 };
 
 /// The candidate on the validation records. \param fits_by  whitens residuals for fits there; null: they stay as they
-/// are \param same_records  validation is a part of the records that were fitted
+/// are \param same_records  validation is a part of the records that were fitted \param settled  numbers of its lasting
+/// effects that validation told
 [[nodiscard]] Ranked validated(const Study& validation, const Candidate& trained, const Whitener& whitener,
-                               const Whitener* fits_by, bool same_records);
+                               const Whitener* fits_by, bool same_records, std::size_t settled = 0);
 
 /// Likelihood and gap anew, after another whitener.
 void judge(Ranked& ranked, const Study& validation, const Whitener& whitener);

@@ -93,7 +93,7 @@ struct Scenario {
     double initial_output = 0.0;    ///< where it rests before the record
     double initial_velocity = 0.0;  ///< per second
     double operating_output = 0.0;  ///< added to the model's output: the point that it is linear about
-    double input_before = 0.0;      ///< the record, over the dead time
+    double input_before = 0.0;      ///< the record: over the dead time, and where actuators with a memory begin
     std::vector<LevelStage> levels;
     std::vector<InputStage> input;
     std::vector<FurtherInput> further_inputs;

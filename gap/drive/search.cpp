@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "gap/drive/jitter.hpp"
+#include "gap/drive/settle.hpp"
 
 namespace gap {
 namespace {
@@ -97,6 +98,9 @@ public:
                     renew_whitener();
                 }
             }
+        }
+        for (std::size_t size = 2; of_.ground.study.base.refit && has_sized(size); ++size) {
+            take(simplified(size));
         }
         take(with_jitter());
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
@@ -222,6 +226,32 @@ private:
         return narrower;
     }
 
+    // The best of a size with special cases in place of what covers them: of each lead few are fitted to the end, and
+    // the wider one, which follows more, comes first.
+    std::vector<Candidate> simplified(std::size_t size) const {
+        const Candidate& best = best_of(size).trained;
+        std::vector<Effects> simpler;
+        for (std::size_t i = 0; i < best.effects.size(); ++i) {
+            for (const Effect* special : of_.ground.list) {
+                Effects effects = best.effects;
+                effects[i] = special;
+                if (best.effects[i]->covers(*special) && !best.has(special->name) && !is_known(effects)) {
+                    simpler.push_back(std::move(effects));
+                }
+            }
+        }
+        std::vector<Candidate> fitted(simpler.size());
+        base::parallel_for(simpler.size(), of_.jobs,
+                           [&](std::size_t i) { fitted[i] = fit(of_.ground.study, simpler[i], best, fits_by()); });
+        return fitted;
+    }
+
+    [[nodiscard]] bool is_known(const Effects& effects) const {
+        return std::any_of(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
+            return std::ranges::is_permutation(ranked.trained.effects, effects);
+        });
+    }
+
     // All of them quickly, the best to the end.
     std::vector<Candidate> with_one_more(const std::vector<const Candidate*>& first, const std::string& what) const {
         std::vector<Effects> all;
@@ -309,8 +339,11 @@ private:
     void take(const std::vector<Candidate>& candidates) {
         std::vector<Ranked> more(candidates.size());
         base::parallel_for(candidates.size(), of_.jobs, [&](std::size_t i) {
-            more[i] =
-                validated(of_.ground.validation, candidates[i], found_.whitener, fits_by(), of_.ground.same_records);
+            const bool untold = of_.ground.study.base.refit && !of_.ground.same_records;
+            const Settled settled =
+                untold ? settle(of_.ground.study, of_.ground.validation, candidates[i]) : Settled{candidates[i]};
+            more[i] = validated(of_.ground.validation, settled.trained, found_.whitener, fits_by(),
+                                of_.ground.same_records, settled.numbers);
         });
         std::move(more.begin(), more.end(), std::back_inserter(found_.ranking));
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);

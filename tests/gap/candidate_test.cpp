@@ -112,6 +112,9 @@ TEST(CandidateState, IsFreeWhereNothingShowsThatItRests) {
     // A record that is driven from its first sample on was somewhere else: it rests without input at 0.
     const gap::Record driven = stepped(0);
     EXPECT_EQ(gap::state_of(Made(lag(), {driven}, true).study, driven)[0].value, 0.0);
+    // And what drives it did so before.
+    ASSERT_NE(driven.input.front(), 0.0);
+    EXPECT_EQ(gap::state_of(Made(lag(), {driven}, true).study, driven)[3].value, driven.input.front());
 }
 
 TEST(CandidateState, OfWhatIntegratesHasAForceOfItsOwn) {

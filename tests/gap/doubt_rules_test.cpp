@@ -71,6 +71,20 @@ TEST_F(Rules, EventsThatEveryRecordNeedsAreNoneUnlessTheyExplainAll) {
     EXPECT_EQ(objection_where(0.049, 0.049 / 6.97), "");
 }
 
+// An interval is a straight line's: what training is missed by without an effect tells more.
+TEST_F(Rules, WhatTrainingNeedsIsToldWhateverItsInterval) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 100.0);
+    beside_a_form();
+    known_.objections.erase(drag);
+    ranking_[drag].trained.cost = 1.0;
+    ranking_[0].trained.cost = 3.99;
+    EXPECT_FALSE(evidence().training_needs(drag, gap::effect_named("quadratic_drag")));
+    EXPECT_THAT(evidence().objection(drag), HasSubstr("training leaves quadratic_drag"));
+    ranking_[0].trained.cost = 4.01;
+    EXPECT_TRUE(evidence().training_needs(drag, gap::effect_named("quadratic_drag")));
+    EXPECT_EQ(evidence().objection(drag), "");
+}
+
 TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
     const std::size_t load = add({"load_disturbance"}, 0.5, 100.0);
     const std::size_t drag = add({"quadratic_drag"}, 0.5, 99.0);
@@ -156,6 +170,23 @@ TEST_F(Rules, WhatCannotBeNamedOutdoesWhatIs) {
     known_.objections[jump] = "every record needs one of its own";
     set_noise(0.1);  // where noise is left it is no other cause
     EXPECT_EQ(outcome(), Outcome::attributed);
+}
+
+// A lag that another base has helps whatever it stands beside.
+TEST_F(Rules, WhatGoesFartherByALagAloneOutdoesNothing) {
+    const std::size_t bend = add({"input_curve"}, 0.5, 100.0);
+    const std::size_t other = add({"output_curve", "direction_asymmetry"}, 0.2, 200.0);
+    const std::size_t helped = add({"direction_asymmetry", "input_curve"}, 0.1, 199.9);
+    known_.objections[other] = known_.objections[helped] = "its lags up and down may be the same";
+    const auto outcome = [&] { return after("what_is_outdone", attributed(bend)).outcome; };
+    beside_a_form();
+    set_noise(0.01);
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    ranking_[helped].log_likelihood = 200.1;
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    // What is no lag is another cause.
+    ranking_[other].trained.effects[1] = &gap::effect_named("missed_counts");
+    EXPECT_EQ(outcome(), Outcome::unknown);
 }
 
 TEST_F(Rules, LogsOfAnotherDriveAreExplainedByNothing) {

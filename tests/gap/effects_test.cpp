@@ -127,6 +127,23 @@ TEST(EffectInputs, OfALimitedRateGoOnFromWithinAnInterval) {
     expect_near(held_after("rate_limit", {0.2 / h}, {0.0, 0.012, 0.04, 0.04}), {0.0, 0.3 * 0.04 * 2.0 / 3.0, 0.04, 0.04});
 }
 
+// A log that begins in motion begins with an actuator that is already somewhere.
+TEST(EffectInputs, WithAMemoryBeginWhereTheInputWasBefore) {
+    gap::Scenario moving;
+    moving.input_before = 0.7;
+    const gap::Scenario limited = with("rate_limit", {0.2 / h}, moving);
+    Values held(4, 1.0);
+    limited.input.at(0)(held, {0.0, h, held.size()});
+    expect_near(held, {0.8, 0.5 * (0.5 * (0.9 + 1.0) + 1.0), 1.0, 1.0});
+    const auto levels = [&](const char* name, const Values& values, Values u) {
+        with(name, values, moving).levels.at(0)(u);
+        return u;
+    };
+    // A play of 0.2 on either side holds 0.7 until 0.9 is passed, and 0.5 from below.
+    expect_near(levels("input_hysteresis", {0.4, 1.0}, {0.8, 1.0, 0.6}), {0.7, 0.8, 0.8});
+    expect_near(levels("valve_stiction", {0.4, 0.0, 0.0}, {0.8, 1.0, 0.7}), {0.7, 0.8, 0.8});
+}
+
 TEST(EffectInputs, OfARampWithAVaryingDelayAreLateByIt) {
     gap::Scenario plant;
     plant.model.delay_s = 0.3;

@@ -78,6 +78,25 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEffectIsOverOneFewer) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
 }
 
+// The drive's own law is a little different from the listed one, and something else follows what that leaves.
+TEST_F(Rules, ClearAdvantageTakesNothingOfTheShapeOfALawBesideAForm) {
+    const std::size_t bend = add({"output_curve"}, 0.0995, 100.0);
+    const std::size_t both = add({"output_curve", "quadratic_drag"}, 0.04, 200.0);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    beside_a_form();
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
+    ranking_[bend].gap_after = 0.1005;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    // What a log shows by itself follows no shape, and what goes without the law explains it otherwise.
+    ranking_[bend].gap_after = 0.0995;
+    ranking_[both].trained.effects[1] = &gap::effect_named("dropped_samples");
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[both].trained.effects[1] = &gap::effect_named("sampling_jitter");
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
+    ranking_[both].trained.effects = {&gap::effect_named("gain_drift"), &gap::effect_named("quadratic_drag")};
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+}
+
 TEST_F(Rules, ClearAdvantageOfFourEffectsIsTheMost) {
     std::vector<std::string> effects;
     std::vector<std::size_t> at;
@@ -98,6 +117,7 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEventBesideAFormTakesHalf) {
     ranking_[both].gap_after = 0.2495;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     // Two thousandths of the variance are what a form may leave itself.
+    ranking_[0].gap_after = 0.4;
     ranking_[both].gap_after = 0.01;
     ranking_[drag].gap_after = 0.0449;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));

@@ -6,8 +6,18 @@
 #include "gap/drive/fit.hpp"
 
 namespace gap {
+namespace {
 
-double joint_gap(const Question& question) {
+// A candidate as it stands on its training and on its validation records, in this order.
+Candidate in_both(const Ranked& ranked, bool split) {
+    Candidate both = ranked.trained;
+    if (!split) {
+        both.own.insert(both.own.end(), ranked.candidate.own.begin(), ranked.candidate.own.end());
+    }
+    return both;
+}
+
+double joint_gap_with(const Question& question, const Ranked* with) {
     Question all = question;
     const bool split = question.validate.empty();
     const std::vector<std::vector<char>> aside =
@@ -16,7 +26,8 @@ double joint_gap(const Question& question) {
     all.validate = all.train;
     all.split_s.reset();
     Ground ground = prepare(all);
-    const Candidate fitted = fit(ground.study, {}, ground.base, nullptr);
+    const Candidate fitted = with != nullptr ? fit(ground.study, with->trained.effects, in_both(*with, split), nullptr)
+                                             : fit(ground.study, {}, ground.base, nullptr);
     const std::vector<std::vector<double>> left = all_residuals(ground.study, fitted);
     const std::size_t first = split ? 0 : question.train.size();
     for (std::size_t r = 0; r < ground.study.counts.size(); ++r) {
@@ -25,5 +36,10 @@ double joint_gap(const Question& question) {
     const double gap = rms_of(ground.study, left) / output_deviation(ground.study);
     return std::isfinite(gap) ? gap : std::numeric_limits<double>::infinity();
 }
+
+}  // namespace
+
+double joint_gap(const Question& question) { return joint_gap_with(question, nullptr); }
+double joint_gap(const Question& question, const Ranked& with) { return joint_gap_with(question, &with); }
 
 }  // namespace gap

@@ -22,6 +22,25 @@ constexpr double further_share = 0.04;
 constexpr double second_share = 0.25;
 // Events, which are located where they are judged, follow any form's misfit: a further one takes half of what is left.
 constexpr double further_share_of_an_event = 0.5;
+// A cause is a law of a few numbers, and the drive's own is a little different: so much of the gap's rms, a hundredth
+// of its squares, is what the law's shape leaves to whatever follows it.
+constexpr double shape_of_a_law = 0.1;
+
+// Whether all that a wider candidate has more are facts of the log: readings that are rounded, held or clipped.
+bool adds_facts_alone(const Candidate& wider, const Candidate& narrower) {
+    return std::all_of(wider.effects.begin(), wider.effects.end(), [&](const Effect* effect) {
+        return narrower.has(effect->name) || (effect->uneven_noise && !effect->only_spreads);
+    });
+}
+
+// Whether what is left beside a fitted form may be the shape of the laws that are taken, which a further one follows.
+bool follows_a_shape(const Evidence& evidence, std::size_t wider, std::size_t chosen) {
+    const Candidate& mine = evidence.ranking[chosen].trained;
+    const Candidate& theirs = evidence.ranking[wider].trained;
+    return evidence.beside_form() && !mine.effects.empty() &&
+           evidence.gap(chosen) < shape_of_a_law * evidence.gap(evidence.none()) && contains(theirs, mine) &&
+           !adds_facts_alone(theirs, mine);
+}
 
 bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
     const double before = evidence.gap(chosen);
@@ -37,7 +56,8 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
         (taken < further_share_of_an_event * before || before < small_gap_of_a_form)) {
         return false;
     }
-    return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material;
+    return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material &&
+           !follows_a_shape(evidence, wider, chosen);
 }
 
 // What cannot be named and yet goes most of the way, as likely as any, is more than nothing.

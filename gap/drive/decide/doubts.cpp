@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "gap/drive/decide/rule.hpp"
 #include "gap/drive/outside.hpp"
@@ -61,10 +63,16 @@ void doubt_events(const Evidence& evidence, Decision& decision) {
     decision.notes.push_back(fmt::format("{}: an event from outside does not", doubt));
 }
 
-// Whether a candidate has all effects of another.
-bool contains(const Candidate& wider, const Candidate& narrower) {
-    return std::all_of(narrower.effects.begin(), narrower.effects.end(),
-                       [&](const Effect* effect) { return wider.has(effect->name); });
+// What helps it as another base's lag would helps what is named, too: beside that it is asked which goes farther.
+bool is_helped_as_far(const Evidence& evidence, const Candidate& chosen, const Ranked& other) {
+    std::vector<const Effect*> wanted = chosen.effects;
+    std::ranges::copy_if(other.trained.effects, std::back_inserter(wanted),
+                         [](const Effect* effect) { return effect->linear_with != nullptr; });
+    return wanted.size() > chosen.effects.size() && std::ranges::any_of(evidence.ranking, [&](const Ranked& ranked) {
+               return ranked.score() >= other.score() && std::ranges::all_of(wanted, [&](const Effect* effect) {
+                          return ranked.trained.has(effect->name);
+                      });
+           });
 }
 
 // What cannot be named, and has nothing of what is named, says that it is none of the two.
@@ -77,7 +85,8 @@ void doubt_what_is_outdone(const Evidence& evidence, Decision& decision) {
     for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
         const Ranked& other = evidence.ranking[i];
         if (other.score() > chosen.score() + clear_advantage && other.gap_after < of_what_is_left * chosen.gap_after &&
-            !contains(other.trained, chosen.trained) && !evidence.objection(i).empty()) {
+            !contains(other.trained, chosen.trained) && !evidence.objection(i).empty() &&
+            !is_helped_as_far(evidence, chosen.trained, other)) {
             decision.outcome = Outcome::unknown;
             decision.effects.clear();
             decision.at_most(0.7);

@@ -25,6 +25,11 @@ std::vector<Remainder> remainders(const Study& study, const std::vector<std::vec
 
 }  // namespace
 
+bool contains(const Candidate& wider, const Candidate& narrower) {
+    return std::all_of(narrower.effects.begin(), narrower.effects.end(),
+                       [&](const Effect* effect) { return wider.has(effect->name); });
+}
+
 bool is_clear(const Interval& over) { return over.mean > clear_advantage && over.low > 0.0; }
 
 Evidence::Evidence(const std::vector<Ranked>& ranked, const Whitener& whitener, const Study& trained,
@@ -120,7 +125,7 @@ const std::string& Evidence::objection(std::size_t i) const {
     if (!ranking[i].trained.effects.empty()) {
         Candidate trained = ranking[i].trained;
         add_intervals(study, trained, beside_form() ? nullptr : &whitener_);
-        what = untold_of(study, trained);
+        what = untold_of(study, trained, [&](const Effect& effect) { return training_needs(i, effect); });
         if (what.empty() && beside_form()) {
             what = linear_of(trained);
         }
@@ -131,6 +136,17 @@ const std::string& Evidence::objection(std::size_t i) const {
         }
     }
     return known_.objections.emplace(i, std::move(what)).first->second;
+}
+
+bool Evidence::training_needs(std::size_t i, const Effect& effect) const {
+    constexpr double many_times = 4.0;
+    const Candidate& mine = ranking[i].trained;
+    std::vector<const Effect*> others = mine.effects;
+    std::erase(others, &effect);
+    const auto without = std::ranges::find_if(
+        ranking, [&](const Ranked& ranked) { return std::ranges::is_permutation(ranked.trained.effects, others); });
+    return beside_form() && mine.cost > 0.0 && without != ranking.end() &&
+           without->trained.cost > many_times * mine.cost;
 }
 
 bool Evidence::is_open(std::size_t i) const {

@@ -37,6 +37,9 @@ public:
     /// Why a candidate cannot be named, whatever its likelihood: training leaves it open, or its events are no events.
     /// Empty: it can.
     [[nodiscard]] const std::string& objection(std::size_t i) const;
+    /// Whether training, fitted without one of a candidate's effects beside a fitted form, is missed by many times the
+    /// squares: an interval is a straight line's, and of readings within their steps no line tells.
+    [[nodiscard]] bool training_needs(std::size_t i, const Effect& effect) const;
     /// Whether other numbers of a candidate's effects would leave the same, with another base.
     [[nodiscard]] bool is_open(std::size_t i) const;
     [[nodiscard]] double gap(std::size_t i) const { return ranking[i].gap_after; }
@@ -65,6 +68,9 @@ private:
     const Whitener& whitener_;
     mutable FoundOut known_;
 };
+
+/// Whether a candidate has all effects of another.
+[[nodiscard]] bool contains(const Candidate& wider, const Candidate& narrower);
 
 /// A likelihood ratio that chance does not reach among some hundred candidates.
 constexpr double clear_advantage = 8.0;

@@ -17,13 +17,14 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
 }
 
 void add(Scenario& scenario, std::span<const double> values) {
-    scenario.levels.emplace_back([half = 0.5 * values[0], share = values[1]](std::span<double> levels) {
-        double play = 0.0;
-        for (double& u : levels) {
-            play = std::clamp(play, u - half, u + half);
-            u = (1.0 - share) * u + share * play;
-        }
-    });
+    scenario.levels.emplace_back(
+        [half = 0.5 * values[0], share = values[1], first = scenario.input_before](std::span<double> levels) {
+            double play = first;
+            for (double& u : levels) {
+                play = std::clamp(play, u - half, u + half);
+                u = (1.0 - share) * u + share * play;
+            }
+        });
 }
 
 }  // namespace

@@ -19,10 +19,11 @@ std::vector<EffectParameter> parameters([[maybe_unused]] const Scales& scales) {
              {0.5 * scales.input_max / scales.time_constant_s, 3.0 * scales.input_max / scales.time_constant_s}}};
 }
 
-void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    scenario.input.emplace_back([per_s = values[0]](std::span<double> held, const Grid& grid) {
+void add(Scenario& scenario, std::span<const double> values) {
+    scenario.input.emplace_back([per_s = values[0], first = scenario.input_before](std::span<double> held,
+                                                                                   const Grid& grid) {
         const std::vector<double> levels(held.begin(), held.end());
-        double w = 0.0;
+        double w = first;
         // The integral of w over a share of the interval, on its way to a level.
         const auto advance = [&](double level, double share) {
             const double most = per_s * grid.step_s * share;

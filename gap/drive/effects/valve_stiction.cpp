@@ -31,9 +31,9 @@ void add(Scenario& scenario, std::span<const double> values) {
     const double breaks = 0.5 * (values[0] + jump);
     const double slides = 0.5 * (values[0] - jump);
     const double softness = std::min(values[2], breaks);
-    scenario.levels.emplace_back([breaks, slides, softness](std::span<double> levels) {
-        double w = 0.0;
-        double before = 0.0;
+    scenario.levels.emplace_back([breaks, slides, softness, first = scenario.input_before](std::span<double> levels) {
+        double w = first;
+        double before = first;
         double way = 0.0;  // in which it slides; 0: it sticks
         for (double& u : levels) {
             const double by = u - before;

@@ -1,0 +1,71 @@
+// Numbers that training leaves anywhere within a stretch: between two levels of its input, say.
+#include "gap/drive/settle.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "gap/drive/fit.hpp"
+#include "gap/drive/question.hpp"
+#include "gap/drive/start.hpp"
+
+namespace {
+
+using Input = double (*)(double time_s);
+
+double stairs(double t) { return t < 2.0 ? 0.0 : t < 12.0 ? 0.4 : t < 22.0 ? 0.8 : t < 32.0 ? 1.2 : 0.4; }
+double chirp(double t) { return 0.6 - 0.6 * std::cos(0.004 * t * t + 0.1 * t); }
+
+gap::Record read(Input input, const std::string& effect, const std::vector<double>& values, unsigned seed) {
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0.0, 1e-3);
+    gap::Record record;
+    record.name = "made";
+    record.usual_interval_s = 0.1;
+    for (int i = 0; i < 400; ++i) {
+        record.time_s.push_back(0.1 * i);
+        record.input.push_back(input(record.time_s.back()));
+        record.output.push_back(0.0);
+    }
+    gap::Scenario scenario;
+    scenario.model = drive::make_fopdt(2.0, 1.0, 0.0);
+    gap::effect_named(effect).add_to(scenario, values);
+    record.output = gap::simulate(scenario, gap::Course(record, 4));
+    for (double& z : record.output) {
+        z += noise(engine);
+    }
+    return record;
+}
+
+// What validation makes of an effect that training has seen at a few levels.
+gap::Settled settled(const std::string& effect, const std::vector<double>& values) {
+    const gap::Question question{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)),
+                                 true,
+                                 {read(stairs, effect, values, 1)},
+                                 {read(chirp, effect, values, 2)},
+                                 {},
+                                 gap::Metric::simulation,
+                                 {},
+                                 1};
+    const gap::Ground ground = gap::prepare(question);
+    const gap::Candidate trained = gap::fit(ground.study, {&gap::effect_named(effect)}, ground.base, nullptr);
+    return gap::settle(ground.study, ground.validation, trained);
+}
+
+TEST(Settle, TellsAThresholdBetweenTwoLevelsByTheValidation) {
+    const gap::Settled told = settled("start_up_threshold", {0.53, 1.0, 0.0});
+    EXPECT_EQ(told.numbers, 1U);
+    EXPECT_NEAR(told.trained.lasting[0][0].value, 0.53, 0.03);
+}
+
+TEST(Settle, LeavesWhatTrainingTells) {
+    const gap::Settled told = settled("input_saturation", {0.9});
+    EXPECT_EQ(told.numbers, 0U);
+    EXPECT_NEAR(told.trained.lasting[0][0].value, 0.9, 0.01);
+}
+
+// Of a limit above all that training asks for nothing is known, and it may be none.
+TEST(Settle, LeavesWhatMayBeNone) { EXPECT_EQ(settled("input_saturation", {1.5}).numbers, 0U); }
+
+}  // namespace
