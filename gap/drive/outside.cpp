@@ -103,6 +103,12 @@ bool lasts_throughout(const Record& record, const Happening& happening, double s
            happening.from_s < first_s + settling_s;
 }
 
+bool acts_before_the_input(const std::vector<FreeParameter>& own, const Happening& happening, double delay_s) {
+    return happening.from_s < delay_s && std::any_of(own.begin(), own.end(), [](const FreeParameter& one) {
+               return one.name == "initial_output" && !one.fixed;
+           });
+}
+
 std::string doubt_of_events(const Study& study, const Candidate& trained, const Study& validation,
                             const Candidate& validated) {
     const double delay_s = model_of(study.base.form).delay_s;
@@ -122,6 +128,10 @@ std::string doubt_of_events(const Study& study, const Candidate& trained, const 
                 if (happening && felt && lasts_throughout(record, *happening, settling_s)) {
                     return fmt::format("{} of {} begins with the input and is still there at the end", effect->name,
                                        record.name);
+                }
+                if (happening && felt && acts_before_the_input(candidate->own[r], *happening, delay_s)) {
+                    return fmt::format("{} of {} begins before its input can act, as what was before the record does",
+                                       effect->name, record.name);
                 }
                 if (happening) {
                     chances.push_back(chance_of_meeting(record, happening->from_s, delay_s));

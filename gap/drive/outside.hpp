@@ -1,5 +1,6 @@
 // Whether an event that was found comes from outside, as its effect says: what begins with the input, record after
-// record, or lasts from its first move to the end, is something that the drive does itself.
+// record, or lasts from its first move to the end, is something that the drive does itself; what is there before the
+// input can act is the past.
 #pragma once
 
 #include <optional>
@@ -24,6 +25,12 @@ struct Happening {
 
 /// Whether it begins within `settling_s` of the input's first move, or before, and is still there at the record's end.
 [[nodiscard]] bool lasts_throughout(const Record& record, const Happening& happening, double settling_s);
+
+/// Whether it begins in the dead time of a record that begins in motion. Its start is fitted as a value and a speed;
+/// the past of a plant, above all of one whose orders are not whole, is more, and a force follows what these leave.
+/// \param own  the record's numbers
+[[nodiscard]] bool acts_before_the_input(const std::vector<FreeParameter>& own, const Happening& happening,
+                                         double delay_s);
 
 /// What speaks against the events of a candidate being such, for a note; empty: nothing, or it has none.
 [[nodiscard]] std::string doubt_of_events(const Study& study, const Candidate& trained, const Study& validation,

@@ -62,6 +62,19 @@ TEST(Outside, WhatLastsThroughoutIsNoEvent) {
     EXPECT_FALSE(gap::lasts_throughout(still, {0.6, 20.0}, 0.5));
 }
 
+TEST(Outside, WhatIsThereBeforeTheInputCanActIsThePast) {
+    const auto acts_before = [](double from_s, bool at_rest) {
+        const std::vector<gap::FreeParameter> own{
+            {.name = "offset", .value = 0.0, .lower = -1.0, .upper = 1.0, .scale = 1.0},
+            {.name = "initial_output", .value = 0.3, .lower = -1.0, .upper = 1.0, .scale = 1.0, .fixed = at_rest}};
+        return gap::acts_before_the_input(own, {from_s, 2.0}, 0.5);
+    };
+    EXPECT_TRUE(acts_before(0.0, false));
+    EXPECT_TRUE(acts_before(0.499, false));
+    EXPECT_FALSE(acts_before(0.5, false));
+    EXPECT_FALSE(acts_before(0.1, true));  // from rest there is no past
+}
+
 // A move is of more than 3 % of the greatest input, whatever its sign; the record's begin is one.
 TEST(Outside, SmallStepsAreNoMoves) {
     gap::Record record = stepped();
