@@ -48,10 +48,10 @@ JSON
 }
 made "m7-ideal sha256:0, $(field core_file "$folder/choice.json")"
 expect 0 "choice     ring_plain_q31 with $taps taps" choose $m7 --max-error 0.1 --results "$folder/model.json" --max-cycles 230
-expect 0 "choice     modes" choose $m7 --max-error 0.1 --results "$folder/model.json" --max-cycles 229
+expect 0 "choice     cascadedelta" choose $m7 --max-error 0.1 --results "$folder/model.json" --max-cycles 229
 made "$(field core_file "$folder/flash.json")"
 expect 0 "is not among its cores" choose $m7 --max-error 0.1 --results "$folder/model.json"
-expect 0 "choice     modes" choose $m7 --max-error 0.1 --results "$folder/model.json"
+expect 0 "choice     cascadedelta" choose $m7 --max-error 0.1 --results "$folder/model.json"
 expect 0 "40 of 40 random budgets: the same choice" choose --order 0.5 --step-s 0.001 --target m7 --samples 40 --check-against-brute-force 40 --seed 3
 expect 0 "40 of 40 random budgets: the same choice" choose --order 0.5 --step-s 0.001 --target m7 --samples 40 --max-instructions 1 --check-against-brute-force 40 --seed 4
 [ "$failures" -eq 0 ]
