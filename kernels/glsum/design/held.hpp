@@ -91,7 +91,9 @@ template <class Technique, class Format>
         filter.taps.back() *= whole_scale;
     }
     for (std::size_t s = 0; s < sections.size(); ++s) {
-        const auto& [of, single] = sections[s];
+        // Named, not bound: clang before 16 captures no structured binding.
+        const HeldSection& of = sections[s].of;
+        const bool single = sections[s].single;
         // d^2 - (2 + a1) d + (1 + a1 + a2) = 0, the larger root first: the smaller would lose its digits.
         const double sum = 2.0 + of.a1;
         const double product = 1.0 + of.a1 + of.a2;

@@ -36,15 +36,11 @@ template <std::size_t half, class Batch>
     }
 }
 
-// Sums of 64 bytes, or of half where sixteen registers would not hold four of them. Indices are constants throughout:
-// by others, and by loops, GCC would keep the sums in memory.
+// Sums of 64 bytes. Indices are constants throughout: by others, and by loops, GCC would keep the sums in memory.
 template <class T, class Architecture>
 struct Accumulator {
     using Batch = xsimd::batch<T, Architecture>;
-    static constexpr std::size_t block = 64 / sizeof(T);
-    static constexpr std::size_t passes = block / Batch::size == 4 ? 2 : 1;
-    static constexpr std::size_t parts = block / passes / Batch::size;
-    static_assert(parts <= 2);
+    static constexpr std::size_t parts = 64 / sizeof(T) / Batch::size;
     Batch sums[parts];
 
     Accumulator() {
@@ -65,33 +61,47 @@ struct Accumulator {
     void add(const Accumulator& other) {
         each([&](auto part) { sums[part] = sums[part] + other.sums[part]; });
     }
+    // Formed here: clang would put the last additions off, and have too few registers behind them.
+    void settle() {
+#if defined(__x86_64__)
+        each([&](auto part) {
+            auto formed = static_cast<Register<Batch>>(sums[part]);
+            __asm__("" : "+x"(formed));
+            sums[part] = Batch(formed);
+        });
+#endif
+    }
     [[nodiscard]] T joined() const {
-        return glsum::joined<Batch::size / 2>(parts == 2 ? sums[0] + sums[parts - 1] : sums[0]);
+        if constexpr (parts == 4) {
+            return glsum::joined<Batch::size / 2>((sums[0] + sums[2]) + (sums[1] + sums[3]));
+        } else {
+            return glsum::joined<Batch::size / 2>(parts == 2 ? sums[0] + sums[parts - 1] : sums[0]);
+        }
     }
 
 private:
     template <class Body>
     [[gnu::always_inline]] static inline void each(const Body& body) {
-        body(std::integral_constant<std::size_t, 0>{});
-        if constexpr (parts == 2) {
-            body(std::integral_constant<std::size_t, 1>{});
-        }
+        of_parts(body, std::make_index_sequence<parts>{});
+    }
+    template <class Body, std::size_t... part>
+    [[gnu::always_inline]] static inline void of_parts(const Body& body, std::index_sequence<part...>) {
+        (body(std::integral_constant<std::size_t, part>{}), ...);
     }
 };
 
-// The first block of samples lies at `first`, the others behind x + 64 bytes.
-template <bool fused, class T, class Architecture>
+// Two or four of the sums, those of the blocks 4 n + `skipped` and behind. `a` and `x` begin with these. The first
+// block of samples lies at `first`, the others behind x + 64 bytes.
+template <bool fused, std::size_t skipped, std::size_t chains, class T, class Architecture>
 [[gnu::always_inline]] inline Accumulator<T, Architecture> pass(const T* a, const T* first, const T* x,
-                                                                std::size_t blocks) {
+                                                                const T* const end) {
     constexpr std::size_t block = 64 / sizeof(T);
-    static_assert(Simd::accumulators == 4);
-    // With AVX-512 that is four chains of additions, which hides an addition's latency of up to four cycles at one
-    // block a cycle, the most that two loads a cycle can feed.
+    constexpr std::size_t last = 3 - skipped;
+    static_assert(Simd::accumulators == 4 && (chains == 2 || chains == 4));
     Accumulator<T, Architecture> s0;
     Accumulator<T, Architecture> s1;
     Accumulator<T, Architecture> s2;
     Accumulator<T, Architecture> s3;
-    const T* const end = a + blocks * block;
     const auto next_four = [&]() __attribute__((always_inline)) {
         a += 4 * block;
         x += 4 * block;
@@ -103,25 +113,29 @@ template <bool fused, class T, class Architecture>
     const auto add_rest = [&](const T* from) __attribute__((always_inline)) {
         if (a < end) [[likely]] {
             s0.template add<fused>(a, from);
-            if (a + block < end) [[likely]] {
+            if (last > 1 && a + block < end) [[likely]] {
                 s1.template add<fused>(a + block, x + block);
-                if (a + 2 * block < end) [[likely]] {
+                if (chains == 4 && a + 2 * block < end) [[likely]] {
                     s2.template add<fused>(a + 2 * block, x + 2 * block);
                 }
             }
         }
     };
-    if (blocks >= 4) [[likely]] {
+    if (a + last * block < end) [[likely]] {
         s0.start(a, first);
         s1.start(a + block, x + block);
-        s2.start(a + 2 * block, x + 2 * block);
-        s3.start(a + 3 * block, x + 3 * block);
+        if constexpr (chains == 4) {
+            s2.start(a + 2 * block, x + 2 * block);
+            s3.start(a + 3 * block, x + 3 * block);
+        }
         next_four();
-        while (a + 3 * block < end) {
+        while (a + last * block < end) {
             s0.template add<fused>(a, x);
             s1.template add<fused>(a + block, x + block);
-            s2.template add<fused>(a + 2 * block, x + 2 * block);
-            s3.template add<fused>(a + 3 * block, x + 3 * block);
+            if constexpr (chains == 4) {
+                s2.template add<fused>(a + 2 * block, x + 2 * block);
+                s3.template add<fused>(a + 3 * block, x + 3 * block);
+            }
             next_four();
         }
         add_rest(x);
@@ -129,18 +143,29 @@ template <bool fused, class T, class Architecture>
         add_rest(first);
     }
     s0.add(s1);
-    s2.add(s3);
-    s0.add(s2);
+    if constexpr (chains == 4) {
+        s2.add(s3);
+        s0.add(s2);
+    }
     return s0;
 }
 
 template <class T, bool fused, class Architecture>
 [[gnu::always_inline]] inline T sum_of(const T* a, const T* first, const T* x, std::size_t blocks) {
+    constexpr std::size_t block = 64 / sizeof(T);
     using Sums = Accumulator<T, Architecture>;
-    Sums sums = pass<fused, T, Architecture>(a, first, x, blocks);
-    if constexpr (Sums::passes == 2) {
-        constexpr std::size_t half = Sums::block / 2;
-        sums.add(pass<fused, T, Architecture>(a + half, first + half, x + half, blocks));
+    const T* const end = a + blocks * block;
+    Sums sums;
+    if constexpr (Sums::parts == 4) {
+        // Sixteen registers hold two of the sums at a time, so the window is passed twice. Whole blocks each: of halves
+        // both passes would fetch all that the first cache does not hold.
+        sums = pass<fused, 0, 2, T, Architecture>(a, first, x, end);
+        sums.settle();
+        sums.add(pass<fused, 2, 2, T, Architecture>(a + 2 * block, x + 2 * block, x + 2 * block, end));
+    } else {
+        // With AVX-512 that is four chains of additions, which hides an addition's latency of up to four cycles at one
+        // block a cycle, the most that two loads a cycle can feed.
+        sums = pass<fused, 0, 4, T, Architecture>(a, first, x, end);
     }
     // As if each accumulator had begun with 0 and not with its first product, which may be -0.
     return sums.joined() + T(0);
