@@ -59,10 +59,10 @@ TEST(Reference, OneProductHasTheSumsOfTheDefinition) {
     }
     EXPECT_TRUE(reference::full_sums(reference::weights(Real(0.5), 3), {}).empty());
     // One product holds all sums side by side, so a negative one borrows from the next: here from a sum of exactly 0.
-    const std::vector<double> falls{1.0, 0.5, 0.5};
-    const auto differences = reference::full_sums(reference::weights(Real(1.0), 3), falls);
-    EXPECT_EQ(differences[1].high, -0.5);
-    EXPECT_EQ(to_real(differences[2]), Real(0.0));
+    const std::vector<double> negative(2, -1.0);
+    const auto differences = reference::full_sums(reference::weights(Real(1.0), 2), negative);
+    EXPECT_EQ(differences[0].high, -1.0);
+    EXPECT_EQ(to_real(differences[1]), Real(0.0));
     EXPECT_THROW((void)reference::full_sums(reference::weights(Real(0.5), 3), std::vector<double>{1e20}),
                  std::invalid_argument);
 }
