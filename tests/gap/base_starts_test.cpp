@@ -187,6 +187,33 @@ TEST(Starts, OfFractionalOrdersAreAsLong) {
     }
 }
 
+// Of three lags, or a zero, a fit has several ends: two more starts at most, none near another, and none of two lags.
+TEST(Starts, LieApartWhereAFitHasSeveralEnds) {
+    gap::Record record = record_of(240, levels);
+    record.output = response(record, of({{1.1, 3.0}, {2.9, 2.0}, {2.6, 1.0}, {1.0, 0.0}}));
+    // A little of what none of them explains, so that none is exact and others leave about as much.
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        record.output[i] += 0.2 * std::sin(0.7 * record.time_s[i]);
+    }
+    const auto starts_of = [&](const char* name) { return gap::starts_of(*gap::structure_named(name), {record}); };
+    EXPECT_TRUE(starts_of("second_order").elsewhere.empty());
+    EXPECT_TRUE(starts_of("fractional_second_order").elsewhere.empty());
+    for (const char* name : {"third_order", "second_order_zero", "third_order_zero"}) {
+        gap::Starts starts = starts_of(name);
+        EXPECT_THAT(starts.elsewhere.size(), testing::AllOf(testing::Ge(1U), testing::Le(2U))) << name;
+        std::vector<drive::Form> all = {starts.whole};
+        all.insert(all.end(), starts.elsewhere.begin(), starts.elsewhere.end());
+        for (std::size_t i = 0; i < all.size(); ++i) {
+            for (std::size_t j = 0; j < i; ++j) {
+                const double late = all[i].parameter("delay_s").value - all[j].parameter("delay_s").value;
+                const double a = all[i].parameter("a1").value + all[i].parameter("delay_s").value;
+                const double b = all[j].parameter("a1").value + all[j].parameter("delay_s").value;
+                EXPECT_TRUE(std::max(a, b) >= 1.5 * std::min(a, b) || std::abs(late) >= 0.2 * std::max(a, b)) << name;
+            }
+        }
+    }
+}
+
 TEST(Starts, OfWhatNothingExplainsAreRefused) {
     gap::Record record = record_of(240, levels);
     record.output.assign(240, std::nan(""));

@@ -119,6 +119,23 @@ TEST_F(Rules, WhatCanBeForeseenBehindThreeEffectsIsTooMuch) {
     EXPECT_EQ(outcome(two, 0.0201), Outcome::attributed);
 }
 
+// So are two beside a fitted form that leave a quarter, half of whose squares can be foreseen.
+TEST_F(Rules, WhatCanBeForeseenBehindTwoEffectsIsHalfOfAQuarter) {
+    const std::size_t two = add({"quadratic_drag", "backlash"}, 0.252, 100.0);
+    const std::size_t one = add({"quadratic_drag"}, 0.252, 90.0);
+    const auto outcome = [&](std::size_t at, double share) {
+        known_.remainders[at] = {share, true, {}};
+        return after("what_can_be_foreseen", attributed(at)).outcome;
+    };
+    EXPECT_EQ(outcome(two, 0.51), Outcome::unknown);  // of a model: a fortieth is too much
+    beside_a_form();
+    EXPECT_EQ(outcome(two, 0.51), Outcome::unknown);
+    EXPECT_EQ(outcome(two, 0.49), Outcome::attributed);
+    EXPECT_EQ(outcome(one, 0.51), Outcome::attributed);
+    ranking_[two].gap_after = 0.248;
+    EXPECT_EQ(outcome(two, 0.51), Outcome::attributed);
+}
+
 // The surer, the more of what can be closed it is: from a half up to 0.95.
 TEST_F(Rules, WhatCanBeForeseenIsSureByItsShare) {
     const std::size_t three = add({"quadratic_drag", "backlash", "supply_sag"}, 0.05, 100.0);

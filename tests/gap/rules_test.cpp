@@ -80,15 +80,15 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEffectIsOverOneFewer) {
 
 // The drive's own law is a little different from the listed one, and something else follows what that leaves.
 TEST_F(Rules, ClearAdvantageTakesNothingOfTheShapeOfALawBesideAForm) {
-    const std::size_t bend = add({"output_curve"}, 0.0995, 100.0);
+    const std::size_t bend = add({"output_curve"}, 0.1595, 100.0);
     const std::size_t both = add({"output_curve", "quadratic_drag"}, 0.04, 200.0);
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     beside_a_form();
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
-    ranking_[bend].gap_after = 0.1005;
+    ranking_[bend].gap_after = 0.1605;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     // What a log shows by itself follows no shape, and what goes without the law explains it otherwise.
-    ranking_[bend].gap_after = 0.0995;
+    ranking_[bend].gap_after = 0.1595;
     ranking_[both].trained.effects[1] = &gap::effect_named("dropped_samples");
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     ranking_[both].trained.effects[1] = &gap::effect_named("sampling_jitter");
@@ -117,12 +117,23 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEventBesideAFormTakesHalf) {
     ranking_[both].gap_after = 0.2495;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     // Two thousandths of the variance are what a form may leave itself.
-    ranking_[0].gap_after = 0.4;
+    ranking_[0].gap_after = 0.27;
     ranking_[both].gap_after = 0.01;
     ranking_[drag].gap_after = 0.0449;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     ranking_[drag].gap_after = 0.0445;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+}
+
+TEST_F(Rules, ClearAdvantageOfAnEventIsNoneWhereAFormMayLeaveAsMuchItself) {
+    const std::size_t jump = add({"missed_counts"}, 0.01, 50.0);
+    beside_a_form();
+    ranking_[0].gap_after = 0.0449;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(jump));
+    ranking_[0].gap_after = 0.0445;
+    EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
+    ground_.study.base.refit = ground_.validation.base.refit = false;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(jump));
 }
 
 TEST_F(Rules, ClearAdvantageIsNoneOfWhatTrainingLeavesOpen) {
@@ -199,6 +210,7 @@ TEST_F(Rules, WhatCannotBePartedIsAlsoTheWiderOneWhereTheBaseTakesItUp) {
     EXPECT_THAT(after("what_cannot_be_parted", attributed(even)).effects, ElementsAre(even));
     known_.open[uneven] = true;
     ranking_[uneven].by_sample.assign(samples, 43.97 / samples);
+    ranking_[uneven].gap_after = 0.53;
     EXPECT_THAT(after("what_cannot_be_parted", attributed(even)).effects, ElementsAre(even));
 }
 
@@ -224,8 +236,12 @@ TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatGoesAsFar) {
     EXPECT_THAT(named(), ElementsAre(cubic));
     beside_a_form();
     EXPECT_THAT(named(), ElementsAre(cubic, curve));
-    set_noise(0.30 / 6.97);  // a sensor's noise tells likelihoods
+    set_noise(0.30 / 6.97);  // a sensor's noise tells likelihoods, but for what goes as far to a twentieth
     EXPECT_THAT(named(), ElementsAre(cubic));
+    ranking_[curve].gap_after = 0.3155;
+    EXPECT_THAT(named(), ElementsAre(cubic));
+    ranking_[curve].gap_after = 0.3145;
+    EXPECT_THAT(named(), ElementsAre(cubic, curve));
     // Within a fifth more, and on this side of half the way back.
     set_noise(0.30 / 7.03);
     ranking_[curve].gap_after = 0.359;

@@ -191,6 +191,9 @@ std::vector<Described> describe(const Structure& structure, Question alone, cons
     try {
         const Starts starts = starts_of(structure, alone.train);
         take(starts.whole);
+        for (const drive::Form& form : starts.elsewhere) {
+            take(form);
+        }
         if (starts.quick) {
             alone.form = *starts.quick;
             take(quick_form(alone, starts.quick_s));
@@ -198,6 +201,37 @@ std::vector<Described> describe(const Structure& structure, Question alone, cons
     } catch (const glsum::Failure&) {
     }
     return found;
+}
+
+// A start, and what it leaves.
+struct Tried {
+    double squares;
+    Coefficients start;
+};
+
+// Of so many lags a fit has several ends: those of the starts that leave least and lie apart.
+std::vector<Coefficients> apart(std::vector<Tried> tried) {
+    constexpr std::size_t most = 3;
+    constexpr double times_the_squares = 3.0;
+    constexpr double times_the_lags = 1.5;
+    std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.squares < b.squares; });
+    const auto lags_s = [](const Coefficients& of) { return of.denominator.empty() ? 0.0 : of.denominator.front(); };
+    std::vector<Coefficients> kept;
+    for (const Tried& one : tried) {
+        if (kept.size() == most || one.squares > times_the_squares * tried.front().squares) {
+            break;
+        }
+        const bool near_one = std::any_of(kept.begin(), kept.end(), [&](const Coefficients& other) {
+            const double a = lags_s(one.start) + one.start.delay_s;
+            const double b = lags_s(other) + other.delay_s;
+            return std::max(a, b) < times_the_lags * std::min(a, b) &&
+                   std::abs(one.start.delay_s - other.delay_s) < 0.2 * std::max(a, b);
+        });
+        if (!near_one) {
+            kept.push_back(one.start);
+        }
+    }
+    return kept;
 }
 
 }  // namespace
@@ -217,23 +251,23 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
     const std::vector<Course> courses = rough_courses(records);
     Leftovers whole;  // of the start that leaves least, and
     Leftovers quick;  // of the one that leaves least of what is quick
-    std::optional<drive::Form> best;
+    std::vector<Tried> tried;
     std::optional<drive::Form> quick_best;
     for (Coefficients& start : starts) {
         start.gain = 1.0;
         const Leftovers left = leftovers_of(model_of(form_of(structure, start, driven)), courses, driven, quick_s);
-        if (left.whole.squares < whole.whole.squares) {
-            whole = left;
+        if (std::isfinite(left.whole.squares)) {
             start.gain = left.whole.gain;
-            best = form_of(structure, start, driven);
+            tried.push_back({left.whole.squares, start});
         }
+        whole = left.whole.squares < whole.whole.squares ? left : whole;
         if (left.quick.squares < quick.quick.squares) {
             quick = left;
             start.gain = left.quick.gain;
             quick_best = form_of(structure, start, driven);
         }
     }
-    if (!best) {
+    if (tried.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input,
                              fmt::format("{}: no {} ({}) explains anything of it: do input and output belong together?",
                                          records.front().name, structure.name, structure.meaning));
@@ -241,7 +275,14 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
     const bool lags_alone =
         driven && !structure.fractional && structure.integrators == 0 && structure.zeros == 0 && structure.order <= 2;
     const bool parts = lags_alone && quick.quick.squares < worth_a_quick_one * whole.quick.squares;
-    return {*best, parts ? quick_best : std::nullopt, quick_s};
+    const bool winding = driven && (structure.order > 2 || structure.zeros > 0);
+    std::vector<drive::Form> forms;
+    for (const Coefficients& start : apart(std::move(tried))) {
+        forms.push_back(form_of(structure, start, driven));
+    }
+    return {forms.front(),
+            winding ? std::vector<drive::Form>(forms.begin() + 1, forms.end()) : std::vector<drive::Form>{},
+            parts ? quick_best : std::nullopt, quick_s};
 }
 
 std::vector<Described> find_base(const Question& question, const std::function<void(const std::string&)>& say) {

@@ -30,8 +30,9 @@ struct Described {
 /// Of some filters, dead times and even lags.
 struct Starts {
     drive::Form whole;  ///< whose simulation, with gain, offset and initial state by least squares, leaves least
-    std::optional<drive::Form> quick;  ///< that leaves clearly less of what is quick, where there is one
-    double quick_s;                    ///< what is older is not quick
+    std::vector<drive::Form> elsewhere;  ///< that leave little more with other lags, where there are three or a zero
+    std::optional<drive::Form> quick;    ///< that leaves clearly less of what is quick, where there is one
+    double quick_s;                      ///< what is older is not quick
 };
 /// \throws glsum::Failure (bad input): nothing explains anything
 [[nodiscard]] Starts starts_of(const Structure& structure, const std::vector<Record>& records);

@@ -22,9 +22,9 @@ constexpr double further_share = 0.04;
 constexpr double second_share = 0.25;
 // Events, which are located where they are judged, follow any form's misfit: a further one takes half of what is left.
 constexpr double further_share_of_an_event = 0.5;
-// A cause is a law of a few numbers, and the drive's own is a little different: so much of the gap's rms, a hundredth
-// of its squares, is what the law's shape leaves to whatever follows it.
-constexpr double shape_of_a_law = 0.1;
+// A cause is a law of a few numbers, and the drive's own is a little different: so much of the gap's rms, a fortieth of
+// its squares, is what the law's shape leaves to whatever follows it.
+constexpr double shape_of_a_law = 0.16;
 
 // Whether all that a wider candidate has more are facts of the log: readings that are rounded, held or clipped.
 bool adds_facts_alone(const Candidate& wider, const Candidate& narrower) {
@@ -51,9 +51,9 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
                             : so_far == 1 ? std::min(further_share * closable, second_share * before)
                                           : further_share * closable;
     // And where the form may leave as much itself there is nothing for it to explain.
-    if (so_far > 0 && evidence.beside_form() && evidence.ranking[wider].trained.has_events() &&
+    if (evidence.beside_form() && evidence.ranking[wider].trained.has_events() &&
         !evidence.ranking[chosen].trained.has_events() &&
-        (taken < further_share_of_an_event * before || before < small_gap_of_a_form)) {
+        ((so_far > 0 && taken < further_share_of_an_event * before) || before < small_gap_of_a_form)) {
         return false;
     }
     return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material &&

@@ -30,6 +30,18 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
     }
 }
 
+// An event is located where it is judged, so it goes a part of the way of whatever there is: one that is the cause
+// leaves little. Empty: it does.
+std::string follows_the_rest(const Evidence& evidence, const Decision& decision, std::size_t i) {
+    constexpr double little = 0.25;
+    const double left = evidence.gap(i) / decision.base_gap;
+    const Candidate& trained = evidence.ranking[i].trained;
+    return evidence.beside_form() && trained.has_events() && left > little
+               ? fmt::format("{} leaves {:.0f} % of the gap, as what is located where it is judged does of any cause",
+                             trained.name(), 100.0 * left)
+               : "";
+}
+
 // What a drive does itself, record after record, is no event from outside: it is the alternative without one, if there
 // is any, or something that is not listed.
 void doubt_events(const Evidence& evidence, Decision& decision) {
@@ -37,8 +49,10 @@ void doubt_events(const Evidence& evidence, Decision& decision) {
         return;
     }
     const auto doubt_of = [&](std::size_t i) {
-        return doubt_of_events(evidence.study, evidence.ranking[i].trained, evidence.validation,
-                               evidence.ranking[i].candidate);
+        const std::string none_from_outside = doubt_of_events(evidence.study, evidence.ranking[i].trained,
+                                                              evidence.validation, evidence.ranking[i].candidate);
+        return none_from_outside.empty() ? follows_the_rest(evidence, decision, i)
+                                         : none_from_outside + ": an event from outside does not";
     };
     std::string doubt = doubt_of(decision.chosen);
     const bool of_chosen = !doubt.empty();
@@ -54,13 +68,12 @@ void doubt_events(const Evidence& evidence, Decision& decision) {
     decision.at_most(0.7);
     if (decision.effects.empty()) {
         decision.outcome = Outcome::unknown;
-        decision.notes.push_back(
-            fmt::format("{}: an event from outside does not, and nothing else listed explains it", doubt));
+        decision.notes.push_back(fmt::format("{}, and nothing else listed explains it", doubt));
         return;
     }
     decision.chosen = decision.effects.front();
     decision.outcome = decision.effects.size() == 1 ? Outcome::attributed : Outcome::ambiguous;
-    decision.notes.push_back(fmt::format("{}: an event from outside does not", doubt));
+    decision.notes.push_back(doubt);
 }
 
 // What helps it as another base's lag would helps what is named, too: beside that it is asked which goes farther.
@@ -81,7 +94,7 @@ void doubt_what_is_outdone(const Evidence& evidence, Decision& decision) {
     if (!evidence.beside_form() || decision.effects.empty() || !evidence.is_no_noise(chosen.gap_after)) {
         return;
     }
-    constexpr double of_what_is_left = 0.5;
+    constexpr double of_what_is_left = 2.0 / 3.0;
     for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
         const Ranked& other = evidence.ranking[i];
         if (other.score() > chosen.score() + clear_advantage && other.gap_after < of_what_is_left * chosen.gap_after &&

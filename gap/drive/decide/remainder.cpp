@@ -36,8 +36,13 @@ void look_for_more(const Evidence& evidence, Decision& decision) {
             "the level has moved by {:.4f} of the deviation since the base was fitted: the operating point's", level));
     }
     const bool none = decision.chosen == evidence.none();
-    // Three effects that still leave what can be foreseen are an expansion of something else, not its causes.
-    const bool expansion = evidence.ranking[decision.chosen].trained.effects.size() >= 3;
+    // Three effects that still leave what can be foreseen are an expansion of something else, not its causes. So are
+    // two beside a fitted form that leave a quarter, most of which can be foreseen.
+    constexpr double a_quarter = 0.25;
+    constexpr double most = 0.5;
+    const std::size_t effects = evidence.ranking[decision.chosen].trained.effects.size();
+    const bool expansion = effects >= 3 || (effects == 2 && evidence.beside_form() &&
+                                            after > a_quarter * decision.base_gap && rest.share > most);
     // A fitted form's own misfit: within so much of the rms, or small, it is none of the drive's effects.
     constexpr double misfit_share = 0.11;
     const bool misfit = evidence.beside_form() && none &&
