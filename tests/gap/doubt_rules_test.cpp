@@ -190,6 +190,10 @@ TEST_F(Rules, WhatCannotBeNamedOutdoesWhatIs) {
     known_.objections[jump] = "every record needs one of its own";
     set_noise(0.1);  // where noise is left it is no other cause
     EXPECT_EQ(outcome(), Outcome::attributed);
+    known_.remainders[drag] = {0.49, true, {}};  // but half of that is none that can be foreseen
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    known_.remainders[drag] = {0.51, true, {}};
+    EXPECT_EQ(outcome(), Outcome::unknown);
 }
 
 // A lag that another base has helps whatever it stands beside.

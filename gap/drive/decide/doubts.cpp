@@ -91,7 +91,9 @@ bool is_helped_as_far(const Evidence& evidence, const Candidate& chosen, const R
 // What cannot be named, and has nothing of what is named, says that it is none of the two.
 void doubt_what_is_outdone(const Evidence& evidence, Decision& decision) {
     const Ranked& chosen = evidence.ranking[decision.chosen];
-    if (!evidence.beside_form() || decision.effects.empty() || !evidence.is_no_noise(chosen.gap_after)) {
+    constexpr double most = 0.5;  // what can be foreseen is no noise either, however small
+    if (!evidence.beside_form() || decision.effects.empty() ||
+        !(evidence.is_no_noise(chosen.gap_after) || foreseeable(evidence, decision).share > most)) {
         return;
     }
     constexpr double of_what_is_left = 2.0 / 3.0;
