@@ -118,6 +118,7 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
         }
         say(fmt::format("the base: {} ({})", base->name, base->meaning));
         question.form = base->form;
+        question.from_no_input = base->from_no_input;
         Answer answer = answer_to(question, say);
         // Of a disturbance another base may still know what it is.
         const bool closed = answer.decision.outcome == Outcome::no_gap && !answer.decision.disturbed;
@@ -147,6 +148,7 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
     for (const Described& one : found) {
         if (one.name == answer.base_name) {
             question.form = one.form;
+            question.from_no_input = one.from_no_input;
         }
     }
     for (const Described& one : found) {

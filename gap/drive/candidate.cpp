@@ -156,7 +156,10 @@ std::vector<FreeParameter> state_of(const Study& study, const Record& record) {
                             : to_free("bias", 0.0, -force, force, 0.1 * force),
         to_free("initial_output", first, first - 3.0 * span, first + 3.0 * span, span),
         to_free("initial_velocity", 0.0, -3.0 * speed, 3.0 * speed, speed),
-        to_free("input_before", std::clamp(record.input.front(), -study.scales.input_max, study.scales.input_max),
+        to_free("input_before",
+                study.base.from_no_input
+                    ? 0.0
+                    : std::clamp(record.input.front(), -study.scales.input_max, study.scales.input_max),
                 -study.scales.input_max, study.scales.input_max, std::max(study.scales.input_max, 1e-300))};
     state[3].fixed = !study.scales.driven;
     if (const auto rest = rest_of(study, record)) {

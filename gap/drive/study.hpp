@@ -17,6 +17,7 @@ struct Base {
     drive::Form form;  ///< of the model, with its start values
     bool refit = false;
     double operating_output = 0.0;  ///< of a model that is not refitted
+    bool from_no_input = false;     ///< a record's input before it is begun at 0, and not at the record's first level
 };
 
 struct Study {

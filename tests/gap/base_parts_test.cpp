@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -10,6 +11,7 @@
 #include "gap/drive/base/modes.hpp"
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/base/structure.hpp"
+#include "gap/drive/candidate.hpp"
 #include "gap/drive/start.hpp"
 #include "made_records.hpp"
 
@@ -19,7 +21,56 @@ using gap_test::h;
 using gap_test::levels;
 using gap_test::of;
 using gap_test::record_of;
+using gap_test::response;
 using testing::ElementsAre;
+
+// A log that begins in motion does not say what was put in before it: its first level, or nothing.
+TEST(InMotion, BeginsWithItsFirstLevelOrWithNothing) {
+    gap::Record record = record_of(401, [](double t) { return levels(t + 6.0); });
+    ASSERT_EQ(record.input.front(), 1.0);
+    record.output = response(record, of({{2.0, 1.0}, {1.0, 0.0}}));
+    gap::Question question{{drive::Kind::fopdt, drive::make_fopdt(1.0, 2.0, 0.5)},
+                           true,
+                           {record},
+                           {record},
+                           {},
+                           gap::Metric::simulation,
+                           {},
+                           1};
+    const auto begins_at = [&](bool from_no_input) {
+        question.from_no_input = from_no_input;
+        const gap::Ground ground = gap::prepare(question);
+        double value = -1.0;
+        for (const gap::FreeParameter& number : gap::state_of(ground.study, record)) {
+            value = number.name == "input_before" ? number.value : value;
+        }
+        return value;
+    };
+    EXPECT_EQ(begins_at(false), 1.0);
+    EXPECT_EQ(begins_at(true), 0.0);
+}
+
+// A base is looked for from both. Here, too, the plant was at rest until the log began, and its dead time is long.
+TEST(InMotion, IsLookedForFromBoth) {
+    const auto late = [](double shift) {
+        gap::Record record = record_of(401, [&](double t) { return levels(t + shift); });
+        drive::Model model = of({{2.0, 1.0}, {1.0, 0.0}});
+        model.delay_s = 8.0;
+        record.output = response(record, model);
+        for (std::size_t i = 0; i < record.size(); ++i) {
+            record.output[i] += 1e-3 * std::sin(37.0 * static_cast<double>(i));
+        }
+        return record;
+    };
+    const auto from_nothing = [&](double shift) {
+        const gap::Question question{
+            gap::form_to_find(), false, {late(shift)}, {late(21.0)}, {}, gap::Metric::simulation, {}, 1};
+        return std::ranges::count_if(gap::find_base(question, [](const std::string&) {}),
+                                     [](const gap::Described& one) { return one.from_no_input; });
+    };
+    EXPECT_GE(from_nothing(6.0), 1);
+    EXPECT_EQ(from_nothing(0.0), 0);  // at rest there is no other
+}
 
 // --- Filtered equations.
 

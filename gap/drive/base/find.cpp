@@ -116,10 +116,11 @@ Question of_training(const Question& question) {
     return alone;
 }
 
-Described described(const Structure& structure, Question alone, Question asked) {
+Described described(const Structure& structure, const Question& alone, Question asked) {
     const Ground part = prepare(alone);
     const Candidate of_part = fit(part.study, {}, part.base, nullptr);
     asked.form = with_values(alone.form, of_part);
+    asked.from_no_input = alone.from_no_input;
     const Ground whole = prepare(asked);
     const Candidate fitted = fit(whole.study, {}, whole.base, nullptr);
     const Candidate judged = whole.same_records ? fitted : carried_over(whole.validation, fitted, nullptr);
@@ -129,7 +130,8 @@ Described described(const Structure& structure, Question alone, Question asked) 
             gap_of(part.validation, of_part),
             gap_of(whole.validation, judged),
             structure.numbers(),
-            structure.integrators};
+            structure.integrators,
+            alone.from_no_input};
 }
 
 // Lags and dead time stay within so many times what they are.
@@ -178,6 +180,11 @@ bool outlasts(const Described& one, const std::vector<Record>& records) {
     return std::pow(std::max(coefficient, 0.0), 1.0 / order) > times * longest_s(records);
 }
 
+bool starts_in_motion(const std::vector<Record>& records) {
+    return std::any_of(records.begin(), records.end(),
+                       [](const Record& record) { return record.input.front() != 0.0; });
+}
+
 // From each start; none: there is nothing of this structure, and others go on.
 std::vector<Described> describe(const Structure& structure, Question alone, const Question& asked) {
     std::vector<Described> found;
@@ -191,6 +198,13 @@ std::vector<Described> describe(const Structure& structure, Question alone, cons
     try {
         const Starts starts = starts_of(structure, alone.train);
         take(starts.whole);
+        // What was put in before a log that begins in motion nobody says: over a dead time it leads a fit to one end or
+        // another, and which of them goes far elsewhere is asked as of any start.
+        if (starts_in_motion(alone.train)) {
+            alone.from_no_input = true;
+            take(starts.whole);
+            alone.from_no_input = false;
+        }
         for (const drive::Form& form : starts.elsewhere) {
             take(form);
         }

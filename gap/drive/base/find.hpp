@@ -22,6 +22,7 @@ struct Described {
     double validation;  ///< and on the validation
     int numbers;
     int integrators;
+    bool from_no_input = false;  ///< Base::from_no_input
 };
 
 /// In the place of a form that is still to be found.

@@ -36,7 +36,7 @@ std::string follows_the_rest(const Evidence& evidence, const Decision& decision,
     constexpr double little = 0.25;
     const double left = evidence.gap(i) / decision.base_gap;
     const Candidate& trained = evidence.ranking[i].trained;
-    return evidence.beside_form() && trained.has_events() && left > little
+    return evidence.beside_form() && evidence.study.scales.driven && trained.has_events() && left > little
                ? fmt::format("{} leaves {:.0f} % of the gap, as what is located where it is judged does of any cause",
                              trained.name(), 100.0 * left)
                : "";
