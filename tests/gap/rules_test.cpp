@@ -125,6 +125,24 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEventBesideAFormTakesHalf) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
 }
 
+TEST_F(Rules, ClearAdvantageIsNoneWhereCleanReadingsLeaveAFormAsLittle) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.005, 50.0);
+    const auto named = [&] { return after("clear_advantage").effects; };
+    beside_a_form();
+    ranking_[0].gap_after = 0.01255;
+    EXPECT_THAT(named(), ElementsAre(drag));
+    ranking_[0].gap_after = 0.01245;
+    EXPECT_THAT(named(), IsEmpty());
+    EXPECT_EQ(after("clear_advantage").outcome, Outcome::no_gap);
+    ranking_[drag].trained.effects = {&gap::effect_named("sampling_jitter")};
+    EXPECT_THAT(named(), IsEmpty());
+    ranking_[drag].trained.effects = {&gap::effect_named("dropped_samples")};  // a fact of the log
+    EXPECT_THAT(named(), ElementsAre(drag));
+    ranking_[drag].trained.effects = {&gap::effect_named("quadratic_drag")};
+    ground_.study.base.refit = ground_.validation.base.refit = false;
+    EXPECT_THAT(named(), ElementsAre(drag));
+}
+
 TEST_F(Rules, ClearAdvantageOfAnEventIsNoneWhereAFormMayLeaveAsMuchItself) {
     const std::size_t jump = add({"missed_counts"}, 0.01, 50.0);
     beside_a_form();

@@ -42,7 +42,16 @@ bool follows_a_shape(const Evidence& evidence, std::size_t wider, std::size_t ch
            !adds_facts_alone(theirs, mine);
 }
 
+// What a fitted form leaves below what it may leave itself, however clean the readings, is no cause's but the log's.
+bool is_all_the_forms(const Evidence& evidence, std::size_t wider, std::size_t chosen) {
+    return evidence.beside_form() && evidence.gap(evidence.none()) < small_gap_of_clean_readings &&
+           !adds_facts_alone(evidence.ranking[wider].trained, evidence.ranking[chosen].trained);
+}
+
 bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
+    if (is_all_the_forms(evidence, wider, chosen)) {
+        return false;
+    }
     const double before = evidence.gap(chosen);
     const double taken = before - evidence.gap(wider);
     const std::size_t so_far = evidence.ranking[chosen].trained.effects.size();
