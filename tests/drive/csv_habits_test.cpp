@@ -141,6 +141,17 @@ TEST(LogHabits, ARowOfWordsIsNotOfUnits) {
     EXPECT_THAT(refusal("time_s,input,output\ns,V,mm\ns,V,mm\n0,1,2\n"), HasSubstr("l.csv:3: time_s"));
 }
 
+// What stands in brackets is a unit, be it one letter that no list knows; brackets around nothing are none.
+TEST(LogHabits, ARowOfBracketsIsOfUnits) {
+    const std::string readings = "0,0.5,1.5\n0.01,1,2\n0.02,-1.25,1e-3\n";
+    for (const char* units : {"-,[x],[y]\n", "-,(x),(y)\n", "-,[xy],-\n"}) {
+        expect_same("time_s,input,output\n" + (units + readings), "a row of units");
+    }
+    for (const char* words : {"-,[],[]\n", "-,(),()\n", "-,[x),(y]\n", "-,[,]\n"}) {
+        EXPECT_THAT(refusal("time_s,input,output\n" + (words + readings)), HasSubstr("l.csv:2: time_s"));
+    }
+}
+
 TEST(LogColumns, AreFoundByUsualNamesContractNamesWin) {
     const Log usual = drive::parse_log("Timestamp,cmd,Measured [rad],other\n0,1,2,3\n1,1,4,3\n", "l.csv");
     EXPECT_THAT(usual.output, ElementsAre(2, 4));

@@ -412,6 +412,10 @@ TEST(OpenCases, AreDrawnAgainWhereLittleShows) {
         const auto made = blind::make_open_case(plan, 31, number);
         EXPECT_GE(made.truth.left_on_validation, blind::least_left_on_validation) << number;
         EXPECT_GE(made.truth.left_in_training, blind::least_left_in_training) << number;
+        // It is what the base leaves less what it leaves without the effect, and the gap is what it leaves beside
+        // noise.
+        const double over_floor = made.truth.gap_base / made.truth.noise_floor;
+        EXPECT_LT(made.truth.left_on_validation, std::sqrt(over_floor * over_floor - 1.0) * (1.0 + 1e-9)) << number;
     }
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -71,6 +72,15 @@ TEST_F(Rules, WhatCanBeForeseenIsNoLevel) {
     const gap::Decision moved = after("what_can_be_foreseen", none);
     EXPECT_EQ(moved.outcome, Outcome::no_gap);
     EXPECT_THAT(moved.notes, testing::Contains(HasSubstr("the operating point's")));
+    // Worth a line is half of the gap: its square is then a third of the square about it.
+    const auto said = [&](double level) {
+        (void)share_at(level, 0.1);
+        const gap::Decision decision = after("what_can_be_foreseen", none);
+        return std::ranges::any_of(decision.notes,
+                                   [](const std::string& note) { return note.find("the level has moved") == 0; });
+    };
+    EXPECT_FALSE(said(0.0997 * std::tan(std::numbers::pi / 6.0)));
+    EXPECT_TRUE(said(0.1003 * std::tan(std::numbers::pi / 6.0)));
     // A quarter of the deviation is no weather; a given model has no operating point to move.
     EXPECT_NEAR(share_at(0.26, 0.1), 0.5, 1e-3);
     ground_.study.base.refit = false;
@@ -121,19 +131,19 @@ TEST_F(Rules, WhatCanBeForeseenBehindThreeEffectsIsTooMuch) {
 
 // So are two beside a fitted form that leave a quarter, half of whose squares can be foreseen.
 TEST_F(Rules, WhatCanBeForeseenBehindTwoEffectsIsHalfOfAQuarter) {
-    const std::size_t two = add({"quadratic_drag", "backlash"}, 0.252, 100.0);
-    const std::size_t one = add({"quadratic_drag"}, 0.252, 90.0);
+    const std::size_t two = add({"quadratic_drag", "backlash"}, 0.2505, 100.0);
+    const std::size_t one = add({"quadratic_drag"}, 0.2505, 90.0);
     const auto outcome = [&](std::size_t at, double share) {
         known_.remainders[at] = {share, true, {}};
         return after("what_can_be_foreseen", attributed(at)).outcome;
     };
-    EXPECT_EQ(outcome(two, 0.51), Outcome::unknown);  // of a model: a fortieth is too much
+    EXPECT_EQ(outcome(two, 0.501), Outcome::unknown);  // of a model: a fortieth is too much
     beside_a_form();
-    EXPECT_EQ(outcome(two, 0.51), Outcome::unknown);
-    EXPECT_EQ(outcome(two, 0.49), Outcome::attributed);
-    EXPECT_EQ(outcome(one, 0.51), Outcome::attributed);
-    ranking_[two].gap_after = 0.248;
-    EXPECT_EQ(outcome(two, 0.51), Outcome::attributed);
+    EXPECT_EQ(outcome(two, 0.501), Outcome::unknown);
+    EXPECT_EQ(outcome(two, 0.499), Outcome::attributed);
+    EXPECT_EQ(outcome(one, 0.501), Outcome::attributed);
+    ranking_[two].gap_after = 0.2495;
+    EXPECT_EQ(outcome(two, 0.501), Outcome::attributed);
 }
 
 // The surer, the more of what can be closed it is: from a half up to 0.95.

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -139,6 +140,23 @@ TEST(Search, OfTwoCausesTriesPairs) {
     // The whitener is the best one's: noise is white.
     EXPECT_NEAR(tried.found.whitener.deviation, 0.01, 0.001);
     EXPECT_NEAR(tried.found.whitener.stationary_deviation, 0.01, 0.001);
+}
+
+// What leads is two by validation and two by training: of seven effects these have 18 pairs at most. Five and five
+// where no single one leaves noise alone: then all 21.
+TEST(Search, TriesMorePairsWhereNoSingleLeavesNoise) {
+    const Names list = {"sensor_offset",  "sensor_drift", "backlash",       "gain_drift",
+                        "quadratic_drag", "supply_sag",   "input_dead_zone"};
+    const auto pairs = [&](double drift) {
+        const Tried tried = search({.truth = {{"sensor_offset", {0.3}}, {"sensor_drift", {drift}}}, .list = list});
+        const auto said =
+            std::ranges::find_if(tried.said, [](const std::string& what) { return what.ends_with(" pairs"); });
+        return said == tried.said.end() ? 0 : std::stoi(said->substr(std::string("fitting ").size()));
+    };
+    const int few = pairs(0.0);
+    EXPECT_GE(few, 11);  // of two leads
+    EXPECT_LE(few, 18);
+    EXPECT_EQ(pairs(0.02), 21);
 }
 
 // A special case says nothing beside what covers it.

@@ -68,4 +68,25 @@ TEST(Settle, LeavesWhatTrainingTells) {
 // Of a limit above all that training asks for nothing is known, and it may be none.
 TEST(Settle, LeavesWhatMayBeNone) { EXPECT_EQ(settled("input_saturation", {1.5}).numbers, 0U); }
 
+// A threshold below the lowest level that training asks for may be none, however well validation tells it.
+TEST(Settle, LeavesAThresholdThatMayBeNone) {
+    const gap::Effect& threshold = gap::effect_named("start_up_threshold");
+    const gap::Question question{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)),
+                                 true,
+                                 {read(stairs, threshold.name, {0.3, 1.0, 0.0}, 1)},
+                                 {read(chirp, threshold.name, {0.3, 1.0, 0.0}, 2)},
+                                 {},
+                                 gap::Metric::simulation,
+                                 {},
+                                 1};
+    const gap::Ground ground = gap::prepare(question);
+    gap::Candidate trained = gap::fit(ground.study, {&threshold}, ground.base, nullptr);
+    trained.lasting[0][1].value = 1.0;
+    trained.lasting[0][2].value = 0.0;
+    trained.lasting[0][0].value = 0.0;
+    const gap::Settled told = gap::settle(ground.study, ground.validation, trained);
+    EXPECT_EQ(told.numbers, 0U);
+    EXPECT_EQ(told.trained.lasting[0][0].value, 0.0);
+}
+
 }  // namespace
