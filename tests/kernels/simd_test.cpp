@@ -103,6 +103,41 @@ void check_slides_on_each(xsimd::arch_list<Architectures...>, std::size_t blocks
     (check(Architectures{}), ...);
 }
 
+// Long windows that begin anywhere between two lines of the processor's cache, where AVX-512 has a loop of its own for
+// each place. What lies beside the window, in the lines that it begins and ends in, is not in the sum.
+template <class T, bool fused, class... Architectures>
+void check_places_on_each(xsimd::arch_list<Architectures...>, std::size_t blocks) {
+    constexpr std::size_t block = 64 / sizeof(T);
+    std::mt19937 generator(7);
+    const auto draw = [&] { return static_cast<T>(generator()) / static_cast<T>(4294967296.0) - T(0.5); };
+    Table<T> a(blocks * block);
+    std::generate(a.begin(), a.end(), draw);
+    std::vector<T> x(a.size());
+    std::generate(x.begin(), x.end(), draw);
+    const T expected = test::in_the_stated_order<fused>({a.begin(), a.end()}, x);
+    const auto check = [&]<class Architecture>(Architecture) {
+        if (!is_here<Architecture>()) {
+            return;
+        }
+        for (std::size_t place = 0; place < block; ++place) {
+            Table<T> memory(a.size() + place + block, T(1e30));
+            std::copy(x.begin(), x.end(), memory.begin() + place);
+            ASSERT_EQ((glsum::simd_dot_on<T, fused, Architecture>(a.data(), memory.data() + place, blocks)), expected)
+                << Architecture::name() << (fused ? ", fused, " : ", ") << blocks << " blocks from " << place;
+        }
+    };
+    (check(Architectures{}), ...);
+}
+
+TEST(Simd, LongWindowsAddInTheStatedOrderWhereverTheyBegin) {
+    for (const std::size_t blocks : {51, 52, 53, 55, 56, 57, 58, 59, 60, 61, 95, 128}) {
+        check_places_on_each<float, false>(glsum::SimdArchitectures{}, blocks);
+        check_places_on_each<float, true>(glsum::SimdArchitectures{}, blocks);
+        check_places_on_each<double, false>(glsum::SimdArchitectures{}, blocks);
+        check_places_on_each<double, true>(glsum::SimdArchitectures{}, blocks);
+    }
+}
+
 // Accumulators that begin with 0: products of -0 add to 0, and not to -0.
 TEST(Simd, ASumOfNegativeZerosIsZeroOnEveryInstructionSet) {
     const auto check_zeros = []<class... Architectures>(xsimd::arch_list<Architectures...>) {
