@@ -73,6 +73,9 @@ bool takes_away(const Study& study, const Candidate& candidate, std::size_t effe
     return std::equal(a.begin(), a.end(), b.begin(), [&](double x, double y) { return std::fabs(x - y) < same; });
 }
 
+// A width found by likelihood has a deviation from there, and moves no residual.
+bool is_spread_told(const FreeParameter& width, double none) { return width.value - quantile * width.deviation > none; }
+
 bool holds(const FreeParameter& parameter, double value) { return parameter.low <= value && value <= parameter.high; }
 
 }  // namespace
@@ -103,6 +106,10 @@ std::string untold_of(const Study& study, const Candidate& candidate,
         }
         const std::vector<EffectParameter> named = effect.parameters(study.scales);
         const std::vector<FreeParameter>& numbers = candidate.lasting[lasting];
+        if (effect.only_spreads && !is_spread_told(numbers.front(), named.front().none)) {
+            return fmt::format("training leaves {} anywhere up to {:.4g}, where {:.4g} is no effect",
+                               numbers.front().name, numbers.front().upper, named.front().none);
+        }
         std::vector<std::size_t> free;
         std::vector<std::size_t> strengths;
         for (std::size_t i = 0; i < numbers.size(); ++i) {

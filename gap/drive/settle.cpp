@@ -13,22 +13,18 @@ constexpr int parts = 100;               // of a number's range
 constexpr double the_same = 1.0 + 1e-4;  // times the cost
 constexpr double wide = 0.02;            // of its range: less is no matter
 
-// How far towards a bound a number may go while training says nothing.
+// How far towards a bound a number may go while training says nothing. The bound itself is tried, too: it may be none.
 double as_far_as_untold(const Study& study, Candidate& candidate, FreeParameter& number, double bound) {
     const double value = number.value;
     const double step = (number.upper - number.lower) / parts * (bound > value ? 1.0 : -1.0);
     const double most = the_same * candidate.cost;
     double far = value;
     for (int i = 1; i <= parts; ++i) {
-        const double tried = value + i * step;
-        if (tried < number.lower || tried > number.upper) {
+        number.value = std::clamp(value + i * step, number.lower, number.upper);
+        if (number.value == far || !(cost_of(study, candidate, nullptr) <= most)) {
             break;
         }
-        number.value = tried;
-        if (!(cost_of(study, candidate, nullptr) <= most)) {
-            break;
-        }
-        far = tried;
+        far = number.value;
     }
     number.value = value;
     return far;

@@ -44,6 +44,19 @@ TEST(Untold, IsTheSizeOfAnEffectThatIsNot) {
     }
 }
 
+// A width moves no reading: its deviation is the likelihood's.
+TEST(Untold, IsAWidthOfJitterThatMayBeNone) {
+    const gap::Question question = gap_test::question_of({}, {.seed = 73}, {.seed = 74});
+    const gap::Ground ground = gap::prepare(question);
+    gap::Candidate candidate = gap::fit(ground.study, {&gap::effect_named("sampling_jitter")}, ground.base, nullptr);
+    gap::FreeParameter& width = candidate.lasting.front().front();
+    width.value = 1.98;
+    width.deviation = 1.0;
+    EXPECT_EQ(gap::untold_of(ground.study, candidate), "");
+    width.deviation = 1.02;
+    EXPECT_THAT(gap::untold_of(ground.study, candidate), StartsWith("training leaves sampling_jitter.half_width_s"));
+}
+
 // A step that only rises tells nothing of a lag downwards: whatever validation makes of it is a guess.
 TEST(Untold, IsALagInADirectionThatTrainingLacks) {
     const gap::Question question =

@@ -83,10 +83,13 @@ TEST(Settle, LeavesAThresholdThatMayBeNone) {
     gap::Candidate trained = gap::fit(ground.study, {&threshold}, ground.base, nullptr);
     trained.lasting[0][1].value = 1.0;
     trained.lasting[0][2].value = 0.0;
-    trained.lasting[0][0].value = 0.0;
-    const gap::Settled told = gap::settle(ground.study, ground.validation, trained);
-    EXPECT_EQ(told.numbers, 0U);
-    EXPECT_EQ(told.trained.lasting[0][0].value, 0.0);
+    // Wherever below the first level the fit has left it, on a hundredth of its range or between two.
+    for (const double left_at : {0.0, 0.1, 0.21, 0.3017, 0.38}) {
+        trained.lasting[0][0].value = left_at;
+        const gap::Settled told = gap::settle(ground.study, ground.validation, trained);
+        EXPECT_EQ(told.numbers, 0U) << left_at;
+        EXPECT_EQ(told.trained.lasting[0][0].value, left_at);
+    }
 }
 
 }  // namespace

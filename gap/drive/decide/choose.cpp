@@ -44,7 +44,7 @@ bool follows_a_shape(const Evidence& evidence, std::size_t wider, std::size_t ch
 
 // What a fitted form leaves below what it may leave itself, however clean the readings, is no cause's but the log's.
 bool is_all_the_forms(const Evidence& evidence, std::size_t wider, std::size_t chosen) {
-    return evidence.beside_form() && evidence.gap(evidence.none()) < small_gap_of_clean_readings &&
+    return evidence.beside_form() && evidence.gap(evidence.none()) < gap_without_causes &&
            !adds_facts_alone(evidence.ranking[wider].trained, evidence.ranking[chosen].trained);
 }
 
