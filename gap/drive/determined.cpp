@@ -15,7 +15,7 @@ constexpr double quantile = 1.96;  // of a normal deviation: 95 %
 constexpr double likely = 2.0;     // units of likelihood: 95 %
 constexpr int tries = 16;          // of a range, on each side
 
-constexpr double anywhere = 4.0;  // deviations: of noise, too, the best of all times is some
+constexpr double anywhere = 4.0;  // deviations: of noise, too, the best of all times or candidates is some
 
 double half_squares(const Study& study, const Candidate& candidate, const Whitener* whitener) {
     double sum = 0.0;
@@ -78,6 +78,12 @@ bool is_spread_told(const FreeParameter& width, double none) { return width.valu
 
 bool holds(const FreeParameter& parameter, double value) { return parameter.low <= value && value <= parameter.high; }
 
+// Whether chance, which has some hundred candidates to go by beside a fitted form, leaves a number as far from none.
+bool is_by_chance(const Study& study, const FreeParameter& parameter, double none) {
+    return study.base.refit && !parameter.moves_nothing &&
+           !(std::fabs(parameter.value - none) > anywhere * parameter.deviation);
+}
+
 }  // namespace
 
 void add_intervals(const Study& study, Candidate& candidate, const Whitener* whitener) {
@@ -122,13 +128,17 @@ std::string untold_of(const Study& study, const Candidate& candidate,
         }
         ++lasting;
         const std::vector<std::size_t>& asked = strengths.empty() ? free : strengths;
-        const bool told = asked.empty() || std::any_of(asked.begin(), asked.end(), [&](std::size_t i) {
-                              return !holds(numbers[i], named[i].none);
-                          });
+        const bool told =
+            asked.empty() || std::any_of(asked.begin(), asked.end(), [&](std::size_t i) {
+                return !holds(numbers[i], named[i].none) && !is_by_chance(study, numbers[i], named[i].none);
+            });
         if (!told && !(needed && needed(effect))) {
             const FreeParameter& first = numbers[asked.front()];
-            return fmt::format("training leaves {} anywhere between {:.4g} and {:.4g}, where {:.4g} is no effect",
-                               first.name, first.low, first.high, named[asked.front()].none);
+            const double none = named[asked.front()].none;
+            return fmt::format(
+                "training leaves {} anywhere between {:.4g} and {:.4g}, {}", first.name, first.low, first.high,
+                holds(first, none) ? fmt::format("where {:.4g} is no effect", none)
+                                   : "and of so many candidates some are as far from no effect by chance");
         }
     }
     return "";

@@ -57,6 +57,28 @@ TEST(Untold, IsAWidthOfJitterThatMayBeNone) {
     EXPECT_THAT(gap::untold_of(ground.study, candidate), StartsWith("training leaves sampling_jitter.half_width_s"));
 }
 
+// Beside a fitted form some hundred candidates are tried, and one that is two deviations from none is no rarity.
+TEST(Untold, IsWhatChanceLeavesAsFarFromNoneBesideAFittedForm) {
+    gap::Question question = gap_test::question_of({{"input_saturation.limit", 0.08}}, {.seed = 71}, {.seed = 72});
+    for (const bool refit : {false, true}) {
+        question.refit = refit;
+        const gap::Ground ground = gap::prepare(question);
+        gap::Candidate candidate = trained(ground, "quadratic_drag");
+        gap::FreeParameter& drag = candidate.lasting.front().front();
+        const auto told = [&](double deviations) {
+            drag.deviation = drag.value / deviations;
+            return gap::untold_of(ground.study, candidate).empty();
+        };
+        drag.value = 0.5;
+        drag.low = 0.4, drag.high = 0.6;
+        EXPECT_TRUE(told(4.04));
+        EXPECT_EQ(told(3.96), !refit);
+        // What moves nothing has no deviation, but an interval from what is as likely.
+        drag.moves_nothing = true;
+        EXPECT_TRUE(told(3.96));
+    }
+}
+
 // A step that only rises tells nothing of a lag downwards: whatever validation makes of it is a guess.
 TEST(Untold, IsALagInADirectionThatTrainingLacks) {
     const gap::Question question =

@@ -215,6 +215,12 @@ TEST_F(Rules, WhatIsNoNoiseBesideACauseIsAnotherCause) {
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::attributed);
     ranking_[jump].gap_after = 0.449;
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::unknown);
+    // Two fifths of what was let go, whose phase gathers what a period is off by.
+    ground_.study.scales.driven = false;
+    ranking_[jump].gap_after = 0.631;
+    EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::attributed);
+    ranking_[jump].gap_after = 0.634;
+    EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::unknown);
 }
 
 // Slow, and of no input: beside a fitted base that is what disturbs the plant.

@@ -68,9 +68,12 @@ bool is_slow(const Evidence& evidence, const Decision& decision) {
         return evidence.over_noise(after) > (after > small ? Evidence::usual_ratio : ratio_of_small);
     }
     // A given model is the drive's but for what is looked for; a form that was fitted to it has a few coefficients, and
-    // its own misfit stays.
+    // its own misfit stays. What was let go gathers it: of a period that is a little off the phase is more so each
+    // time.
     constexpr double share_of_a_model = 0.1;
-    const double share = evidence.beside_form() ? std::sqrt(rest_of_a_main_cause) : share_of_a_model;
+    constexpr double rest_of_free_motion = 0.4;
+    const double rest = evidence.study.scales.driven ? rest_of_a_main_cause : rest_of_free_motion;
+    const double share = evidence.beside_form() ? std::sqrt(rest) : share_of_a_model;
     if (!evidence.is_no_noise(after) || after < share * decision.base_gap) {
         return false;
     }
