@@ -73,8 +73,12 @@ bool takes_away(const Study& study, const Candidate& candidate, std::size_t effe
     return std::equal(a.begin(), a.end(), b.begin(), [&](double x, double y) { return std::fabs(x - y) < same; });
 }
 
-// A width found by likelihood has a deviation from there, and moves no residual.
-bool is_spread_told(const FreeParameter& width, double none) { return width.value - quantile * width.deviation > none; }
+// A width found by likelihood has a deviation from there, and moves no residual. One at the end of its range, an
+// interval, would have samples change places.
+bool is_spread_told(const FreeParameter& width, double none) {
+    constexpr double at_the_end = 0.95;
+    return width.value - quantile * width.deviation > none && width.value < at_the_end * width.upper;
+}
 
 bool holds(const FreeParameter& parameter, double value) { return parameter.low <= value && value <= parameter.high; }
 

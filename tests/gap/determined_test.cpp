@@ -50,10 +50,16 @@ TEST(Untold, IsAWidthOfJitterThatMayBeNone) {
     const gap::Ground ground = gap::prepare(question);
     gap::Candidate candidate = gap::fit(ground.study, {&gap::effect_named("sampling_jitter")}, ground.base, nullptr);
     gap::FreeParameter& width = candidate.lasting.front().front();
+    width.upper = 3.0;
     width.value = 1.98;
     width.deviation = 1.0;
     EXPECT_EQ(gap::untold_of(ground.study, candidate), "");
     width.deviation = 1.02;
+    EXPECT_THAT(gap::untold_of(ground.study, candidate), StartsWith("training leaves sampling_jitter.half_width_s"));
+    width.deviation = 0.01;
+    width.value = 2.84;
+    EXPECT_EQ(gap::untold_of(ground.study, candidate), "");
+    width.value = 2.86;
     EXPECT_THAT(gap::untold_of(ground.study, candidate), StartsWith("training leaves sampling_jitter.half_width_s"));
 }
 
