@@ -379,6 +379,12 @@ TEST(BoundFormula, OfAnAverage) {
     EXPECT_NEAR(average_error<Carries>(0.5, 1e-40) / carried(14.0 * u + 8.0 * u * u + least / 0.5 / 1e-40), 1.0, 1e-12);
     EXPECT_EQ(average_error<Stops>(0.5 * u, 1.0), std::numeric_limits<double>::infinity());
     EXPECT_TRUE(std::isfinite(average_error<Stops>(2.0 * u, 1.0)));
+    // Just beyond d = 1 already: A = d / (2 - d), f = 2 - d.
+    for (const double d : {1.001, 1.0099, 1.5}) {
+        const double reach = d / (2.0 - d);
+        const double once = 3.0 * u * reach * (1.0 + reach) + u * reach / (2.0 - d);
+        EXPECT_NEAR(average_error<Stops>(d, 1.0) / carried(once), 1.0, 1e-6) << d;
+    }
     EXPECT_NEAR((average_error<Sum<Modes, Plain, Q31>>(0.01, 0.25)), 0x1p-29 + 0x1p-32 / 0.01 / 0.25, 1e-20);
 }
 
