@@ -35,6 +35,9 @@ TEST(HostTiming, RepetitionsKeepTheirNameAndOrder) {
         if (order.empty() || order.back() != name) {
             order.push_back(name);
         }
+        // How often it ran is not in the name: only what an aggregate is of.
+        EXPECT_EQ(row.at("name"),
+                  row.at("run_type") == "iteration" ? name : name + '_' + row.at("aggregate_name").get<std::string>());
         if (row.at("run_type") == "iteration") {
             ++repetitions[name];
             // Some 2 ms, in whole turns of the ring.
