@@ -193,6 +193,14 @@ TEST(CheckedBits, RecordMeetsTheLimits) {
     spec.controller.high = 2.0;
     generate::SteppedController stepped(spec);
     const generate::CheckRecord record = generate::check_record();
+    ASSERT_EQ(record.setpoint.size(), 4000U);
+    ASSERT_EQ(record.measured.size(), 4000U);
+    for (std::size_t k = 0; k < 4000; ++k) {
+        // Levels of 0.1 to 1, and in the last quarter a hundred times those.
+        const float size = k < 3000 ? 1.0F : 100.0F;
+        EXPECT_GE(std::fabs(record.setpoint[k]), 0.1F * size) << k;
+        EXPECT_LE(std::fabs(record.setpoint[k]), size) << k;
+    }
     int low = 0;
     int high = 0;
     for (std::size_t k = 0; k < record.setpoint.size(); ++k) {
