@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
@@ -153,6 +154,44 @@ TEST(HorizonCase, ThePictureHasAPanelForEachOrderAndErrorWithEachWaysMultiplicat
     EXPECT_EQ(picture.script.find("\nset key"), picture.script.rfind("\nset key"));
     EXPECT_GT(picture.width, 2U * 260U);
     EXPECT_GT(picture.height, 3U * 230U);
+}
+
+// Margins and what lies between panels take as many pixels however many panels there are, and leave most to these.
+TEST(HorizonCase, ThePicturesMarginsDoNotGrowWithIt) {
+    struct Layout {
+        double left, right, bottom, top, across, down;  // pixels; between panels the last two
+        double width, height;
+    };
+    const auto layout_of = [](const std::vector<double>& orders) {
+        const HorizonCase one{0.5, 1e-3, 600, {}, {}, {}};
+        const base::Picture picture = bench::picture_of(orders, {one});
+        const auto wide = static_cast<double>(picture.width);
+        const auto tall = static_cast<double>(picture.height);
+        double right = 0.0;
+        double top = 0.0;
+        Layout found{};
+        const std::string margins = picture.script.substr(picture.script.find("margins"));
+        EXPECT_EQ(std::sscanf(margins.c_str(), "margins %lf,%lf,%lf,%lf spacing %lf,%lf", &found.left, &right,
+                              &found.bottom, &top, &found.across, &found.down),
+                  6);
+        return Layout{found.left * wide,
+                      (1.0 - right) * wide,
+                      found.bottom * tall,
+                      (1.0 - top) * tall,
+                      found.across * wide,
+                      found.down * tall,
+                      wide,
+                      tall};
+    };
+    const Layout few = layout_of({0.5});
+    const Layout many = layout_of({0.1, 0.3, 0.5, 0.7, 0.9});
+    for (const auto part :
+         {&Layout::left, &Layout::right, &Layout::bottom, &Layout::top, &Layout::across, &Layout::down}) {
+        EXPECT_NEAR(few.*part, many.*part, 0.2);
+        EXPECT_GT(few.*part, 10.0);
+    }
+    EXPECT_GT(many.width - many.left - many.right - 4.0 * many.across, 0.5 * many.width);
+    EXPECT_GT(many.height - many.bottom - many.top - 2.0 * many.down, 0.5 * many.height);
 }
 
 // a_0 ... of an order: what the sums are made of.
