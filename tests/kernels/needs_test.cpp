@@ -2,6 +2,7 @@
 // themselves.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -335,6 +336,28 @@ TEST(Gain, ShiftsAsFarAsThereIsAnything) {
     // Half a unit of the mantissa goes up.
     EXPECT_EQ(make_gain(1.0 + 0x1p-31).mantissa, (1 << 30) + 1);
     EXPECT_EQ(make_gain(1.0 + 0x1.8p-32).mantissa, 1 << 30);
+}
+
+// What a buffer of so many taps takes at most is what the hungriest number of modes takes: no more, and no less.
+template <class K>
+void expect_enough_for_any_modes() {
+    for (std::size_t taps = 1; taps < 40; ++taps) {
+        std::size_t table = 0;
+        std::size_t past = 0;
+        for (std::size_t modes = 0; modes <= (taps - 1) / 2; ++modes) {
+            table = std::max(table, K::table_count(taps, modes));
+            past = std::max(past, K::past_count(taps, modes));
+        }
+        EXPECT_EQ(K::table_count(taps), table) << K::name() << ' ' << taps;
+        EXPECT_EQ(K::past_count(taps), past) << K::name() << ' ' << taps;
+    }
+}
+
+TEST(Needs, OfSoManyTapsAreThoseOfTheHungriestModes) {
+    expect_enough_for_any_modes<Sum<Cascade, DirectForm2Transposed, F32>>();
+    expect_enough_for_any_modes<Sum<Cascade, glsum::DirectForm1, Q31>>();
+    expect_enough_for_any_modes<Sum<Modes, Plain, F32>>();
+    expect_enough_for_any_modes<Sum<Modes, Plain, Q31>>();
 }
 
 }  // namespace
