@@ -129,9 +129,9 @@ TEST_F(Rules, ClearAdvantageIsNoneWhereCleanReadingsLeaveAFormAsLittle) {
     const std::size_t drag = add({"quadratic_drag"}, 0.002, 50.0);
     const auto named = [&] { return after("clear_advantage").effects; };
     beside_a_form();
-    ranking_[0].gap_after = 0.00502;
+    ranking_[0].gap_after = 0.00702;
     EXPECT_THAT(named(), ElementsAre(drag));
-    ranking_[0].gap_after = 0.00498;
+    ranking_[0].gap_after = 0.00698;
     EXPECT_THAT(named(), IsEmpty());
     EXPECT_EQ(after("clear_advantage").outcome, Outcome::no_gap);
     ranking_[drag].trained.effects = {&gap::effect_named("sampling_jitter")};

@@ -80,7 +80,7 @@ constexpr double clear_advantage = 8.0;
 constexpr double small_gap_of_a_form = 0.0447;
 /// and less than that, an eightieth of the deviation, where clean readings show it.
 constexpr double small_gap_of_clean_readings = 0.0125;
-/// A cause may still be told in it; in half a hundredth it is the log's.
-constexpr double gap_without_causes = 0.005;
+/// A cause may still be told in it; in 0.7 % it is the log's.
+constexpr double gap_without_causes = 0.007;
 
 }  // namespace gap
