@@ -13,11 +13,8 @@ namespace glsum {
 template <class Technique, class Format>
 Status Sum<Cascade, Technique, Format>::prepare(State& state, const Design& design, std::span<Coefficient> table,
                                                 std::span<Sample> past) {
-    if (!order_in_range(design.order)) {
-        return Status::order_out_of_range;
-    }
-    if (design.taps == 0) {
-        return Status::no_taps;
+    if (const Status status = order_and_taps_in_range(design); status != Status::ok) {
+        return status;
     }
     const std::size_t modes = design.modes.size();
     if (modes > (design.taps - 1) / 2) {
@@ -32,15 +29,15 @@ Status Sum<Cascade, Technique, Format>::prepare(State& state, const Design& desi
             return Status::modes_out_of_range;
         }
     }
+    // Before anything that takes as long as the design is: what has no room is refused at once.
+    if (const Status status = buffers_in_range(design, table.size(), table_count(design.taps, modes), past.size(),
+                                               past_count(design.taps, modes));
+        status != Status::ok) {
+        return status;
+    }
     const double last = last_near_tap(design);
     if (modes != 0 && !Series(design.modes, last).interlaces()) {
         return Status::modes_out_of_range;
-    }
-    if (design.taps > std::numeric_limits<std::uint32_t>::max() / 4 || table.size() < table_count(design.taps, modes)) {
-        return Status::table_too_small;
-    }
-    if (past.size() < past_count(design.taps, modes)) {
-        return Status::past_too_small;
     }
     int scale_bits = 0;
     if (!for_each_section<Format>(design, [&](const HeldSection& held, const SectionPlace& place) {
