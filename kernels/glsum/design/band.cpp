@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <utility>
@@ -23,7 +24,7 @@ Vector spread(const DerivativeGoal& goal, Eigen::Index modes, double slow, doubl
     const double high = goal.band ? 2.0 * std::numbers::pi * goal.band->high_hz * goal.step_s : 0.1;
     const double last = std::log(std::min(0.7, fast * high));
     const double first = std::min(std::log(slow * goal.step_s / longest_s), last - 0.1);
-    return modes == 1 ? Vector::Constant(1, 0.5 * (first + last)) : Vector::LinSpaced(modes, first, last).eval();
+    return modes == 1 ? Vector::Constant(1, std::midpoint(first, last)) : Vector::LinSpaced(modes, first, last).eval();
 }
 
 // What rounding is multiplied by: the magnitudes of all coefficients in units of the first, a mode's by the range of
