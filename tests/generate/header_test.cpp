@@ -65,23 +65,6 @@ TEST(Header, BoundsAreTheKernelsRoundedUp) {
     }
 }
 
-// Inputs are repeated past twice the window, so that each history wraps, and two turns more.
-TEST(Header, ItsSelfCheckRunsPastTwiceTheWindow) {
-    for (const std::size_t taps : {2U, 50U, 300U, 2000U}) {
-        const std::string text = header("ring_plain_f32", 0.5, taps);
-        const auto number_behind = [&](const std::string& words) {
-            const std::size_t at = text.find(words);
-            EXPECT_NE(at, std::string::npos) << words;
-            return std::stoul(text.substr(at + words.size()));
-        };
-        const std::size_t turn = number_behind("_check_input[");
-        const std::size_t steps = number_behind("Runs ");
-        EXPECT_EQ(steps % turn, 0U);
-        EXPECT_GT(steps - 2 * turn, 2 * taps) << turn;
-        EXPECT_LE(steps - 3 * turn, 2 * taps) << turn;
-    }
-}
-
 // Of all weights the magnitudes sum up to 2 for 0 < v <= 1 and to 2 v above, so that is what a window leaves out.
 TEST(Header, WhatAWindowLeavesOutIsTheRestOfTheSum) {
     const auto left = [](double all, double order, std::size_t taps, double largest) {
