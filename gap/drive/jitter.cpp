@@ -143,16 +143,27 @@ void fit_jitter(const Study& study, Candidate& candidate, const Whitener& whiten
         return;
     }
     // 95 %: where the logarithm of the likelihood has fallen by 1.92.
-    const double width = (*jitter)[0].value;
-    double low = width;
-    double high = width;
-    while (low > 1e-3 * width && likelihood(low, (*jitter)[1].value) > best - 1.92) {
+    constexpr double fall = 1.92;
+    FreeParameter& width = (*jitter)[0];
+    FreeParameter& share = (*jitter)[1];
+    double low = width.value;
+    double high = width.value;
+    while (low > 1e-3 * width.value && likelihood(low, share.value) > best - fall) {
         low *= 0.98;
     }
-    while (high < 3.0 * width && likelihood(high, (*jitter)[1].value) > best - 1.92) {
+    while (high < 3.0 * width.value && likelihood(high, share.value) > best - fall) {
         high *= 1.02;
     }
-    (*jitter)[0].deviation = 0.5 * (high - low) / 1.96;
+    width.deviation = 0.5 * (high - low) / 1.96;
+    width.low = low;
+    width.high = std::min(high, width.upper);
+    share.low = share.high = share.value;
+    for (const double tried : shares) {
+        if (likelihood(width.value, tried) > best - fall) {
+            share.low = std::min(share.low, tried);
+            share.high = std::max(share.high, tried);
+        }
+    }
 }
 
 std::vector<double> without_jitter(const Study& study, const Candidate& candidate, std::size_t record,

@@ -480,7 +480,16 @@ TEST(Jitter, IsAsWideAsIsMostLikely) {
             return factor;
         };
         const double expected = 0.5 * (falls(1.001) - falls(0.999)) * jitters.width() / 1.96;
-        EXPECT_NEAR(jitters.candidate.lasting[0][0].deviation, expected, 0.2 * expected) << noise;
+        const gap::FreeParameter& width = jitters.candidate.lasting[0][0];
+        EXPECT_NEAR(width.deviation, expected, 0.2 * expected) << noise;
+        EXPECT_NEAR(width.low, falls(0.999) * width.value, 0.02 * width.value) << noise;
+        EXPECT_NEAR(width.high, falls(1.001) * width.value, 0.02 * width.value) << noise;
+        const gap::FreeParameter& share = jitters.candidate.lasting[0][1];
+        EXPECT_GT(share.low, 0.0) << noise;
+        EXPECT_LE(share.low, share.value) << noise;
+        EXPECT_GE(share.high, share.value) << noise;
+        EXPECT_GT(likelihood_of(jitters, width.value, share.low), best - 1.92) << noise;
+        EXPECT_GT(likelihood_of(jitters, width.value, share.high), best - 1.92) << noise;
     }
 }
 
