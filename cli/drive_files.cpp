@@ -75,7 +75,7 @@ void warn_if_unstable(const drive::Model& model, const std::string& name) {
 gap::Improved simulate_effects(const drive::Model& model, const drive::Log& log, const std::string& name) {
     gap::Record record{log.name, log.time_s, log.input, {}, 0.0, log.more_inputs};
     record.usual_interval_s = (log.time_s.back() - log.time_s.front()) / static_cast<double>(log.time_s.size() - 1);
-    return gap::simulate_improved(model, record, name);
+    return gap::simulate_improved(model, std::move(record), name);
 }
 
 void add_column_options(Command& command, drive::Columns& columns) {

@@ -61,7 +61,7 @@ void run(const Options& options) {
         const drive::Model model = read_model(path);
         const gap::Improved improved = simulate_effects(model, from_start, path.string());
         add(path.string(),
-            improved.effects.empty()
+            improved.output.empty()
                 ? drive::respond(model, drive::changes_of(from_start.time_s, log.input), from_start.time_s)
                 : improved.output);
     }

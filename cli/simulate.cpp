@@ -89,15 +89,17 @@ drive::Log make_record(const Options& options, double step_s) {
     return record;
 }
 
-// A model that diagnose improved: its effects are simulated with it. \return  whether it has any
+// A model that diagnose improved: its effects are simulated with it, about its operating point. \return  whether it is
+// one
 bool tell_of_effects(const drive::Model& model, drive::Log record, const Options& options) {
     const gap::Improved improved = simulate_effects(model, record, options.model.string());
-    if (improved.effects.empty()) {
+    if (improved.output.empty()) {
         return false;
     }
     record.output = improved.output;
     drive::SimulationReport report;
-    report.method = fmt::format("with {}", fmt::join(improved.effects, ", "));
+    report.method = improved.effects.empty() ? "about its operating point"
+                                             : fmt::format("with {}", fmt::join(improved.effects, ", "));
     report.record = record;
     fmt::print("{}", drive::to_text(report, model));
     if (!options.out.empty()) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/failure.hpp"
+#include "gap/drive/base/idle.hpp"
 #include "gap/drive/coverage.hpp"
 #include "gap/drive/decide/evidence.hpp"
 #include "gap/drive/determined.hpp"
@@ -26,12 +27,13 @@ Where where_of(const Study& validation, const Ranked& none, const std::vector<Re
 }
 
 std::vector<std::string> extrapolated_by(const Question& question, const Study& study, const Study& validation) {
+    const std::vector<Record> train = as_logged(question.train, question.idle_input);
     if (!question.validate.empty()) {
-        return extrapolated(question.train, question.validate);
+        return extrapolated(train, as_logged(question.validate, question.idle_input));
     }
     // What is kept aside block by block lies between what was fitted.
-    return question.split_s ? extrapolated(counted_stretches(question.train, study.counts),
-                                           counted_stretches(question.train, validation.counts))
+    return question.split_s ? extrapolated(counted_stretches(train, study.counts),
+                                           counted_stretches(train, validation.counts))
                             : std::vector<std::string>{};
 }
 
@@ -73,7 +75,8 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     answer.ranking = std::move(all.ranking);
     answer.whitener = all.whitener;
     answer.split = split;
-    answer.records = split ? question.train : question.validate;
+    answer.idle_input = question.idle_input;
+    answer.records = as_logged(split ? question.train : question.validate, question.idle_input);
     answer.metric = study.horizon > 0 ? fmt::format("prediction {:.4g} s ahead",
                                                     static_cast<double>(study.horizon) * study.scales.interval_s)
                                       : "simulation";
@@ -115,6 +118,12 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     answer.next_experiment = std::move(proposal.text);
     answer.next_record = std::move(proposal.record);
     answer.notes = ground.found.notes;
+    if (answer.idle_input != 0.0) {
+        answer.notes.push_back(
+            fmt::format("at an input of {:.6g}, the least, the output rests at 0: inputs, and so limits, widths and "
+                        "thresholds of causes, are counted from there",
+                        answer.idle_input));
+    }
     answer.notes.insert(answer.notes.end(), answer.decision.notes.begin(), answer.decision.notes.end());
     answer.linear_share = linear_share_of(answer.none().gap_after);
     return answer;

@@ -33,6 +33,7 @@ struct Answer {
     [[nodiscard]] drive::Model model_of(const Candidate& candidate) const;
     std::optional<drive::Form> form;
     bool refit = false;
+    double idle_input = 0.0;              ///< Base::idle_input: the numbers of effects are counted from it, too
     std::string base_name;                ///< of a base that was found or fitted; empty: a model was given
     double linear_share = 0.0;            ///< of the validation output's variance, by the best linear description
     std::vector<Described> descriptions;  ///< of a base that was looked for, the best first

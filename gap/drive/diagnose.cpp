@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/failure.hpp"
+#include "gap/drive/base/idle.hpp"
 #include "gap/drive/beside_found_base.hpp"
 #include "gap/drive/beside_simulation.hpp"
 
@@ -29,6 +30,9 @@ Answer diagnose(Question question, const std::function<void(const std::string&)>
     check_simulated(question);
     if (!question.train.front().simulated.empty()) {
         return answer_beside_simulation(std::move(question), say);
+    }
+    if (question.find || question.refit) {
+        question = counted_from_idle(std::move(question));
     }
     if (question.find) {
         return answer_beside_found_base(std::move(question), say);

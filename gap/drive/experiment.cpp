@@ -102,7 +102,8 @@ std::vector<Trial> trials_of(const Study& study) {
     } else {
         const double low = lowest_input(study);
         for (const Excitation& excitation : excitations(scales.time_constant_s, scales.length_s)) {
-            trials.push_back({fmt::format("{} from {:.4g} to {:.4g}", excitation.text, low, scales.input_max),
+            const double idle = study.base.idle_input;
+            trials.push_back({fmt::format("{} from {:.4g} to {:.4g}", excitation.text, low + idle, scales.input_max + idle),
                               record_of(excitation, study, low)});
         }
     }
@@ -256,7 +257,13 @@ std::string to_text(std::vector<Narrower> all) {
     return fmt::format("{}", fmt::join(words, ", "));
 }
 
-NextRecord drawn_of(const Trial& trial) { return {trial.text, trial.record.time_s, trial.record.input, {}}; }
+NextRecord drawn_of(const Study& study, const Trial& trial) {
+    NextRecord drawn{trial.text, trial.record.time_s, trial.record.input, {}};
+    for (double& u : drawn.input) {
+        u += study.base.idle_input;
+    }
+    return drawn;
+}
 
 const char* const other_record = "a record at other levels and speeds, as a test of the size found here";
 const char* const same_record =
@@ -284,7 +291,7 @@ Proposal part(const Study& study, const std::vector<const Candidate*>& alternati
         }
         double nearest = std::numeric_limits<double>::infinity();
         std::string which;
-        NextRecord next = drawn_of(trial);
+        NextRecord next = drawn_of(study, trial);
         next.outputs.emplace_back(alternatives.front()->name(), record.output);
         for (std::size_t i = 1; i < std::min(alternatives.size(), most_alternatives); ++i) {
             const Candidate start = begun(then, *alternatives[i], trial);
@@ -355,7 +362,7 @@ Proposal sharpen(const Study& study, const Candidate& named, const Whitener& whi
             best = factor;
             proposal.text = fmt::format("{}, beside what there is: {}; by the slopes of what is simulated", trial.text,
                                         to_text(all));
-            proposal.record = drawn_of(trial);
+            proposal.record = drawn_of(study, trial);
             proposal.record->outputs.emplace_back(named.name(), then->output);
         }
     }

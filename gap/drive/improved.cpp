@@ -34,6 +34,16 @@ Contracted contracted_of(const Json& parameters, const std::string& name) {
     return contracted;
 }
 
+double number_or_zero(const Json& notes, const char* field, const std::string& name) {
+    if (!notes.contains(field)) {
+        return 0.0;
+    }
+    if (!notes[field].is_number()) {
+        refuse(fmt::format("{}: {}: expected a number", name, field));
+    }
+    return notes[field].get<double>();
+}
+
 std::vector<double> values_of(const Effect& effect, const Json& parameters, const std::string& name) {
     const Contracted contracted = contracted_of(parameters, name);
     try {
@@ -45,7 +55,7 @@ std::vector<double> values_of(const Effect& effect, const Json& parameters, cons
 
 }  // namespace
 
-Improved simulate_improved(const drive::Model& model, const Record& record, const std::string& name) {
+Improved simulate_improved(const drive::Model& model, Record record, const std::string& name) {
     Improved result;
     const Json notes = model.notes.empty() ? Json::object() : Json::parse(model.notes);
     if (!notes.contains("effects")) {
@@ -54,14 +64,12 @@ Improved simulate_improved(const drive::Model& model, const Record& record, cons
     if (!notes["effects"].is_array()) {
         refuse(fmt::format("{}: effects: expected an array", name));
     }
+    if (notes["effects"].empty() && !notes.contains("operating_output") && !notes.contains("idle_input")) {
+        return result;
+    }
     Scenario scenario;
     scenario.model = model;
-    if (notes.contains("operating_output")) {
-        if (!notes["operating_output"].is_number()) {
-            refuse(fmt::format("{}: operating_output: expected a number", name));
-        }
-        scenario.operating_output = notes["operating_output"].get<double>();
-    }
+    scenario.operating_output = number_or_zero(notes, "operating_output", name);
     Scenario plain = scenario;
     for (const Json& one : notes["effects"]) {
         if (!one.is_object() || !one.contains("effect") || !one["effect"].is_string() || !one.contains("parameters") ||
@@ -72,6 +80,10 @@ Improved simulate_improved(const drive::Model& model, const Record& record, cons
         const Effect& effect = effect_named(one["effect"].get<std::string>());
         effect.add_to(scenario, values_of(effect, one["parameters"], name));
         result.effects.push_back(effect.name);
+    }
+    const double idle_input = number_or_zero(notes, "idle_input", name);
+    for (double& u : record.input) {
+        u -= idle_input;
     }
     const auto [low, high] = std::minmax_element(record.input.begin(), record.input.end());
     const double size = std::max(std::abs(*low), std::abs(*high)) * std::abs(model.gain);

@@ -10,13 +10,14 @@
 namespace gap {
 
 struct Improved {
-    std::vector<std::string> effects;  ///< empty: the file has none
-    std::vector<double> output;        ///< at the record's stamps
+    std::vector<std::string> effects;
+    std::vector<double> output;  ///< at the record's stamps; empty: the file has neither effects nor a point to be about
 };
 
-/// \param model  with fields `effects` ([{"effect", "parameters": {}}]) and `operating_output` among its notes
+/// \param model  with fields `effects` ([{"effect", "parameters": {}}]) and `operating_output`, and `idle_input`,
+/// which the record's input is counted from, among its notes
 /// From rest. \throws glsum::Failure (bad input) naming the field: no such effect, a parameter that is missing, unknown
 /// or no number. \param name  begins the message
-[[nodiscard]] Improved simulate_improved(const drive::Model& model, const Record& record, const std::string& name);
+[[nodiscard]] Improved simulate_improved(const drive::Model& model, Record record, const std::string& name);
 
 }  // namespace gap

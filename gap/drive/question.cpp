@@ -44,6 +44,7 @@ Study make_study(const Question& question, const std::vector<Record>& records, s
     plain.operating_output = question.operating_output;
     study.base.operating_output = question.operating_output;
     study.base.from_no_input = question.from_no_input;
+    study.base.idle_input = question.idle_input;
     for (const Record& record : records) {
         study.courses.push_back(make_course(record, plain, 0.3 * std::max(found.noise, least)));
         if (!record.simulated.empty()) {

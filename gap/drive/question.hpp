@@ -28,6 +28,7 @@ struct Question {
     bool metric_free = false;              ///< predictions where the base that is found rests nowhere
     bool past_clips = false;               ///< what a sensor's end holds is not counted: a base is looked for
     bool from_no_input = false;            ///< Base::from_no_input
+    double idle_input = 0.0;               ///< Base::idle_input
     std::optional<double> horizon_s = {};  ///< of predictions; a fiftieth of the record unless it is given
 };
 

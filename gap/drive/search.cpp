@@ -24,6 +24,8 @@ constexpr std::size_t eventful_finalists_beside_a_form = 2;
 constexpr double hopeless_beside_a_form = 0.97;
 constexpr double too_far = 4.0;       // from the best single's cost
 constexpr std::size_t finalists = 8;  // pairs, and triples, that are fitted to the end
+constexpr std::size_t most_rivals = 3;
+constexpr Effort effects_alone{0, 1, 0};
 constexpr Effort quick{3, 1, 6};
 // Real rigs have several causes at once; beside a model that is given more than three are an expansion of something
 // else.
@@ -99,8 +101,15 @@ public:
                 }
             }
         }
+        if (of_.ground.study.base.refit && !found_.ranking.front().trained.effects.empty()) {
+            take(rivals());
+            renew_whitener();
+        }
         for (std::size_t size = 2; of_.ground.study.base.refit && has_sized(size); ++size) {
             take(simplified(size));
+        }
+        if (of_.ground.study.base.refit && quantum_shows()) {
+            take(with_steps());
         }
         take(with_jitter());
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
@@ -128,6 +137,26 @@ private:
             return set.has_events() ? ++eventful > eventful_finalists_beside_a_form
                                     : ++lasting[lead] > finalists_of_a_lead_beside_a_form;
         });
+    }
+
+    // That readings are multiples of a coarse step is seen, not guessed: it is asked for beside the best of each size,
+    // whatever squares it has at the start, since a sum of squares has a jump wherever a reading takes the next step.
+    [[nodiscard]] std::vector<Candidate> with_steps() const {
+        std::vector<Candidate> stepped;
+        for (const Effect* effect : of_.ground.list) {
+            for (std::size_t size = 1; effect->rounds && size <= 2 && has_sized(size); ++size) {
+                const auto best = std::find_if(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
+                    return ranked.trained.effects.size() == size && !ranked.trained.any(&Effect::rounds) &&
+                           !ranked.trained.any(&Effect::only_spreads);
+                });
+                if (best != found_.ranking.end()) {
+                    Effects wider = best->trained.effects;
+                    wider.push_back(effect);
+                    stepped.push_back(fit(of_.ground.study, wider, best->trained, fits_by()));
+                }
+            }
+        }
+        return stepped;
     }
 
     // Jitter moves no reading, so it changes no other effect's fit: it is asked for once, beside the best of each size.
@@ -244,6 +273,39 @@ private:
         base::parallel_for(simpler.size(), of_.jobs,
                            [&](std::size_t i) { fitted[i] = fit(of_.ground.study, simpler[i], best, fits_by()); });
         return fitted;
+    }
+
+    // Of the best set each effect exchanged for each that acts at its place, from where the best one stands: what looks
+    // alike is not to lose because it began further away.
+    std::vector<Candidate> rivals() const {
+        const Candidate& best = found_.ranking.front().trained;
+        std::vector<Effects> all;
+        for (std::size_t i = 0; i < best.effects.size(); ++i) {
+            for (const Effect* other : of_.ground.list) {
+                Effects effects = best.effects;
+                effects[i] = other;
+                if (best.effects[i]->kind == Kind::lasting && other->kind == Kind::lasting &&
+                    other->place == best.effects[i]->place && !other->only_spreads && !other->rounds &&
+                    !best.has(other->name) && !nested({best.effects[i]}, *other)) {
+                    all.push_back(std::move(effects));
+                }
+            }
+        }
+        of_.say(fmt::format("fitting {} rivals", all.size()));
+        std::vector<Candidate> close = fitted(all, {&best}, fits_by(), quick);
+        std::stable_sort(close.begin(), close.end(), by_cost);
+        close.resize(std::min(close.size(), most_rivals));
+        const std::size_t rivals = close.size();
+        for (std::size_t i = 0; i < rivals; ++i) {
+            close.push_back(close[i]);
+            close.back().base = best.base;
+        }
+        // Twice: with a base of their own, and beside the best one's, of which training may leave some numbers open.
+        base::parallel_for(close.size(), of_.jobs, [&](std::size_t i) {
+            close[i] =
+                fit(of_.ground.study, close[i].effects, close[i], fits_by(), i < rivals ? Effort{} : effects_alone);
+        });
+        return close;
     }
 
     [[nodiscard]] bool is_known(const Effects& effects) const {

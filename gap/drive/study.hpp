@@ -18,6 +18,7 @@ struct Base {
     bool refit = false;
     double operating_output = 0.0;  ///< of a model that is not refitted
     bool from_no_input = false;     ///< a record's input before it is begun at 0, and not at the record's first level
+    double idle_input = 0.0;        ///< the logged level that inputs are counted from
 };
 
 struct Study {

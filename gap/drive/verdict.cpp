@@ -98,7 +98,8 @@ BaseOfDrive told_base(const Answer& answer) {
     const Candidate& chosen = answer.chosen().trained;
     const drive::Model model = answer.model_of(chosen);
     BaseOfDrive base{
-        answer.base_name, drive::to_text(model), drive::to_text(rounded(model)), answer.linear_share, {}, {}, {}};
+        answer.base_name, drive::to_text(model), drive::to_text(rounded(model)), answer.linear_share, answer.idle_input,
+        {}, {}, {}};
     for (const FreeParameter& parameter : chosen.base) {
         const Fitted fitted = fitted_of(parameter);
         base.parameters.push_back({parameter.name, parameter.value, {{fitted.low, fitted.high}}});
@@ -107,7 +108,8 @@ BaseOfDrive told_base(const Answer& answer) {
     for (std::size_t r = 0; r < own.size() && r < answer.records.size() && !own[r].empty(); ++r) {
         base.records.push_back({answer.records[r].name, {}});
         for (const FreeParameter& parameter : own[r]) {
-            base.records.back().numbers.emplace_back(parameter.name, parameter.value);
+            const double from = parameter.name == "input_before" ? answer.idle_input : 0.0;
+            base.records.back().numbers.emplace_back(parameter.name, parameter.value + from);
         }
     }
     for (const Described& one : answer.descriptions) {
@@ -185,6 +187,9 @@ std::string improved_model(const Answer& answer) {
     }
     if (answer.refit) {
         model["operating_output"] = chosen.candidate.own.front().front().value;
+        if (answer.idle_input != 0.0) {
+            model["idle_input"] = answer.idle_input;
+        }
     }
     return model.dump(2) + "\n";
 }

@@ -112,6 +112,9 @@ Json json_of(const BaseOfDrive& base) {
               {"parameters", values_json(base.parameters)},
               {"interval", intervals_of(base.parameters)},
               {"linear_share", base.linear_share}};
+    if (base.idle_input != 0.0) {
+        json["idle_input"] = base.idle_input;
+    }
     for (const auto& record : base.records) {
         Json numbers = Json::object();
         for (const auto& [name, value] : record.numbers) {

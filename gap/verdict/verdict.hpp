@@ -48,6 +48,7 @@ struct BaseOfDrive {
     std::string model;                ///< its equation
     std::string in_short;             ///< the same with four digits
     double linear_share;              ///< of the validation output's variance, by the best linear description
+    double idle_input;                ///< the logged level that inputs and the numbers of causes are counted from
     std::vector<Written> parameters;  ///< with intervals of 95 %
     struct Record {
         std::string name;

@@ -256,4 +256,33 @@ TEST(GapContract, AnEffectSaysWhatItIs) {
     EXPECT_THROW((void)gap::domain_named("chemical"), glsum::Failure);
 }
 
+// A fitted base without causes is about its operating point, too; a model that has neither is simulated as any other.
+TEST(GapContract, AnImprovedModelIsAboutItsPoint) {
+    drive::Model model;
+    model.denominator = {{1.0, 1.0}, {1.0, 0.0}};
+    model.gain = 2.0;
+    gap::Record record{"log", {}, {}, {}, 0.1};
+    for (int k = 0; k < 400; ++k) {
+        record.time_s.push_back(0.1 * k);
+        record.input.push_back(1003.0);
+    }
+    model.notes = R"({"effects": []})";
+    EXPECT_THAT(gap::simulate_improved(model, record, "m.json").output, testing::IsEmpty());
+    model.notes = R"({"effects": [], "operating_output": 5, "idle_input": 1000})";
+    EXPECT_NEAR(gap::simulate_improved(model, record, "m.json").output.back(), 5.0 + 2.0 * 3.0, 1e-6);
+    model.notes = R"({"effects": [], "idle_input": 1001})";
+    EXPECT_NEAR(gap::simulate_improved(model, record, "m.json").output.back(), 2.0 * 2.0, 1e-6);
+    model.notes = R"({"effects": [{"effect": "input_saturation", "parameters": {"limit": 1}}], "idle_input": 1000})";
+    EXPECT_NEAR(gap::simulate_improved(model, record, "m.json").output.back(), 2.0, 1e-6);
+    for (const char* field : {"idle_input", "operating_output"}) {
+        model.notes = fmt::format(R"({{"effects": [], "{}": "x"}})", field);
+        try {
+            (void)gap::simulate_improved(model, record, "m.json");
+            ADD_FAILURE() << field;
+        } catch (const glsum::Failure& failure) {
+            EXPECT_THAT(failure.what(), HasSubstr(fmt::format("m.json: {}: expected a number", field)));
+        }
+    }
+}
+
 }  // namespace
