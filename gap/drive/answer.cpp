@@ -32,9 +32,9 @@ std::vector<std::string> extrapolated_by(const Question& question, const Study& 
         return extrapolated(train, as_logged(question.validate, question.idle_input));
     }
     // What is kept aside block by block lies between what was fitted.
-    return question.split_s ? extrapolated(counted_stretches(train, study.counts),
-                                           counted_stretches(train, validation.counts))
-                            : std::vector<std::string>{};
+    return question.split_s
+               ? extrapolated(counted_stretches(train, study.counts), counted_stretches(train, validation.counts))
+               : std::vector<std::string>{};
 }
 
 Proposal proposed(const Answer& answer, const Study& study, const Audit& found) {

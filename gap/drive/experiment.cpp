@@ -103,8 +103,9 @@ std::vector<Trial> trials_of(const Study& study) {
         const double low = lowest_input(study);
         for (const Excitation& excitation : excitations(scales.time_constant_s, scales.length_s)) {
             const double idle = study.base.idle_input;
-            trials.push_back({fmt::format("{} from {:.4g} to {:.4g}", excitation.text, low + idle, scales.input_max + idle),
-                              record_of(excitation, study, low)});
+            trials.push_back(
+                {fmt::format("{} from {:.4g} to {:.4g}", excitation.text, low + idle, scales.input_max + idle),
+                 record_of(excitation, study, low)});
         }
     }
     std::erase_if(trials, [](const Trial& trial) { return trial.record.size() < 32; });

@@ -11,7 +11,8 @@ namespace gap {
 
 struct Improved {
     std::vector<std::string> effects;
-    std::vector<double> output;  ///< at the record's stamps; empty: the file has neither effects nor a point to be about
+    std::vector<double>
+        output;  ///< at the record's stamps; empty: the file has neither effects nor a point to be about
 };
 
 /// \param model  with fields `effects` ([{"effect", "parameters": {}}]) and `operating_output`, and `idle_input`,

@@ -97,9 +97,14 @@ drive::Model rounded(drive::Model model) {
 BaseOfDrive told_base(const Answer& answer) {
     const Candidate& chosen = answer.chosen().trained;
     const drive::Model model = answer.model_of(chosen);
-    BaseOfDrive base{
-        answer.base_name, drive::to_text(model), drive::to_text(rounded(model)), answer.linear_share, answer.idle_input,
-        {}, {}, {}};
+    BaseOfDrive base{answer.base_name,
+                     drive::to_text(model),
+                     drive::to_text(rounded(model)),
+                     answer.linear_share,
+                     answer.idle_input,
+                     {},
+                     {},
+                     {}};
     for (const FreeParameter& parameter : chosen.base) {
         const Fitted fitted = fitted_of(parameter);
         base.parameters.push_back({parameter.name, parameter.value, {{fitted.low, fitted.high}}});

@@ -48,9 +48,8 @@ double idle_input_of(const std::vector<Record>& train, const std::vector<Record>
     constexpr double least_share = 0.05;
     constexpr double near_share = 0.02;
     const double near = near_share * (high - low);
-    const bool off = std::all_of(train.begin(), train.end(), [&](const Record& record) {
-        return begins_off(record, idle, near, largest_output);
-    });
+    const bool off = std::all_of(train.begin(), train.end(),
+                                 [&](const Record& record) { return begins_off(record, idle, near, largest_output); });
     return std::fabs(idle) > least_share * most && high > low && off ? idle : 0.0;
 }
 
