@@ -6,6 +6,7 @@
 #include <boost/math/statistics/linear_regression.hpp>
 #include <cmath>
 
+#include "gap/drive/base/signs.hpp"
 #include "gap/drive/clipped.hpp"
 
 namespace gap {
@@ -174,6 +175,9 @@ Audit audit(const std::vector<Record>& records) {
     if (found.held_share > 0.0) {
         found.notes.push_back(fmt::format("{:.1f} % of the readings repeat the one before while the output moves",
                                           100.0 * found.held_share));
+    }
+    if (may_have_lost_signs(records)) {
+        found.notes.push_back("no reading is below 0 while the input has both signs: does the sensor lose the sign?");
     }
     for (const Record& record : records) {
         const double longest = [&] {

@@ -249,4 +249,17 @@ TEST(Clipped, DoNotCountWhereFiftyOthersDo) {
     EXPECT_EQ(std::count(counts[0].begin(), counts[0].end(), 1), 260);
 }
 
+TEST(Audit, AsksForLostSigns) {
+    std::vector<double> values = noisy(100, 7);
+    for (double& value : values) {
+        value = std::fabs(value);
+    }
+    gap::Record record = record_of(values);
+    EXPECT_THAT(gap::audit({record}).notes, Not(Contains(HasSubstr("lose the sign"))));
+    record.input.back() = -1.0;
+    EXPECT_THAT(gap::audit({record}).notes, Contains(HasSubstr("does the sensor lose the sign?")));
+    record.output[50] = -1.0;
+    EXPECT_THAT(gap::audit({record}).notes, Not(Contains(HasSubstr("lose the sign"))));
+}
+
 }  // namespace
