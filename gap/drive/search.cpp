@@ -9,6 +9,7 @@
 
 #include "base/parallel.hpp"
 #include "gap/drive/jitter.hpp"
+#include "gap/drive/near_best.hpp"
 #include "gap/drive/settle.hpp"
 
 namespace gap {
@@ -24,9 +25,6 @@ constexpr std::size_t eventful_finalists_beside_a_form = 2;
 constexpr double hopeless_beside_a_form = 0.97;
 constexpr double too_far = 4.0;       // from the best single's cost
 constexpr std::size_t finalists = 8;  // pairs, and triples, that are fitted to the end
-constexpr std::size_t most_rivals = 3;
-constexpr Effort effects_alone{0, 1, 0};
-constexpr Effort quick{3, 1, 6};
 // Real rigs have several causes at once; beside a model that is given more than three are an expansion of something
 // else.
 constexpr std::size_t most_beside_a_form = 4;
@@ -75,48 +73,49 @@ public:
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();
-            if (fits_by() != nullptr && has_sized(2)) {
+            if (fits_by() != nullptr && found_.has_sized(2)) {
                 take(again(2));
                 renew_whitener();
             }
             // Fits of many numbers end at different places: a single that began elsewhere may go as far as its pair.
-            if (of_.ground.study.base.refit && has_sized(2)) {
-                take(narrowed(2));
+            if (of_.ground.study.base.refit && found_.has_sized(2)) {
+                take(narrowed(near(), 2));
                 renew_whitener();
             }
-            if (worth_more(found_.ranking.front()) && has_sized(2)) {
+            if (worth_more(found_.ranking.front()) && found_.has_sized(2)) {
                 take(exchanged());
                 renew_whitener();
             }
             // One more as long as the best of all has as many as were tried, each without each of its own.
             for (std::size_t size = 2;
                  size < most_effects_of(of_.ground.study) && found_.ranking.front().candidate.effects.size() == size &&
-                 advantage(found_.ranking.front(), best_of(size - 1)).mean > 8.0;
+                 advantage(found_.ranking.front(), found_.best_of(size - 1)).mean > 8.0;
                  ++size) {
                 take(widened(size, fmt::format("sets of {}", size + 1)));
                 renew_whitener();
-                if (has_sized(size + 1)) {
-                    take(narrowed(size + 1));
+                if (found_.has_sized(size + 1)) {
+                    take(narrowed(near(), size + 1));
                     renew_whitener();
                 }
             }
         }
         if (of_.ground.study.base.refit && !found_.ranking.front().trained.effects.empty()) {
-            take(rivals());
+            take(rivals(near()));
             renew_whitener();
         }
-        for (std::size_t size = 2; of_.ground.study.base.refit && has_sized(size); ++size) {
-            take(simplified(size));
+        for (std::size_t size = 2; of_.ground.study.base.refit && found_.has_sized(size); ++size) {
+            take(simplified(near(), size));
         }
         if (of_.ground.study.base.refit && quantum_shows()) {
-            take(with_steps());
+            take(with_steps(near()));
         }
-        take(with_jitter());
+        take(with_jitter(near()));
         std::stable_sort(found_.ranking.begin(), found_.ranking.end(), by_score);
         return std::move(found_);
     }
 
 private:
+    [[nodiscard]] Neighbourhood near() const { return {of_, found_, fits_by()}; }
     // Beside a fitted base each fit has more numbers, and a coarse one is enough to be judged by: the finest is fitted
     // last.
     [[nodiscard]] Effort first_effort(double without) const {
@@ -139,48 +138,6 @@ private:
         });
     }
 
-    // That readings are multiples of a coarse step is seen, not guessed: it is asked for beside the best of each size,
-    // whatever squares it has at the start, since a sum of squares has a jump wherever a reading takes the next step.
-    [[nodiscard]] std::vector<Candidate> with_steps() const {
-        std::vector<Candidate> stepped;
-        for (const Effect* effect : of_.ground.list) {
-            for (std::size_t size = 1; effect->rounds && size <= 2 && has_sized(size); ++size) {
-                const auto best = std::find_if(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
-                    return ranked.trained.effects.size() == size && !ranked.trained.any(&Effect::rounds) &&
-                           !ranked.trained.any(&Effect::only_spreads);
-                });
-                if (best != found_.ranking.end()) {
-                    Effects wider = best->trained.effects;
-                    wider.push_back(effect);
-                    stepped.push_back(fit(of_.ground.study, wider, best->trained, fits_by()));
-                }
-            }
-        }
-        return stepped;
-    }
-
-    // Jitter moves no reading, so it changes no other effect's fit: it is asked for once, beside the best of each size.
-    [[nodiscard]] std::vector<Candidate> with_jitter() const {
-        const auto jitter = std::find_if(of_.ground.list.begin(), of_.ground.list.end(),
-                                         [](const Effect* effect) { return effect->only_spreads; });
-        std::vector<Candidate> wide;
-        for (std::size_t size = 1; jitter != of_.ground.list.end() && size <= 2; ++size) {
-            const auto best = std::find_if(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
-                return ranked.trained.effects.size() == size && !ranked.trained.any(&Effect::only_spreads) &&
-                       !ranked.trained.any(&Effect::rounds);
-            });
-            if (best == found_.ranking.end()) {
-                continue;
-            }
-            Candidate both = best->trained;
-            both.effects.push_back(*jitter);
-            both.lasting.push_back(parameters_of(**jitter, of_.ground.study.scales, 0));
-            fit_jitter(of_.ground.study, both, found_.whitener);
-            wide.push_back(std::move(both));
-        }
-        return wide;
-    }
-
     // A refitted base is to simulate well: it takes its numbers from the residuals as they are. Where they are coloured
     // because something is missing, whitened ones would tell little of what is slow.
     [[nodiscard]] const Whitener* fits_by() const { return of_.ground.study.base.refit ? nullptr : &found_.whitener; }
@@ -193,11 +150,6 @@ private:
             result[i] = fit(of_.ground.sketch, all[i], *starts[starts.size() == 1 ? 0 : i], whitener, effort);
         });
         return result;
-    }
-
-    [[nodiscard]] bool has_sized(std::size_t size) const {
-        return std::any_of(found_.ranking.begin(), found_.ranking.end(),
-                           [&](const Ranked& ranked) { return ranked.trained.effects.size() == size; });
     }
 
     // Whether the best so far leaves more than noise, and further fits are cheap: a refitted base makes each several
@@ -218,7 +170,7 @@ private:
 
     // Of the best pair each alone, as it is there, with any other: what leads alone may be a stand-in for both.
     std::vector<Candidate> exchanged() const {
-        const Candidate& pair = best_of(2).trained;
+        const Candidate& pair = found_.best_of(2).trained;
         std::vector<Candidate> halves;
         for (const Effect* effect : pair.effects) {
             halves.push_back(fit(of_.ground.sketch, {effect}, pair, fits_by(), {0, 1, 0}));
@@ -240,78 +192,6 @@ private:
             fitted[i] = fit(of_.ground.study, best[i]->effects, *best[i], fits_by());
         });
         return fitted;
-    }
-
-    // The best of a size without one of its effects: what the last one brought about was perhaps only a better start,
-    // and made one of the others superfluous.
-    std::vector<Candidate> narrowed(std::size_t size) const {
-        const Candidate& best = best_of(size).trained;
-        std::vector<Candidate> narrower(best.effects.size());
-        base::parallel_for(narrower.size(), of_.jobs, [&](std::size_t i) {
-            Effects fewer = best.effects;
-            fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
-            narrower[i] = fit(of_.ground.study, fewer, best, fits_by());
-        });
-        return narrower;
-    }
-
-    // The best of a size with special cases in place of what covers them: of each lead few are fitted to the end, and
-    // the wider one, which follows more, comes first.
-    std::vector<Candidate> simplified(std::size_t size) const {
-        const Candidate& best = best_of(size).trained;
-        std::vector<Effects> simpler;
-        for (std::size_t i = 0; i < best.effects.size(); ++i) {
-            for (const Effect* special : of_.ground.list) {
-                Effects effects = best.effects;
-                effects[i] = special;
-                if (best.effects[i]->covers(*special) && !best.has(special->name) && !is_known(effects)) {
-                    simpler.push_back(std::move(effects));
-                }
-            }
-        }
-        std::vector<Candidate> fitted(simpler.size());
-        base::parallel_for(simpler.size(), of_.jobs,
-                           [&](std::size_t i) { fitted[i] = fit(of_.ground.study, simpler[i], best, fits_by()); });
-        return fitted;
-    }
-
-    // Of the best set each effect exchanged for each that acts at its place, from where the best one stands: what looks
-    // alike is not to lose because it began further away.
-    std::vector<Candidate> rivals() const {
-        const Candidate& best = found_.ranking.front().trained;
-        std::vector<Effects> all;
-        for (std::size_t i = 0; i < best.effects.size(); ++i) {
-            for (const Effect* other : of_.ground.list) {
-                Effects effects = best.effects;
-                effects[i] = other;
-                if (best.effects[i]->kind == Kind::lasting && other->kind == Kind::lasting &&
-                    other->place == best.effects[i]->place && !other->only_spreads && !other->rounds &&
-                    !best.has(other->name) && !nested({best.effects[i]}, *other)) {
-                    all.push_back(std::move(effects));
-                }
-            }
-        }
-        of_.say(fmt::format("fitting {} rivals", all.size()));
-        std::vector<Candidate> close = fitted(all, {&best}, fits_by(), quick);
-        std::stable_sort(close.begin(), close.end(), by_cost);
-        close.resize(std::min(close.size(), most_rivals));
-        const std::size_t rivals = close.size();
-        for (std::size_t i = 0; i < rivals; ++i) {
-            close.push_back(close[i]);
-            close.back().base = best.base;
-        }
-        // Twice: with a base of their own, and beside the best one's, of which training may leave some numbers open.
-        base::parallel_for(close.size(), of_.jobs, [&](std::size_t i) {
-            close[i] =
-                fit(of_.ground.study, close[i].effects, close[i], fits_by(), i < rivals ? Effort{} : effects_alone);
-        });
-        return close;
-    }
-
-    [[nodiscard]] bool is_known(const Effects& effects) const {
-        return std::any_of(found_.ranking.begin(), found_.ranking.end(), [&](const Ranked& ranked) {
-            return std::ranges::is_permutation(ranked.trained.effects, effects);
-        });
     }
 
     // All of them quickly, the best to the end.
@@ -371,11 +251,6 @@ private:
             }
         }
         return first;
-    }
-
-    static bool nested(const Effects& mine, const Effect& other) {
-        return std::any_of(mine.begin(), mine.end(),
-                           [&](const Effect* effect) { return effect->covers(other) || other.covers(*effect); });
     }
 
     // What was deployed is a simulation of the model that is given: beside an effect that makes it another one its
@@ -439,17 +314,22 @@ private:
         return *std::find_if(found_.ranking.begin(), found_.ranking.end(),
                              [&](const Ranked& ranked) { return ranked.trained.effects == effects; });
     }
-    [[nodiscard]] const Ranked& best_of(std::size_t size) const {
-        return *std::find_if(found_.ranking.begin(), found_.ranking.end(),
-                             [&](const Ranked& ranked) { return ranked.trained.effects.size() == size; });
-    }
-
     const Search& of_;
     Candidate none_;
     Found found_;
 };
 
 }  // namespace
+
+bool Found::has_sized(std::size_t size) const {
+    return std::any_of(ranking.begin(), ranking.end(),
+                       [&](const Ranked& ranked) { return ranked.trained.effects.size() == size; });
+}
+
+const Ranked& Found::best_of(std::size_t size) const {
+    return *std::find_if(ranking.begin(), ranking.end(),
+                         [&](const Ranked& ranked) { return ranked.trained.effects.size() == size; });
+}
 
 Found search(const Search& of) { return Run(of).search(); }
 

@@ -17,6 +17,9 @@ struct Search {
 struct Found {
     std::vector<Ranked> ranking;  ///< the best first; `none` is among them
     Whitener whitener;
+    [[nodiscard]] bool has_sized(std::size_t size) const;
+    /// With so many effects; there is one.
+    [[nodiscard]] const Ranked& best_of(std::size_t size) const;
 };
 
 [[nodiscard]] Found search(const Search& of);

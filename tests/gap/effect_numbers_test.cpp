@@ -216,9 +216,9 @@ TEST(EffectNumbers, OfThePlant) {
                       {{"size", "rhs", -0.6 * force, 0.6 * force, 0.0, {0.05 * force}},
                        {"per_unit",
                         "1/y",
-                        2.0 / way,
+                        3.0 / way,
                         200.0 / way,
-                        2.0 / way,
+                        3.0 / way,
                         {4 / way, 4 / way, 8 / way, 8 / way, 16 / way, 16 / way, 32 / way, 32 / way}},
                        {"phase_rad", "rad", -4.0 * pi, 4.0 * pi, 0.0, {0, pi / 2, 0, pi / 2, 0, pi / 2, 0, pi / 2}},
                        {"of_speed", "1", 0.0, 1.0, 0.0, {variant}, true}});

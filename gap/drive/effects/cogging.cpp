@@ -33,8 +33,8 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
     }
     // A size below 0 is the other half of the phases: a fit may go through 0.
     return {{"size", "rhs", -0.6 * scales.force, 0.6 * scales.force, 0.0, {0.05 * scales.force}},
-            // A wave longer than half the way is a weight's or a spring's force.
-            {"per_unit", "1/y", 2.0 * unit, 200.0 * unit, 2.0 * unit, rates},
+            // A wave longer than the way is a weight's or a spring's force.
+            {"per_unit", "1/y", 3.0 * unit, 200.0 * unit, 3.0 * unit, rates},
             {"phase_rad", "rad", -half_turns * pi, half_turns * pi, 0.0, phases},
             {"of_speed", "1", 0.0, 1.0, 0.0, {scales.maybe_speed ? 1.0 : 0.0}, true}};
 }

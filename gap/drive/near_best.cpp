@@ -1,0 +1,136 @@
+#include "gap/drive/near_best.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/parallel.hpp"
+#include "gap/drive/jitter.hpp"
+
+namespace gap {
+namespace {
+
+using Effects = std::vector<const Effect*>;
+
+constexpr std::size_t most_rivals = 3;
+
+bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
+
+bool is_known(const Found& found, const Effects& effects) {
+    return std::any_of(found.ranking.begin(), found.ranking.end(), [&](const Ranked& ranked) {
+        return std::ranges::is_permutation(ranked.trained.effects, effects);
+    });
+}
+
+// The best of a size by its own laws: neither steps nor spread of the readings are among them.
+const Ranked* plain_best_of(const Found& found, std::size_t size) {
+    const auto best = std::find_if(found.ranking.begin(), found.ranking.end(), [&](const Ranked& ranked) {
+        return ranked.trained.effects.size() == size && !ranked.trained.any(&Effect::only_spreads) &&
+               !ranked.trained.any(&Effect::rounds);
+    });
+    return best == found.ranking.end() ? nullptr : &*best;
+}
+
+}  // namespace
+
+bool nested(const Effects& mine, const Effect& other) {
+    return std::any_of(mine.begin(), mine.end(),
+                       [&](const Effect* effect) { return effect->covers(other) || other.covers(*effect); });
+}
+
+std::vector<Candidate> narrowed(const Neighbourhood& near, std::size_t size) {
+    const Candidate& best = near.found.best_of(size).trained;
+    std::vector<Candidate> narrower(best.effects.size());
+    base::parallel_for(narrower.size(), near.of.jobs, [&](std::size_t i) {
+        Effects fewer = best.effects;
+        fewer.erase(fewer.begin() + static_cast<std::ptrdiff_t>(i));
+        narrower[i] = fit(near.of.ground.study, fewer, best, near.fits_by);
+    });
+    return narrower;
+}
+
+std::vector<Candidate> simplified(const Neighbourhood& near, std::size_t size) {
+    const Candidate& best = near.found.best_of(size).trained;
+    std::vector<Effects> simpler;
+    for (std::size_t i = 0; i < best.effects.size(); ++i) {
+        for (const Effect* special : near.of.ground.list) {
+            Effects effects = best.effects;
+            effects[i] = special;
+            if (best.effects[i]->covers(*special) && !best.has(special->name) && !is_known(near.found, effects)) {
+                simpler.push_back(std::move(effects));
+            }
+        }
+    }
+    std::vector<Candidate> fitted(simpler.size());
+    base::parallel_for(simpler.size(), near.of.jobs,
+                       [&](std::size_t i) { fitted[i] = fit(near.of.ground.study, simpler[i], best, near.fits_by); });
+    return fitted;
+}
+
+std::vector<Candidate> rivals(const Neighbourhood& near) {
+    const Candidate& best = near.found.ranking.front().trained;
+    std::vector<Effects> all;
+    for (std::size_t i = 0; i < best.effects.size(); ++i) {
+        for (const Effect* other : near.of.ground.list) {
+            Effects effects = best.effects;
+            effects[i] = other;
+            if (best.effects[i]->kind == Kind::lasting && other->kind == Kind::lasting &&
+                other->place == best.effects[i]->place && !other->only_spreads && !other->rounds &&
+                !best.has(other->name) && !nested({best.effects[i]}, *other)) {
+                all.push_back(std::move(effects));
+            }
+        }
+    }
+    near.of.say(fmt::format("fitting {} rivals", all.size()));
+    std::vector<Candidate> close(all.size());
+    base::parallel_for(all.size(), near.of.jobs, [&](std::size_t i) {
+        close[i] = fit(near.of.ground.sketch, all[i], best, near.fits_by, quick);
+    });
+    std::stable_sort(close.begin(), close.end(), by_cost);
+    close.resize(std::min(close.size(), most_rivals));
+    // Twice: from where the first look ended, and from the best one's base, whose numbers training may leave open.
+    const std::size_t apart = close.size();
+    for (std::size_t i = 0; i < apart; ++i) {
+        close.push_back(close[i]);
+        close.back().base = best.base;
+        close.back().own = best.own;
+    }
+    base::parallel_for(close.size(), near.of.jobs, [&](std::size_t i) {
+        close[i] = fit(near.of.ground.study, close[i].effects, close[i], near.fits_by);
+    });
+    return close;
+}
+
+std::vector<Candidate> with_steps(const Neighbourhood& near) {
+    std::vector<Candidate> stepped;
+    for (const Effect* effect : near.of.ground.list) {
+        for (std::size_t size = 1; effect->rounds && size <= 2; ++size) {
+            if (const Ranked* best = plain_best_of(near.found, size); best != nullptr) {
+                Effects wider = best->trained.effects;
+                wider.push_back(effect);
+                stepped.push_back(fit(near.of.ground.study, wider, best->trained, near.fits_by));
+            }
+        }
+    }
+    return stepped;
+}
+
+std::vector<Candidate> with_jitter(const Neighbourhood& near) {
+    const auto jitter = std::find_if(near.of.ground.list.begin(), near.of.ground.list.end(),
+                                     [](const Effect* effect) { return effect->only_spreads; });
+    std::vector<Candidate> wide;
+    for (std::size_t size = 1; jitter != near.of.ground.list.end() && size <= 2; ++size) {
+        const Ranked* best = plain_best_of(near.found, size);
+        if (best == nullptr) {
+            continue;
+        }
+        Candidate both = best->trained;
+        both.effects.push_back(*jitter);
+        both.lasting.push_back(parameters_of(**jitter, near.of.ground.study.scales, 0));
+        fit_jitter(near.of.ground.study, both, near.found.whitener);
+        wide.push_back(std::move(both));
+    }
+    return wide;
+}
+
+}  // namespace gap
