@@ -16,7 +16,7 @@ constexpr double half_a_count = 0.5;  // cycles
 struct Fitted {
     std::function<double(const State&)> value;
     std::function<void(State&, const Rows&)> fit;
-    std::function<double(std::size_t)> cycles;  ///< of a row, for one unit of the number
+    Cycles cycles;  ///< of each row, for one unit of the number
 };
 
 Interval interval_of(Evidence& evidence, const State& found, const Fitted& number) {
@@ -32,10 +32,10 @@ Interval interval_of(Evidence& evidence, const State& found, const Fitted& numbe
         values.push_back(number.value(state));
     }
     std::sort(values.begin(), values.end());
-    std::vector<double> cycles;
-    for (std::size_t i = 0; i < evidence.rows().size(); ++i) {
-        if (const double one = std::fabs(number.cycles(i)); one > 0.0) {
-            cycles.push_back(one);
+    Cycles cycles;
+    for (const double one : number.cycles) {
+        if (std::fabs(one) > 0.0) {
+            cycles.push_back(std::fabs(one));
         }
     }
     const double resolution = cycles.empty() ? 0.0 : half_a_count / median(cycles);
@@ -75,7 +75,7 @@ Fitted proportional(const Evidence& evidence, double now, const std::function<vo
                 }
                 set(state, values.empty() ? now : weighted_median(std::move(values)));
             },
-            [unit](std::size_t i) { return unit[i]; }};
+            unit};
 }
 
 }  // namespace
@@ -84,7 +84,7 @@ void add_intervals(Evidence& evidence, const State& found, std::vector<Step>& st
     const auto beside = [&](double State::*cost) {
         return Fitted{[cost](const State& state) { return state.*cost; },
                       [&evidence](State& state, const Rows& rows) { evidence.fit_beside(state, rows); },
-                      [](std::size_t) { return 1.0; }};
+                      Cycles(evidence.rows().size(), 1.0)};
     };
     // What one unit more of a number does to the rows, and what is left of them at none of it.
     const auto linear = [&](const std::function<void(State&, double)>& set,

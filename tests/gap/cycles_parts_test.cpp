@@ -272,6 +272,12 @@ TEST(CyclesVerdict, IsToldInTheCommonForm) {
     EXPECT_NEAR(verdict.ranking[0].score, 0.3, 1e-12);
     EXPECT_EQ(verdict.ranking[1].effects, "clock_ratio");
     EXPECT_EQ(verdict.ranking[2].effects, "single_issue");
+    // Of several that take off as much, as rival rules do, the one that was found first.
+    found.alternatives = {{"load_use", {}, {}, 0.4, 0.2, 0.25}, {"store_buffer", {}, {}, 0.4, 0.2, 0.25}};
+    const gap::Verdict rivals = gap::cycles::verdict_of(found, "judged");
+    ASSERT_EQ(rivals.ranking.size(), 4U);
+    EXPECT_EQ(rivals.ranking[1].effects, "load_use");
+    EXPECT_EQ(rivals.ranking[2].effects, "store_buffer");
     found.floor = 0.5;  // nothing can be closed
     EXPECT_EQ(std::get<gap::OfCycles>(gap::cycles::verdict_of(found, "judged").of).steps[0].shrink, 0.0);
 }

@@ -235,6 +235,32 @@ TEST(Cycles, WhatPublishedRulesLeaveOfFloatingRowsIsAmbiguous) {
 
 TEST(Cycles, TheSameCoreIsNoGap) { EXPECT_EQ(diagnose("real", {}, unchanged).outcome, Outcome::no_gap); }
 
+// Rows measured twice are told by that how far they lie apart: a gap of four such floors is none, of little more it is.
+TEST(Cycles, AGapOfFourFloorsIsNone) {
+    std::vector<qemu::MeasuredCycles> twice;
+    for (qemu::MeasuredCycles row : rows()) {
+        row.taps *= 100000;  // whole cycles are nothing beside
+        twice.insert(twice.end(), {row, row});
+    }
+    const auto of_floors = [&](double floors) {
+        constexpr double longer = 0.1;  // of the second of each two, which judges
+        // Of the first `apart` less than twice that: each lies so far from the median of both.
+        const double floor = longer / (1.0 + longer) / floors;
+        const double apart = floor * (1.0 + longer) / (1.0 + floor);
+        std::size_t n = 0;
+        return diagnose(
+            "real", {},
+            [&](const auto&, const auto& p) { return p.nominal * (1.0 + longer - (n++ % 2 == 0 ? 2.0 * apart : 0.0)); },
+            twice);
+    };
+    const Explanation none = of_floors(3.98);
+    EXPECT_EQ(none.outcome, Outcome::no_gap);
+    EXPECT_NEAR(none.base_gap / none.floor, 3.98, 1e-4);
+    const Explanation some = of_floors(4.02);
+    EXPECT_NE(some.outcome, Outcome::no_gap);
+    EXPECT_NEAR(some.base_gap / some.floor, 4.02, 1e-4);
+}
+
 TEST(Cycles, AFasterClockIsNamedAndASlowerOneMayBeInterrupts) {
     const auto scaled = [](double ratio) { return [ratio](const auto&, const auto& p) { return ratio * p.nominal; }; };
     const Explanation faster = diagnose("real", {}, scaled(0.5));

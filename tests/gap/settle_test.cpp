@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
+#include "gap/drive/cost.hpp"
 #include "gap/drive/fit.hpp"
 #include "gap/drive/question.hpp"
 #include "gap/drive/start.hpp"
@@ -38,16 +41,21 @@ gap::Record read(Input input, const std::string& effect, const std::vector<doubl
     return record;
 }
 
-// What validation makes of an effect that training has seen at a few levels.
+// A question about an effect that training has seen at a few levels.
+gap::Question asked_about(const std::string& effect, const std::vector<double>& values) {
+    return {gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)),
+            true,
+            {read(stairs, effect, values, 1)},
+            {read(chirp, effect, values, 2)},
+            {},
+            gap::Metric::simulation,
+            {},
+            1};
+}
+
+// What validation makes of it.
 gap::Settled settled(const std::string& effect, const std::vector<double>& values) {
-    const gap::Question question{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)),
-                                 true,
-                                 {read(stairs, effect, values, 1)},
-                                 {read(chirp, effect, values, 2)},
-                                 {},
-                                 gap::Metric::simulation,
-                                 {},
-                                 1};
+    const gap::Question question = asked_about(effect, values);
     const gap::Ground ground = gap::prepare(question);
     const gap::Candidate trained = gap::fit(ground.study, {&gap::effect_named(effect)}, ground.base, nullptr);
     return gap::settle(ground.study, ground.validation, trained);
@@ -57,6 +65,26 @@ TEST(Settle, TellsAThresholdBetweenTwoLevelsByTheValidation) {
     const gap::Settled told = settled("start_up_threshold", {0.53, 1.0, 0.0});
     EXPECT_EQ(told.numbers, 1U);
     EXPECT_NEAR(told.trained.lasting[0][0].value, 0.53, 0.03);
+}
+
+// It is where validation is told best: no other place between the two levels leaves less there.
+TEST(Settle, TakesTheBestPlaceOfTheValidation) {
+    const gap::Effect& threshold = gap::effect_named("start_up_threshold");
+    const gap::Question question = asked_about(threshold.name, {0.47, 1.0, 0.0});
+    const gap::Ground ground = gap::prepare(question);
+    const gap::Candidate trained = gap::fit(ground.study, {&threshold}, ground.base, nullptr);
+    const gap::Settled told = gap::settle(ground.study, ground.validation, trained);
+    ASSERT_EQ(told.numbers, 1U);
+    gap::Candidate carried = gap::carried_over(ground.validation, trained, nullptr);
+    const auto cost_at = [&](double place) {
+        carried.lasting[0][0].value = place;
+        return gap::cost_of(ground.validation, carried, nullptr);
+    };
+    double least = std::numeric_limits<double>::infinity();
+    for (double place = 0.405; place < 0.795; place += 0.005) {
+        least = std::min(least, cost_at(place));
+    }
+    EXPECT_LE(cost_at(told.trained.lasting[0][0].value), 1.02 * least);
 }
 
 TEST(Settle, LeavesWhatTrainingTells) {
@@ -71,14 +99,7 @@ TEST(Settle, LeavesWhatMayBeNone) { EXPECT_EQ(settled("input_saturation", {1.5})
 // A threshold below the lowest level that training asks for may be none, however well validation tells it.
 TEST(Settle, LeavesAThresholdThatMayBeNone) {
     const gap::Effect& threshold = gap::effect_named("start_up_threshold");
-    const gap::Question question{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)),
-                                 true,
-                                 {read(stairs, threshold.name, {0.3, 1.0, 0.0}, 1)},
-                                 {read(chirp, threshold.name, {0.3, 1.0, 0.0}, 2)},
-                                 {},
-                                 gap::Metric::simulation,
-                                 {},
-                                 1};
+    const gap::Question question = asked_about(threshold.name, {0.3, 1.0, 0.0});
     const gap::Ground ground = gap::prepare(question);
     gap::Candidate trained = gap::fit(ground.study, {&threshold}, ground.base, nullptr);
     trained.lasting[0][1].value = 1.0;

@@ -189,6 +189,14 @@ TEST(GapCounts, AreAllOrEveryThirdTenthKeptAside) {
         EXPECT_EQ(aside[i], tenth == 2 || tenth == 5 || tenth == 8) << i;
         EXPECT_EQ(aside[i] + rest[i], 1) << i;
     }
+    // However finely a record is read, each tenth begins where the last one ends, to a sample.
+    const gap::Record fine = record_of(std::vector<double>(4001, 0.0), std::vector<double>(4001, 0.0));
+    const auto of_fine = gap::part_counts({fine}, {}, true).front();
+    for (std::size_t i = 0; i < 4000; ++i) {
+        if (i % 400 != 0) {
+            ASSERT_EQ(of_fine[i], i / 400 % 3 == 2) << i;
+        }
+    }
     const auto behind = gap::part_counts({record}, 110.0, true).front();
     EXPECT_EQ(behind[19], 0);
     EXPECT_EQ(behind[20], 1);  // at the split

@@ -211,4 +211,17 @@ TEST(FittedFilter, AtTheEndTheLargestErrorIsTheLeast) {
     EXPECT_LT(fit_filter(goal_of(0.2, 0.8, 80.0, 0.0), 1, 2, FilterKind::samples).error.band, 0.06618);
 }
 
+// A near tap more contains the filter without it. From a start in the middle the search for one pole finds so much;
+// from the fast end it stops at 0.392 of an integral of half an order, where without that tap 0.389 are reached.
+TEST(FittedFilter, ANearTapBesideOnePoleDoesNotErrMore) {
+    const auto error = [](const DerivativeGoal& goal, std::size_t near_taps) {
+        return fit_filter(goal, near_taps, 1, FilterKind::samples, Poles::decaying).error.largest();
+    };
+    for (const DerivativeGoal& goal :
+         {goal_of(-0.5, 1.0, 50.0, 0.0), goal_of(-0.5, 1.0, 150.0, 0.0), goal_of(0.2, 1.0, 50.0, 0.0),
+          goal_of(0.5, 0.1, 50.0, 0.0), goal_of(0.5, 1.0, 150.0, 0.0), goal_of(0.9, 10.0, 400.0, 0.0)}) {
+        EXPECT_LT(error(goal, 2), error(goal, 1)) << goal.order << " " << goal.band->low_hz;
+    }
+}
+
 }  // namespace

@@ -123,6 +123,29 @@ TEST(BoundFormula, OfAModeThatSwings) {
     EXPECT_NEAR((bound_of<Sum<Modes, Compensated, F32>>(design, 0.75)) / expected(126.0), 1.0, 1e-4);
 }
 
+// cascade_bound.hpp: behind near taps the cascade is a term as a window's are. Its output, at most Y = P (1 + |H(1) -
+// 1|), passes the last tap's coefficient, product and addition; what it has lost itself, which a cascade without other
+// taps loses too, passes the coefficient alone.
+TEST(BoundFormula, OfACascadeBehindNearTaps) {
+    constexpr std::size_t near_taps = 4;
+    const auto a = weights(0.5, near_taps - 1);
+    const double lead = a[near_taps - 1];
+    std::vector<Mode> of_lead_one = modes;
+    double at_rest = 1.0;
+    for (Mode& mode : of_lead_one) {
+        mode.weight /= lead;
+        at_rest += mode.weight / mode.decay;
+    }
+    using K = Sum<Cascade, DirectForm2Transposed, F32>;
+    const double alone = bound_of<K>({0.5, 1 + 2 * 3, of_lead_one}, 0.75);
+    const double together = bound_of<K>({0.5, near_taps + 2 * 3, modes}, 0.75);
+    double roundings = near_taps + std::fabs(lead) * at_rest * (1.0 + 1.0 + 1.0);
+    for (std::size_t j = 1; j + 1 < near_taps; ++j) {
+        roundings += std::fabs(a[j]) * (2.0 + 1.0 + static_cast<double>(near_taps - j));
+    }
+    EXPECT_NEAR((together - std::fabs(lead) * alone) / (0.75 * u * roundings), 1.0, 1e-3);  // what is lost rounds, too
+}
+
 // nested_bound.hpp: a block of level l is a tap of the sum of its weights whose sample passed l additions.
 TEST(BoundFormula, OfBlocks) {
     constexpr std::size_t near_taps = 5;

@@ -205,6 +205,12 @@ TEST(Derivative, PointsCoverBothEnds) {
     EXPECT_EQ((DerivativeGoal{0.5, 0.001, std::nullopt, 0.0001}).horizon(), 1U);  // a sample at least
     EXPECT_EQ(samples_of(half(1.0, 2.0, 0.0)).size(), 0U);
     EXPECT_EQ(frequencies_of(half(2.0, 2.0, 0.0)).size(), 1U);
+    // Each sample once, the next one or one that is 4 % later.
+    const std::vector<std::size_t> samples = samples_of(goal);
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        EXPECT_GT(samples[i], samples[i - 1]);
+        EXPECT_LE(static_cast<double>(samples[i]), 1.04 * static_cast<double>(samples[i - 1] + 1));
+    }
 }
 
 }  // namespace

@@ -88,4 +88,12 @@ TEST(IntegralDesignTest, OfWeightsThatTheTapsReachIsALevel) {
     EXPECT_EQ(glsum::design::approximate_integral(weights_to(-0.5, 600), -0.5, 2, 6).modes.size(), 6U);
 }
 
+// 40 modes are the most that any design has: an error that takes 42 of them has none.
+TEST(IntegralDesignTest, HasNoMoreModesThanAnyDesign) {
+    const auto longest = glsum::design::design_integral(weights_to(-0.8, 20000), -0.8, 1e-11);
+    ASSERT_TRUE(longest.has_value());
+    EXPECT_LE(longest->modes.size(), glsum::design::most_modes);
+    EXPECT_FALSE(glsum::design::design_integral(weights_to(-0.8, 60000), -0.8, 3e-11).has_value());
+}
+
 }  // namespace
