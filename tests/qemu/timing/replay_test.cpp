@@ -155,6 +155,14 @@ TEST(PackedEvent, TellsEventsApart) {
                 << &a - events.data() << " " << &b - events.data();
         }
     }
+    // The delays themselves may be left out where there are none: the rest tells so, whatever a delay would be called.
+    const timing::Event at_once = changed(load, [](auto& e) { e.fetch_delays = {}; });
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        const timing::Event late =
+            changed(load, [&](auto& event) { event.fetch_effect = static_cast<timing::Effect>(e); });
+        EXPECT_NE(timing::packed(at_once).event, timing::packed(late).event) << timing::effect_names[e];
+    }
+    EXPECT_EQ(timing::packed(at_once).fetch_delays, 0U);
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[0] = 8; }))) << "two delays";
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[8] = 9; }))) << "beyond the eighth";
 }
