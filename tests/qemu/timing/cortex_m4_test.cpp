@@ -187,6 +187,19 @@ TEST(CortexM4, EveryRowMovesAProbe) {
     }
 }
 
+// A branch frees the whole buffer: what its target's first words take is the refill's figure alone, however long a word
+// takes from a place that becomes free to its use. Nor does a program begin with a wait.
+TEST(CortexM4, TheFirstWordsOfATargetComeWithTheRefill) {
+    probe::Setting setting = probe::core("cortex-m4-zerowait");
+    const std::string begin = lines_of("add.w r0,r1,r2; add.w r3,r4,r5");
+    const std::vector<std::int64_t> usual = probe::run(begin, setting).positions;
+    for (const std::int64_t latency : {1, 2, 5, 12, 40}) {
+        setting.figures.prefetch_latency = latency;
+        EXPECT_EQ(cycles_of({"", "1: subs.w r6,r6,#1; bne 1b", 3, How::turns}, setting), 3) << latency;
+        EXPECT_EQ(probe::run(begin, setting).positions, usual) << latency;
+    }
+}
+
 // What each wait is called, in half cycles, beside the half of each instruction that starts a cycle of its own.
 TEST(CortexM4, LossesHaveTheNameOfTheirCause) {
     struct Case {
