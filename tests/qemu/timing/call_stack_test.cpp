@@ -50,4 +50,29 @@ TEST(CallStack, JumpsAreNoCalls) {
     }
 }
 
+// What sets all registers leaves calls for the middle of a function further down: so does its first instruction, its
+// last, and none beside them.
+TEST(CallStack, OnlyARestorerLeavesCallsWithoutReturning) {
+    constexpr std::uint32_t first = 0x40;
+    constexpr std::uint32_t end = 0x50;
+    const auto depth_after_a_jump_from = [&](std::uint32_t address) {
+        timing::CallStack stack({});
+        stack.watch_unwinding({{{first, end}}, {{0x100, 1}, {0x180, 2}, {0x200, 3}}});
+        const timing::Decoded call = timing::decode(0x4798, 2);  // blx r3
+        (void)stack.arrive(0x110);                               // in function 1
+        stack.leave(call, 0x110, 0x180);
+        (void)stack.arrive(0x180);  // in function 2
+        stack.leave(call, 0x180, address);
+        (void)stack.arrive(address);
+        EXPECT_EQ(stack.depth(), 2U);
+        stack.leave(timing::decode(0x4718, 2), address, 0x130);  // bx r3, to function 1, not behind its call
+        (void)stack.arrive(0x130);
+        return stack.depth();
+    };
+    EXPECT_EQ(depth_after_a_jump_from(first - 2), 2U);
+    EXPECT_EQ(depth_after_a_jump_from(first), 0U);
+    EXPECT_EQ(depth_after_a_jump_from(end - 2), 0U);
+    EXPECT_EQ(depth_after_a_jump_from(end), 2U);
+}
+
 }  // namespace

@@ -200,6 +200,18 @@ TEST(CortexM4, TheFirstWordsOfATargetComeWithTheRefill) {
     }
 }
 
+// Of one word a buffer asks for the next when it is used up, and has to begin anew: latency and restart for each. An
+// instruction across two words does not keep the first from leaving, else the second never came.
+TEST(CortexM4, ABufferOfOneWordAsksForEachByItself) {
+    probe::Setting setting = probe::core("cortex-m4-zerowait");
+    setting.figures.fetch_queue = 1;
+    setting.figures.prefetch_latency = 3;
+    setting.figures.prefetch_restart = 4;
+    EXPECT_EQ(cycles_of({"", "add.w r0,r1,r2; add.w r3,r4,r5", 0}, setting), 2 * (3 + 4));
+    // The second word was asked for a cycle behind the first, and two instructions go on from it.
+    EXPECT_EQ(cycles_of({"", "nop; add.w r0,r1,r2; nop", 0}, setting), 3 + 4 + 2);
+}
+
 // What each wait is called, in half cycles, beside the half of each instruction that starts a cycle of its own.
 TEST(CortexM4, LossesHaveTheNameOfTheirCause) {
     struct Case {
