@@ -212,6 +212,20 @@ TEST(CortexM4, ABufferOfOneWordAsksForEachByItself) {
     EXPECT_EQ(cycles_of({"", "nop; add.w r0,r1,r2; nop", 0}, setting), 3 + 4 + 2);
 }
 
+// Nothing was stored, nothing computed and nothing held before a program's first instruction: it waits for its word
+// alone.
+TEST(CortexM4, BeginsWithNothingUnderWay) {
+    for (const char* text : {"ldr.w r0,[r1]", "str.w r0,[r1]", "vadd.f32 s0,s1,s2", "vldr s0,[r1]", "add.w r0,r1,r2"}) {
+        const timing::Losses losses = probe::run(lines_of(text), probe::core("cortex-m4-zerowait")).losses;
+        for (std::size_t e = 0; e < losses.size(); ++e) {
+            const auto effect = static_cast<timing::Effect>(e);
+            if (effect != timing::Effect::single_issue && effect != timing::Effect::fetch_alignment) {
+                EXPECT_EQ(losses[e], 0) << text << ": " << timing::effect_names[e];
+            }
+        }
+    }
+}
+
 // What each wait is called, in half cycles, beside the half of each instruction that starts a cycle of its own.
 TEST(CortexM4, LossesHaveTheNameOfTheirCause) {
     struct Case {
