@@ -18,14 +18,14 @@ namespace {
 constexpr double step_s = 0.001;
 constexpr double until_s = 5.0;
 
-// Tables 2 and 3.
+// Of Tables 2 and 3, what is checked here.
 struct Row {
     const char* name;
-    double ise, iae, itse, itae, nrmse, max_ape;
+    double ise, iae, nrmse;
 };
-constexpr Row table[] = {{"FOPDT", 6.9119e-3, 1.2005e-1, 1.2433e-2, 2.4559e-1, 0.9115, 1.1725e3},
-                         {"SOPDT", 3.0031e-3, 7.8585e-2, 5.6329e-3, 1.5759e-1, 0.9417, 1.9555e4},
-                         {"NIOPDT", 9.6876e-4, 4.6558e-2, 1.5373e-3, 9.7150e-2, 0.9668, 6.4508e3}};
+constexpr Row table[] = {{"FOPDT", 6.9119e-3, 1.2005e-1, 0.9115},
+                         {"SOPDT", 3.0031e-3, 7.8585e-2, 0.9417},
+                         {"NIOPDT", 9.6876e-4, 4.6558e-2, 0.9668}};
 
 std::vector<double> stamps() {
     std::vector<double> time;

@@ -31,6 +31,8 @@ public:
     void count(std::uint32_t site, const SiteTime& time);
 
     [[nodiscard]] const Replay& core() const { return replay_; }
+    /// What blocks did that it need not go through again.
+    [[nodiscard]] std::size_t remembered() const { return steps_.size() - 1; }
     /// Half cycles before each instruction's issue, as far as they were counted, by site.
     [[nodiscard]] std::vector<SiteTime> times() const;
 

@@ -49,10 +49,8 @@ Latencies::Latencies(const Figures& f) {
         {Consumer::accumulator, f.read_accumulator},
         {Consumer::store_data, f.read_store_data},
         {Consumer::condition, f.read_condition},
-        {Consumer::fp_operand, f.read_operand},
         {Consumer::fma_accumulator, f.read_operand},
         {Consumer::mla_accumulator, f.read_operand},
-        {Consumer::fp_store, f.read_store_data},
     };
     const auto staged = [&](Producer producer, std::int64_t result) {
         for (const Stage& stage : stages) {
@@ -92,12 +90,10 @@ Latencies::Latencies(const Figures& f) {
 
     const auto floating = [&](Producer producer, std::int64_t operand, std::int64_t fma, std::int64_t mla,
                               std::int64_t store) {
-        set(producer, Consumer::operand, operand);  // of VMOV r, s
-        set(producer, Consumer::fp_operand, operand);
+        set(producer, Consumer::operand, operand);
         set(producer, Consumer::fma_accumulator, fma);
         set(producer, Consumer::mla_accumulator, mla);
         set(producer, Consumer::store_data, store);
-        set(producer, Consumer::fp_store, store);
     };
     floating(Producer::fp_add, f.fp_add_to_operand, f.fp_add_to_fma_accumulator, f.fp_add_to_mla_accumulator,
              f.fp_add_to_store);
@@ -132,9 +128,9 @@ Consumer consumer_of(const Decoded& reader, Role role) {
         case Role::condition:
             return Consumer::condition;
         case Role::store_data:
-            return reader.is_fp ? Consumer::fp_store : Consumer::store_data;
+            return Consumer::store_data;
         case Role::multiplicand:
-            return reader.is_fp ? Consumer::fp_operand : Consumer::multiplicand;
+            return reader.is_fp ? Consumer::operand : Consumer::multiplicand;
         case Role::accumulator:
             if (!reader.is_fp) {
                 return Consumer::accumulator;
@@ -144,11 +140,8 @@ Consumer consumer_of(const Decoded& reader, Role role) {
             break;
     }
     const auto reads_early = [](const Read& read) { return read.role == Role::shifted; };
-    if (std::any_of(reader.reads.begin(), reader.reads.begin() + reader.read_count, reads_early)) {
-        return Consumer::operand_beside_shifted;
-    }
-    return reader.is_fp_arithmetic() || reader.kind == Kind::fp_move || reader.kind == Kind::fp_to_core
-               ? Consumer::fp_operand
+    return std::any_of(reader.reads.begin(), reader.reads.begin() + reader.read_count, reads_early)
+               ? Consumer::operand_beside_shifted
                : Consumer::operand;
 }
 

@@ -43,7 +43,7 @@ enum class Producer : std::uint8_t {
     count,
 };
 
-/// In which place a register is used.
+/// In which place a register is used, of the core or of the FPU.
 enum class Consumer : std::uint8_t {
     address,
     index,
@@ -54,10 +54,8 @@ enum class Consumer : std::uint8_t {
     accumulator,
     store_data,
     condition,
-    fp_operand,
     fma_accumulator,
     mla_accumulator,
-    fp_store,
     count,
 };
 

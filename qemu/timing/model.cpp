@@ -414,8 +414,7 @@ void Pipeline::note_fpu(const Decoded& d) {
         state.mac64_before = d.is_double && d.kind == Kind::fp_mac;
         if (figures_.mechanisms.serial_fpu && d.write_count > 0) {
             const Producer result = state.values[d.writes[0].reg].producer;
-            const std::int64_t ready =
-                result == Producer::nothing ? 0 : latencies_.between(result, Consumer::fp_operand);
+            const std::int64_t ready = result == Producer::nothing ? 0 : latencies_.between(result, Consumer::operand);
             state.fp_busy_until = std::max(state.fp_busy_until, cycle + static_cast<std::int32_t>(ready));
         }
     }

@@ -1,13 +1,15 @@
 // Where a fit begins again: within what its page says of each parameter. Every descent ends where it begins here, since
-// any error is accepted, and the best of the beginnings is what is told.
+// any error is accepted, and the best of the beginnings is what is told; and when it begins again.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "drive/coverage.hpp"
 #include "drive/fit.hpp"
 #include "drive/response.hpp"
+#include "tests/drive/plants.hpp"
 
 namespace {
 
@@ -117,6 +119,28 @@ TEST(FitStarts, AgreeWhoseErrorsAreAlike) {
     const drive::Fit together = drive::fit(form, {noisy}, {.starts = 4});
     EXPECT_EQ(together.starts_that_agree, 4U);
     EXPECT_FALSE(says_so(together));
+}
+
+// Of a record that a first order made, two fractional ones are hardly known, and their descent creeps. What it has come
+// to after 50 iterations is asked for as the error to accept: it has ended then. After 51 it has not.
+TEST(FitStarts, AreMoreWhereTheFirstHasNotEndedAfterFiftyIterations) {
+    drive::Acquisition noisy{
+        .excitation = {.name = "step"}, .until_s = 8.0, .jitter_s = 0.0, .noise = 0.02, .quantum = 0.0};
+    noisy.interval_s = 0.16;
+    const Record record = drive::to_record(drive::take_log(plants::fopdt(), noisy, 11));
+    Model given = plants::niopdt();
+    given.denominator = {{0.3, 1.5}, {0.5, 0.8}, {1.0, 0.0}};
+    const Form form(Kind::niopdt, given);
+    const auto starts_to_reach = [&](int iterations) {
+        const drive::Fit cut = drive::fit(form, {record}, {.iterations = iterations});
+        EXPECT_EQ(cut.iterations, iterations);
+        EXPECT_EQ(cut.stopped, "the number of iterations was reached");
+        // Above what was reached by rounding; each iteration lowers it by some millionths.
+        const double accepted = cut.sum_of_squares * (1.0 + 1e-9);
+        return drive::fit(form, {record}, {.accepted_error = accepted, .starts_if_poor = 1}).starts;
+    };
+    EXPECT_EQ(starts_to_reach(50), 1U);
+    EXPECT_EQ(starts_to_reach(51), 2U);
 }
 
 }  // namespace

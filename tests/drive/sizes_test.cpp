@@ -13,6 +13,7 @@
 
 #include "drive/stand/blind/effects.hpp"
 #include "drive/stand/blind/family.hpp"
+#include "drive/stand/blind/without_model.hpp"
 
 namespace {
 
@@ -242,6 +243,24 @@ TEST(EffectSizes, EventsLieWithinTheirRecord) {
                    event);
     Chance chance(1, 1);
     EXPECT_TRUE(event("backlash", EffectSize::clear, chance).empty());
+}
+
+// Without a model: from the record's first stamp on, here 3 s.
+TEST(EffectSizes, EventsWithoutAModelLieWithinTheirRecord) {
+    constexpr double first_s = 3.0;
+    const auto event = [](const std::string& effect, EffectSize, Chance& chance) {
+        blind::Fault fault{effect, {}};
+        blind::place_event(fault, first_s, scale.until_s, chance);
+        return fault.parameters;
+    };
+    const auto behind = [](const char* from, const char* to) {
+        return
+            [=](const Parameters& p) { return (p.at(to) - (from != nullptr ? p.at(from) : first_s)) / scale.until_s; };
+    };
+    expect_spreads({{"load_disturbance", 0.15, 0.6, behind(nullptr, "from_s")},
+                    {"load_disturbance", 0.1, 0.25, behind("from_s", "to_s")},
+                    {"missed_counts", 0.15, 0.6, behind(nullptr, "at_s")}},
+                   event);
 }
 
 TEST(EffectSizes, GoToTheirPlace) {

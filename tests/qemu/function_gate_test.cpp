@@ -136,7 +136,22 @@ TEST(FunctionGate, KeepsWhatTheCallsReached) {
     EXPECT_EQ(kept.code_bytes, 18U);
     EXPECT_EQ(kept.stack_bytes, 24U);
     EXPECT_EQ(kept.stalls, (std::map<std::string, double>{{"double_precision_in_software", 2.0}, {"load_use", 2.5}}));
-    EXPECT_EQ(qemu::gated_function(elf.function("step"), elf, std::nullopt).code_bytes, 12U);
+    // Of one that was never called nothing is known but its bytes, nor from a file.
+    qemu::GatedProgram program = gated();
+    program.functions = {qemu::gated_function(elf.function("step"), elf, std::nullopt)};
+    for (const qemu::GatedFunction& uncalled :
+         {program.functions[0], qemu::parse_gated_program(qemu::to_json(program, "why"), "file").functions.at(0)}) {
+        EXPECT_EQ(uncalled.code_bytes, 12U);
+        EXPECT_EQ(uncalled.calls, 0U);
+        EXPECT_EQ(uncalled.instructions_median, 0);
+        EXPECT_EQ(uncalled.instructions_max, 0);
+        EXPECT_EQ(uncalled.cycles_median, 0.0);
+        EXPECT_EQ(uncalled.cycles_max, 0.0);
+        EXPECT_EQ(uncalled.low, 0.0);
+        EXPECT_EQ(uncalled.high, 0.0);
+        EXPECT_EQ(uncalled.stack_bytes, 0U);
+        EXPECT_TRUE(uncalled.stalls.empty());
+    }
     EXPECT_EQ(elf.functions_like({"*e*"}).size(), 2U);
     EXPECT_THROW((void)elf.functions_like({"none*"}), glsum::Failure);
 }

@@ -192,6 +192,10 @@ TEST(MadeElf, RunsOnTheCoreByItsAttributesOrItsVectors) {
         made.attributes = attributes(static_cast<std::uint8_t>(architecture), profile);
         EXPECT_EQ(checked(), name);
     }
+    // The first pair lies just behind the heads: the format (a byte), the section's length (4), "aeabi" (6), tag and
+    // length of the whole file's part (1 and 4).
+    made.attributes = {'A', 19, 0, 0, 0, 'a', 'e', 'a', 'b', 'i', 0, 1, 9, 0, 0, 0, 6, 10, 7, 'M'};
+    EXPECT_EQ(checked(), "");
     // Without any: by the vector table at address 0, whose second word begins in Thumb state.
     made.attributes.clear();
     EXPECT_EQ(checked(), "");

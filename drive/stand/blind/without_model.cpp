@@ -138,19 +138,12 @@ Records draw_records(const Rig& rig, const OpenPlan& asked, bool one_level, Chan
 std::vector<Fault> faults_of(const std::vector<Fault>& all, const Excited& record, Chance& chance) {
     std::vector<Fault> faults;
     for (Fault fault : all) {
-        const double first_s = record.held.time_s[record.from];
-        const double until_s = record.held.time_s.back() - first_s;
         if (is_event(fault.effect)) {
             if (!record.event) {
                 continue;
             }
-            const double from_s = first_s + until_s * chance.between(0.15, 0.6);
-            if (fault.effect == "load_disturbance") {
-                fault.parameters["from_s"] = from_s;
-                fault.parameters["to_s"] = from_s + until_s * chance.between(0.1, 0.25);
-            } else {
-                fault.parameters["at_s"] = from_s;
-            }
+            const double first_s = record.held.time_s[record.from];
+            place_event(fault, first_s, record.held.time_s.back() - first_s, chance);
         }
         faults.push_back(std::move(fault));
     }
@@ -313,6 +306,16 @@ std::optional<OpenCase> attempt_case(const OpenPlan& asked, std::uint64_t own, i
 }
 
 }  // namespace
+
+void place_event(Fault& event, double first_s, double length_s, Chance& chance) {
+    const double from_s = first_s + length_s * chance.between(0.15, 0.6);
+    if (event.effect == "load_disturbance") {
+        event.parameters["from_s"] = from_s;
+        event.parameters["to_s"] = from_s + length_s * chance.between(0.1, 0.25);
+    } else {
+        event.parameters["at_s"] = from_s;
+    }
+}
 
 std::vector<OpenPlan> plan_open_cases(std::size_t count, std::uint64_t seed) {
     if (count < 1 || count > 999) {

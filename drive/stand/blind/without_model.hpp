@@ -49,6 +49,9 @@ struct OpenCase {
     OpenTruth truth;
 };
 
+/// An event begins 15 to 60 % into its record; a disturbance lasts for 10 to 25 % of it. \param first_s  stamp
+void place_event(Fault& event, double first_s, double length_s, Chance& chance);
+
 /// The same seed, number and plan give the same case. Where the effect shows in no plant of the family another of the
 /// same list takes its place. \param number  from 1 \throws glsum::Failure (check failed) where none does.
 [[nodiscard]] OpenCase make_open_case(const OpenPlan& plan, std::uint64_t seed, std::size_t number);

@@ -187,6 +187,45 @@ TEST(CortexM4, EveryRowMovesAProbe) {
     }
 }
 
+// A branch frees the whole buffer: what its target's first words take is the refill's figure alone, however long a word
+// takes from a place that becomes free to its use. Nor does a program begin with a wait.
+TEST(CortexM4, TheFirstWordsOfATargetComeWithTheRefill) {
+    probe::Setting setting = probe::core("cortex-m4-zerowait");
+    const std::string begin = lines_of("add.w r0,r1,r2; add.w r3,r4,r5");
+    const std::vector<std::int64_t> usual = probe::run(begin, setting).positions;
+    for (const std::int64_t latency : {1, 2, 5, 12, 40}) {
+        setting.figures.prefetch_latency = latency;
+        EXPECT_EQ(cycles_of({"", "1: subs.w r6,r6,#1; bne 1b", 3, How::turns}, setting), 3) << latency;
+        EXPECT_EQ(probe::run(begin, setting).positions, usual) << latency;
+    }
+}
+
+// Of one word a buffer asks for the next when it is used up, and has to begin anew: latency and restart for each. An
+// instruction across two words does not keep the first from leaving, else the second never came.
+TEST(CortexM4, ABufferOfOneWordAsksForEachByItself) {
+    probe::Setting setting = probe::core("cortex-m4-zerowait");
+    setting.figures.fetch_queue = 1;
+    setting.figures.prefetch_latency = 3;
+    setting.figures.prefetch_restart = 4;
+    EXPECT_EQ(cycles_of({"", "add.w r0,r1,r2; add.w r3,r4,r5", 0}, setting), 2 * (3 + 4));
+    // The second word was asked for a cycle behind the first, and two instructions go on from it.
+    EXPECT_EQ(cycles_of({"", "nop; add.w r0,r1,r2; nop", 0}, setting), 3 + 4 + 2);
+}
+
+// Nothing was stored, nothing computed and nothing held before a program's first instruction: it waits for its word
+// alone.
+TEST(CortexM4, BeginsWithNothingUnderWay) {
+    for (const char* text : {"ldr.w r0,[r1]", "str.w r0,[r1]", "vadd.f32 s0,s1,s2", "vldr s0,[r1]", "add.w r0,r1,r2"}) {
+        const timing::Losses losses = probe::run(lines_of(text), probe::core("cortex-m4-zerowait")).losses;
+        for (std::size_t e = 0; e < losses.size(); ++e) {
+            const auto effect = static_cast<timing::Effect>(e);
+            if (effect != timing::Effect::single_issue && effect != timing::Effect::fetch_alignment) {
+                EXPECT_EQ(losses[e], 0) << text << ": " << timing::effect_names[e];
+            }
+        }
+    }
+}
+
 // What each wait is called, in half cycles, beside the half of each instruction that starts a cycle of its own.
 TEST(CortexM4, LossesHaveTheNameOfTheirCause) {
     struct Case {

@@ -45,6 +45,26 @@ TEST(Cache, AtRandomKeepsSomeOfALoopThatDoesNotFit) {
     EXPECT_EQ(hits(true), hits(true));
 }
 
+// Where each line of a stretch is the one that its set had last, touching them in turn changes nothing.
+TEST(Cache, KnowsAStretchOfLinesThatItsSetsHadLast) {
+    timing::Cache cache(4096, 4, 32);  // 32 sets of 4
+    EXPECT_FALSE(cache.newest(0, 0));
+    for (std::uint32_t line = 29; line < 35; ++line) {  // sets 29, 30, 31, 0, 1, 2
+        (void)cache.touch(line * 32, false);
+    }
+    EXPECT_TRUE(cache.newest(29 * 32, 34 * 32 + 31));
+    EXPECT_TRUE(cache.newest(29 * 32 + 31, 30 * 32));
+    EXPECT_TRUE(cache.newest(31 * 32, 31 * 32));
+    EXPECT_FALSE(cache.newest(29 * 32 - 1, 34 * 32));
+    EXPECT_FALSE(cache.newest(29 * 32, 35 * 32));
+    (void)cache.touch(31 * 32 + 4096 / 4, false);
+    EXPECT_FALSE(cache.newest(29 * 32, 34 * 32)) << "its set has had another since";
+    EXPECT_TRUE(cache.newest(29 * 32, 31 * 32 - 1));
+    EXPECT_TRUE(cache.newest(32 * 32, 34 * 32));
+    EXPECT_TRUE(cache.newest(31 * 32 + 1024, 31 * 32 + 1024));
+    EXPECT_FALSE(cache.newest(0, 0)) << "another line of the same set";
+}
+
 TEST(Cache, OfNoBytesIsOff) {
     timing::Cache cache(0, 4, 32);
     EXPECT_FALSE(cache.on());

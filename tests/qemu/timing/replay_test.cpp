@@ -155,6 +155,14 @@ TEST(PackedEvent, TellsEventsApart) {
                 << &a - events.data() << " " << &b - events.data();
         }
     }
+    // The delays themselves may be left out where there are none: the rest tells so, whatever a delay would be called.
+    const timing::Event at_once = changed(load, [](auto& e) { e.fetch_delays = {}; });
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        const timing::Event late =
+            changed(load, [&](auto& event) { event.fetch_effect = static_cast<timing::Effect>(e); });
+        EXPECT_NE(timing::packed(at_once).event, timing::packed(late).event) << timing::effect_names[e];
+    }
+    EXPECT_EQ(timing::packed(at_once).fetch_delays, 0U);
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[0] = 8; }))) << "two delays";
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[8] = 9; }))) << "beyond the eighth";
 }
@@ -346,8 +354,11 @@ TEST(BlockReplay, RemembersNoMoreHoweverLongItRuns) {
 #endif
     };
     constexpr unsigned most_steps = 1U << 16;
-    const std::size_t full = in_use_after(most_steps + most_steps / 4);
+    (void)in_use_after(most_steps / 2);
+    EXPECT_EQ(replay.remembered(), most_steps / 2);  // each was another one
+    const std::size_t full = in_use_after(3 * most_steps / 4);
     EXPECT_LE(in_use_after(2 * most_steps), full + (std::size_t{1} << 18));
+    EXPECT_LT(replay.remembered(), most_steps);
     const std::vector<timing::SiteTime> times = replay.times();
     EXPECT_EQ(times.at(0).half_cycles + times.at(1).half_cycles, replay.core().positions()[0] - before);
 }

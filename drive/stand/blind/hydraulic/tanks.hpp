@@ -22,13 +22,13 @@ inline constexpr double brimless = std::numeric_limits<double>::infinity();
 struct Tanks {
     // What they are made of.
     bool two = false;
-    double first_area_cm2 = 100.0;
-    double area_cm2 = 100.0;  ///< of the last, which is the only one without a second
-    double first_outflow_cm2_per_s = 1.0;
-    double outflow_cm2_per_s = 1.0;
-    double reference_cm = 20.0;     ///< H
-    double inflow_per_unit = 20.0;  ///< cm^3/s for each unit of the input
-    double pump_tau_s = 0.0;        ///< 0: at once
+    double first_area_cm2 = 0.0;
+    double area_cm2 = 0.0;  ///< has to be given; of the last, which is the only one without a second
+    double first_outflow_cm2_per_s = 0.0;
+    double outflow_cm2_per_s = 0.0;
+    double reference_cm = 0.0;     ///< H, has to be given
+    double inflow_per_unit = 0.0;  ///< cm^3/s for each unit of the input
+    double pump_tau_s = 0.0;       ///< 0: at once
     double delay_s = 0.0;
     double sensor_tau_s = 0.0;
     double start_cm = 0.0;  ///< of all levels

@@ -19,12 +19,12 @@ inline constexpr double without_bound = std::numeric_limits<double>::infinity();
 
 struct Oven {
     // What it is made of.
-    double body_j_per_k = 100.0;
-    double body_loss_w_per_k = 1.0;
+    double body_j_per_k = 0.0;  ///< has to be given
+    double body_loss_w_per_k = 0.0;
     double wall_j_per_k = 0.0;  ///< 0: there is none
     double wall_loss_w_per_k = 0.0;
     double coupling_w_per_k = 0.0;
-    double power_w_per_unit = 1.0;  ///< of the input
+    double power_w_per_unit = 0.0;  ///< of the input
     double delay_s = 0.0;
     double heater_tau_s = 0.0;  ///< 0: at once
     double sensor_tau_s = 0.0;
