@@ -225,6 +225,9 @@ std::string base_line(const OfDrive& of) {
     }
     std::string line = fmt::format("base: {}, {}; the best linear description explains {:.1f} % of the variance",
                                    base.form, base.in_short, 100.0 * base.linear_share);
+    if (base.idle_input != 0.0) {
+        line += fmt::format("; inputs, those of causes too, are counted from {:.6g}", base.idle_input);
+    }
     for (std::size_t r = 0; r < base.records.size(); ++r) {
         const auto& [name, value] = base.records[r].numbers.front();
         line += fmt::format("{} {} {:.4g}", r == 0 ? "; of the records judged:" : ",", name, value);

@@ -50,6 +50,16 @@ gap::Cause backlash() { return {"backlash", {{"gap", 0.25, {{0.2, 0.3}}}}, 0.5, 
 
 json file_of(const gap::Verdict& verdict) { return json::parse(gap::to_json(verdict)); }
 
+// Where inputs are counted from stands beside the base, and only where it is not 0.
+TEST(VerdictFile, SaysWhereInputsAreCountedFrom) {
+    gap::OfDrive of = of_drive();
+    EXPECT_FALSE(file_of(verdict_of(of))["base"].contains("idle_input"));
+    EXPECT_THAT(gap::to_text(verdict_of(of)), Not(HasSubstr("counted from")));
+    of.base.idle_input = 1000.0;
+    EXPECT_EQ(file_of(verdict_of(of))["base"]["idle_input"], 1000.0);
+    EXPECT_THAT(gap::to_text(verdict_of(of)), HasSubstr("; inputs, those of causes too, are counted from 1000"));
+}
+
 TEST(VerdictFile, OfADriveHasTheSchemasFields) {
     gap::OfDrive of = of_drive();
     of.alternatives = {{backlash()}};
