@@ -151,6 +151,21 @@ TEST(Cycles, AnotherCostOfAnEffectIsFound) {
     EXPECT_NEAR(found.steps[0].parameters.at("factor"), 1.8, 0.02);
 }
 
+TEST(Cycles, OtherCostsOfTwoEffectsAreFound) {
+    const Explanation found = diagnose("real", {}, [](const auto&, const auto& p) {
+        const auto cycles = [&](timing::Effect effect) {
+            return static_cast<double>(p.half_cycles[timing::index(effect)]) / 2.0;
+        };
+        return p.nominal + 0.8 * cycles(timing::Effect::load_bank_conflict) +
+               0.6 * cycles(timing::Effect::store_buffer);
+    });
+    EXPECT_EQ(found.outcome, Outcome::attributed);
+    ASSERT_EQ(effects_of(found), (std::vector<std::string>{"load_bank_conflict", "store_buffer"}));
+    for (const auto& step : found.steps) {
+        EXPECT_NEAR(step.parameters.at("factor"), step.effect == "store_buffer" ? 1.6 : 1.8, 0.02) << step.effect;
+    }
+}
+
 // With one row of a kernel and placement there is none left to judge on, and that is said.
 TEST(Cycles, WhatIsJudgedOnTheRowsThatItIsFittedToSaysSo) {
     const auto notes = [](std::vector<std::uint32_t> taps) {

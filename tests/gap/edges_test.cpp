@@ -229,6 +229,9 @@ TEST(CoverageEdges, ABandIsThereOrLacks) {
     const double there = std::sqrt(0.02 / 0.98);
     EXPECT_THAT(lacks(waves(0.0), waves(1.003 * there)), Contains(StartsWith("faster than ")));
     EXPECT_THAT(lacks(waves(0.0), waves(0.997 * there)), Not(Contains(StartsWith("faster than "))));
+    // The level that an output rests at is no part of its variance.
+    const auto raised = [&](double fast) { return [=](double t) { return 100.0 + waves(fast)(t); }; };
+    EXPECT_THAT(lacks(raised(0.0), raised(1.003 * there)), Contains(StartsWith("faster than ")));
     EXPECT_THAT(lacks(waves(std::sqrt(0.0502)), waves(1.0)), Not(Contains(StartsWith("faster than "))));
     EXPECT_THAT(lacks(waves(std::sqrt(0.0498)), waves(1.0)), Contains(StartsWith("faster than ")));
     // Bands are half-decades above 0.9 periods in the record: the fourth edge lies at 0.9009 Hz.

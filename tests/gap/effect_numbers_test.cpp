@@ -461,6 +461,14 @@ TEST_F(ToldStart, OfASwingingDelayIsItsWave) {
         EXPECT_NEAR(found.at(1), 20.0 / waves, 1e-9) << waves;
         EXPECT_NEAR(found.at(2), 0.7, 0.05) << waves;
     }
+    // In whatever unit the output is read.
+    for (const double gain : {1e-6, 1e6}) {
+        plant_.model.gain = gain;
+        const Values found = start_of("variable_delay", {0.01 * tc, 20.0 / 7.5, 0.7});
+        EXPECT_NEAR(found.at(0), 0.01 * tc, 4e-4 * tc) << gain;
+        EXPECT_NEAR(found.at(1), 20.0 / 7.5, 1e-9) << gain;
+        EXPECT_NEAR(found.at(2), 0.7, 0.05) << gain;
+    }
     // Nothing is left: as long as the record.
     EXPECT_EQ(start_of("variable_delay", {0.0, 1.0, 0.0}), (Values{0.0, 20.0, 0.0}));
 }
