@@ -249,13 +249,13 @@ void CallTimer::end_call() {
 std::vector<std::map<std::uint32_t, HotSpot>> CallTimer::hot() const {
     std::vector<std::map<std::uint32_t, HotSpot>> tables(cores_.size());
     for (std::size_t c = 0; c < cores_.size(); ++c) {
-        const std::vector<SiteTime> times = cores_[c]->replay.times();
-        for (std::size_t site = 0; site < times.size(); ++site) {
-            const auto& [half_cycles, lost] = times[site];
+        auto address = addresses_.begin();
+        for (const auto& [half_cycles, lost] : cores_[c]->replay.times()) {
             const auto most = std::max_element(lost.begin(), lost.end());
             if (half_cycles != 0) {
-                tables[c][addresses_[site]] = {half_cycles, static_cast<Effect>(most - lost.begin()), *most};
+                tables[c][*address] = {half_cycles, static_cast<Effect>(most - lost.begin()), *most};
             }
+            ++address;
         }
     }
     return tables;
