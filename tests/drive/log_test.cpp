@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "base/failure.hpp"
+#include "drive/decimals.hpp"
+#include "drive/record.hpp"
 
 namespace {
 
@@ -141,6 +143,26 @@ TEST(Log, IsWrittenAndReadBack) {
     EXPECT_EQ(again.time_s, log.time_s);
     EXPECT_EQ(again.input, log.input);
     EXPECT_EQ(again.output, log.output);
+}
+
+// A field is part of a line: what stands behind it is none of it.
+TEST(Decimals, EndWhereTheirFieldDoes) {
+    const std::string_view line = "152e3";
+    const std::string file = "l.csv";
+    drive::Decimals decimals(file, "");
+    EXPECT_EQ(decimals.number(line.substr(0, 2), 1, "y"), 15.0);
+    EXPECT_EQ(decimals.number(line.substr(1, 2), 1, "y"), 52.0);
+    EXPECT_TRUE(drive::looks_like_number(line.substr(0, 3)));
+    EXPECT_FALSE(drive::looks_like_number(line.substr(0, 4)));
+}
+
+// By it messages and reports say which record they mean.
+TEST(Record, HasTheNameOfItsLog) {
+    std::string text = "time_s,input,output\n";
+    for (int k = 0; k < 20; ++k) {
+        text += std::to_string(k) + ",1," + std::to_string(k * k) + "\n";
+    }
+    EXPECT_EQ(drive::to_record(drive::parse_log(text, "l.csv")).name, "l.csv");
 }
 
 }  // namespace
