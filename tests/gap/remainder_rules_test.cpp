@@ -223,6 +223,17 @@ TEST_F(Rules, WhatIsNoNoiseBesideACauseIsAnotherCause) {
     EXPECT_EQ(after("what_is_no_noise", attributed(jump)).outcome, Outcome::unknown);
 }
 
+// A lasting cause may miss where training hardly tells its size, up to half of the gap.
+TEST_F(Rules, WhatLeavesHalfOfTheGapIsNotItsCause) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.499, 100.0);
+    set_noise(0.01);
+    ground_.study.noise = 10.0;  // training is all noise
+    beside_a_form();
+    EXPECT_EQ(after("what_is_no_noise", attributed(drag)).outcome, Outcome::attributed);
+    ranking_[drag].gap_after = 0.501;
+    EXPECT_EQ(after("what_is_no_noise", attributed(drag)).outcome, Outcome::unknown);
+}
+
 // Slow, and of no input: beside a fitted base that is what disturbs the plant.
 TEST_F(Rules, WhatIsNoNoiseMayDisturbThePlant) {
     std::mt19937_64 engine(5);

@@ -78,10 +78,12 @@ bool is_slow(const Evidence& evidence, const Decision& decision) {
         return false;
     }
     // A cause whose size the training hardly tells may miss elsewhere; one that leaves much where it was fitted, too,
-    // is not the only one. Events are fitted to each record.
+    // is not the only one. Events are fitted to each record. And beside a form what leaves half of the gap is not its
+    // cause, whatever training tells.
     constexpr double much = 4.0;
+    constexpr double half = 0.5;
     const Candidate& trained = evidence.ranking[decision.chosen].trained;
-    return trained.has_events() ||
+    return trained.has_events() || (evidence.beside_form() && after > half * decision.base_gap) ||
            over_noise(evidence.study, rms_of(evidence.study, all_residuals(evidence.study, trained))) > much;
 }
 
