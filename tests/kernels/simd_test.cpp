@@ -6,6 +6,7 @@
 #if defined(GLSUM_SIMD)
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -135,6 +136,51 @@ TEST(Simd, LongWindowsAddInTheStatedOrderWhereverTheyBegin) {
         check_places_on_each<float, true>(glsum::SimdArchitectures{}, blocks);
         check_places_on_each<double, false>(glsum::SimdArchitectures{}, blocks);
         check_places_on_each<double, true>(glsum::SimdArchitectures{}, blocks);
+    }
+}
+
+// Windows whose tables have copies shifted to where a window begins. What lies beside the window is not finite, and is
+// not in the sum.
+template <class Format, bool fused, class... Architectures>
+void check_shifted_on_each(xsimd::arch_list<Architectures...>, std::size_t blocks) {
+    using T = typename Format::Sample;
+    constexpr std::size_t block = 64 / sizeof(T);
+    const std::size_t past = blocks * block - 3;
+    using K = glsum::Sum<glsum::Mirror, std::conditional_t<fused, glsum::SimdFma, glsum::Simd>, Format>;
+    std::vector<T> table(K::table_count(past + 1));
+    std::vector<T> samples(K::past_count(past + 1));
+    typename K::State state;
+    ASSERT_EQ(K::prepare(state, {0.98319, past + 1}, table, samples), glsum::Status::ok);
+    std::mt19937 generator(8);
+    std::vector<T> x(blocks * block);
+    std::generate(x.begin(), x.end(), [&] { return static_cast<T>(generator()) / static_cast<T>(4294967296.0); });
+    const std::vector<T> coefficients(state.table, state.table + blocks * block);
+    EXPECT_EQ(coefficients.back(), T(0));
+    const T expected = test::in_the_stated_order<fused>(coefficients, x);
+    const auto check = [&]<class Architecture>(Architecture) {
+        if (!is_here<Architecture>()) {
+            return;
+        }
+        for (std::size_t place = 0; place < block; ++place) {
+            Table<T> memory(x.size() + place + block, std::numeric_limits<T>::infinity());
+            std::copy(x.begin(), x.end(), memory.begin() + place);
+            alignas(64) T recent[block];
+            std::copy(x.begin(), x.begin() + block, recent);
+            ASSERT_EQ((glsum::simd_slide_on<T, fused, Architecture>(state.table, memory.data() + place, recent, blocks,
+                                                                    T(1))),
+                      expected)
+                << Architecture::name() << (fused ? ", fused, " : ", ") << blocks << " blocks from " << place;
+        }
+    };
+    (check(Architectures{}), ...);
+}
+
+TEST(Simd, WindowsWithShiftedTablesAddInTheStatedOrderWhereverTheyBegin) {
+    for (const std::size_t blocks : {96, 97, 98, 99, 100, 101, 192, 313}) {
+        check_shifted_on_each<glsum::F32, false>(glsum::SimdArchitectures{}, blocks);
+        check_shifted_on_each<glsum::F32, true>(glsum::SimdArchitectures{}, blocks);
+        check_shifted_on_each<glsum::F64, false>(glsum::SimdArchitectures{}, blocks);
+        check_shifted_on_each<glsum::F64, true>(glsum::SimdArchitectures{}, blocks);
     }
 }
 

@@ -22,11 +22,16 @@ template <class T, bool fused>
 /// The same, but that the first block of samples is taken from `recent`, into which `newest` moves afterwards. The
 /// samples stored by the last calls could be loaded as a vector only once all of these stores are done; `recent` is
 /// stored as it is loaded. Where vectors are short that costs more than it saves, and `recent` is left alone.
+/// \param a  beyond `longest_unshifted` blocks, and unless fused, with its shifted copies behind it (Simd::fill)
 /// \param x  of `blocks` blocks, the newest among them \param recent  64 bytes, aligned to as many
 template <class T, bool fused>
 [[nodiscard]] T simd_slide(const T* a, const T* x, T* recent, std::size_t blocks, T newest);
 /// The name of that instruction set, as xsimd has it: "avx512f", "avx2", "sse2", "arm64+neon".
 [[nodiscard]] std::string_view simd_instruction_set();
+
+/// From so many blocks on, 1536 samples of 4 bytes, copies of the table that fall out of a first cache of 32 KB cost
+/// less than vectors across its lines.
+inline constexpr std::size_t longest_unshifted = 96;
 
 struct Simd : WeightTable {
     static constexpr std::string_view word = "simd";
@@ -43,9 +48,15 @@ struct Simd : WeightTable {
     static constexpr std::size_t held(std::size_t past) {
         return (past + block<Format> - 1) / block<Format> * block<Format>;
     }
+    /// Of a long window the table has a copy for each place in 16 bytes at which the window may begin
+    /// (simd_shifted.hpp).
+    template <class Format>
+    static constexpr std::size_t copies(std::size_t past) {
+        return held<Format>(past) > longest_unshifted * block<Format> ? 16 / sizeof(typename Format::Sample) : 1;
+    }
     template <class Format>
     static constexpr std::size_t table_count(std::size_t past) {
-        return past == 0 ? 0 : held<Format>(past) + block<Format> - 1;
+        return past == 0 ? 0 : copies<Format>(past) * held<Format>(past) + block<Format> - 1;
     }
     /// At the next multiple of 64 bytes: a vector across two of the processor's lines takes two loads.
     template <class T>
@@ -59,11 +70,23 @@ struct Simd : WeightTable {
 
     /// a_1 ... a_past, then zeros up to a whole block.
     template <class Format>
-    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
-                     const typename Format::Scale& scale) {
+    static void fill_once(typename Format::Coefficient* table, std::size_t past, const Design& design,
+                          const typename Format::Scale& scale) {
         WeightTable::fill<Format>(table, past, design, scale);
         for (std::size_t i = past; i < held<Format>(past); ++i) {
             table[i] = 0;
+        }
+    }
+    /// The same, then as much of it behind one zero, behind two ...
+    template <class Format>
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
+                     const typename Format::Scale& scale) {
+        fill_once<Format>(table, past, design, scale);
+        const std::size_t count = held<Format>(past);
+        for (std::size_t shift = 1; shift < copies<Format>(past); ++shift) {
+            for (std::size_t i = 0; i < count; ++i) {
+                table[shift * count + i] = i < shift ? 0 : table[i - shift];
+            }
         }
     }
 
@@ -102,6 +125,17 @@ protected:
 
 struct SimdFma : Fused<Simd> {
     static constexpr std::string_view word = "simdfma";
+
+    /// No copies: SSE2, whose loop takes them, has no fused product.
+    template <class Format>
+    static constexpr std::size_t table_count(std::size_t past) {
+        return past == 0 ? 0 : held<Format>(past) + block<Format> - 1;
+    }
+    template <class Format>
+    static void fill(typename Format::Coefficient* table, std::size_t past, const Design& design,
+                     const typename Format::Scale& scale) {
+        fill_once<Format>(table, past, design, scale);
+    }
 
     template <class Format>
     static typename Format::Accumulator sum_beside(const typename Format::Coefficient* table,

@@ -71,6 +71,9 @@ struct Accumulator {
     void add(const Accumulator& other) {
         each([&](auto part) { sums[part] = sums[part] + other.sums[part]; });
     }
+    void load(const T* lanes) {
+        each([&](auto part) { sums[part] = Batch::load_unaligned(lanes + part * Batch::size); });
+    }
     // Formed here: clang would put the last additions off, and have too few registers behind them.
     void settle() {
         each([&](auto part) { sums[part] = in_register(sums[part]); });
