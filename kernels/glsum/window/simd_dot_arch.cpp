@@ -118,8 +118,10 @@ T simd_slide_on(const T* a, const T* x, T* recent, std::size_t blocks, T newest)
     using Batch = xsimd::batch<T, Architecture>;
     [[maybe_unused]] constexpr std::size_t parts = 64 / sizeof(T) / Batch::size;
     if constexpr (!keeps_recent<Architecture>) {
-        if (!fused && blocks > longest_unshifted) {
-            return sum_of_shifted<T, Architecture>(a, x, blocks);
+        if constexpr (!fused) {
+            if (blocks > longest_unshifted) {
+                return sum_of_shifted<T, Architecture>(a, x, blocks);
+            }
         }
         return sum_of<T, fused, Architecture>(a, x, x, blocks);
     } else {

@@ -7,8 +7,8 @@
 // what another one holds otherwise, but all of it and in the same order; in its place again at the end, it is added as
 // always.
 //
-// One pass: two, of half the sums each, would fetch half of each line's neighbours twice, and what the first cache does
-// not hold comes by lines in a row. One of 16 registers holds a product, so that the last sum is kept in memory.
+// One pass: of two, of half the sums each, either leaves out every second pair of lines, and what lies beyond the first
+// cache comes best by lines in a row. One of 16 registers holds a product, so that the last sum is kept in memory.
 #pragma once
 
 #include <cstddef>
