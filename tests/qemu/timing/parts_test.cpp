@@ -232,6 +232,29 @@ TEST(Memory, PlacesDecideWhatAnAccessCosts) {
     EXPECT_EQ(art.fetch(0x100).cycles, 0);
 }
 
+// The flash holds the line that it read last for fetches, and another one for loads: neither saves the other a read,
+// whether caches ask or the core itself. A second access by the same side takes the bus alone.
+TEST(Memory, FetchesAndLoadsEachHaveALineOfTheFlashOpen) {
+    for (const char* core : {"stm32f746-flash", "stm32f746-flash-nocache"}) {
+        timing::Figures figures = probe::core(core).figures;
+        const timing::Placement placement{timing::CodePlace::flash, timing::DataPlace::axi};
+        const std::int64_t line = figures.memory_flash_line_bytes;
+        ASSERT_GE(line, 8) << core;
+        // Of the least lines that a cache can have, so that one line of the flash is read in two.
+        figures.cache_line_bytes = 4;
+        const std::int64_t bus = figures.memory_bus_overhead * figures.memory_bus_clocks;
+        const std::int64_t read = 8 * figures.memory_bus_clocks;  // seven wait states at 216 MHz, and the read itself
+        timing::Memory fetches_first(figures, placement);
+        EXPECT_EQ(fetches_first.fetch(0x100).cycles, bus + read) << core;
+        EXPECT_EQ(fetches_first.load(0x100).cycles, bus + read) << core;
+        EXPECT_EQ(fetches_first.fetch(0x104).cycles, bus) << core;
+        EXPECT_EQ(fetches_first.load(0x104).cycles, bus) << core;
+        timing::Memory loads_first(figures, placement);
+        EXPECT_EQ(loads_first.load(0x100).cycles, bus + read) << core;
+        EXPECT_EQ(loads_first.fetch(0x100).cycles, bus + read) << core;
+    }
+}
+
 // A real program mixes memories: of two ranges that overlap the later one holds, and neither reaches behind its end.
 TEST(Memory, RangesLieElsewhereThanTheirNeighbours) {
     const timing::Figures figures = timing::read_core(TEST_CORES, "stm32f746-flash-nocache").sets[0].figures;
