@@ -54,6 +54,29 @@ TEST(SampledPlant, HasThePulseTransferFunction) {
     }
 }
 
+// What it leaves of an integrator's aliases is theirs behind the 20th on each side, and behind the 200th where they
+// count for more: 2e-4 of it below 0.3 rad a sample, and 0.3 % at Nyquist's frequency.
+TEST(SampledPlant, LeavesTheAliasesBehindTheTwentieth) {
+    const double h = 0.1;
+    const SampledPlant plant(integrator(1.0, 0.0), h, "plant");
+    for (const double angle : {0.02, 0.1, 0.29, 0.31, 1.0, 3.1}) {
+        const double w = angle / h;
+        const Complex lag = std::polar(1.0, -angle);
+        const Complex exact = h * lag / (1.0 - lag);
+        double rest = 0.0;
+        constexpr int last = 200'000;
+        for (int k = last; k > (angle < 0.3 ? 20 : 200); --k) {
+            const double apart = 2.0 * pi * k / h;
+            rest -= 1.0 / ((w + apart) * (w + apart)) + 1.0 / ((w - apart) * (w - apart));
+        }
+        rest -= 2.0 * h * h / (4.0 * pi * pi * last);
+        const Complex left = (exact - plant(w)) * h / (1.0 - lag);
+        EXPECT_NEAR(left.real() / rest, 1.0, 1e-3) << angle;
+        EXPECT_LT(std::abs(left.imag() / rest), 1e-3) << angle;
+        EXPECT_LT(std::abs(plant(w) / exact - 1.0), angle < 0.3 ? 2.1e-4 : 3e-3) << angle;
+    }
+}
+
 TEST(SampledPlant, RefusesWhatItCannotTell) {
     drive::Model direct = drive::make_fopdt(1.0, 1.0, 0.0);
     direct.numerator = {{1.0, 1.0}};
