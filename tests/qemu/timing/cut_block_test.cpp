@@ -17,14 +17,14 @@ constexpr std::uint32_t add_to_r0 = 0x3001;
 constexpr std::uint32_t back = 0x4770;
 constexpr std::uint32_t unknown = 0xDEFE;
 
-struct Told {
+struct CutTold {
     std::vector<TimedCall> calls;
     std::map<std::uint32_t, std::uint64_t> unknown;
 };
 
-class Program {
+class CutFunction {
 public:
-    explicit Program(std::vector<std::uint32_t> encodings) {
+    explicit CutFunction(std::vector<std::uint32_t> encodings) {
         caller_.push_back({0x10, 0xF000F876, 4, 0});  // BL entry
         for (const std::uint32_t encoding : encodings) {
             body_.push_back(half_word(entry, body_.size(), encoding));
@@ -34,7 +34,7 @@ public:
     }
 
     // Of the body's block so many instructions were executed before it went elsewhere.
-    [[nodiscard]] Told in_blocks(std::size_t done) const {
+    [[nodiscard]] CutTold in_blocks(std::size_t done) const {
         return tell([&](timing::CallTimer& timer) {
             timer.executes_block({caller_, 0}, 1);
             timer.executes_block({body_, 1}, 1);
@@ -43,7 +43,7 @@ public:
             timer.finish();
         });
     }
-    [[nodiscard]] Told one_by_one(std::size_t done) const {
+    [[nodiscard]] CutTold one_by_one(std::size_t done) const {
         return tell([&](timing::CallTimer& timer) {
             timer.executes(caller_.front());
             for (std::size_t i = 0; i < done; ++i) {
@@ -60,8 +60,8 @@ private:
         return {static_cast<std::uint32_t>(first + 2 * nth), encoding, 2, next_++};
     }
     template <class Run>
-    [[nodiscard]] Told tell(const Run& run) const {
-        Told told;
+    [[nodiscard]] CutTold tell(const Run& run) const {
+        CutTold told;
         timing::CallTimer timer({entry}, {timing::read_core(TEST_CORES, "stm32f746-itcm")},
                                 [&](const TimedCall& call) { told.calls.push_back(call); });
         run(timer);
@@ -73,9 +73,9 @@ private:
     std::vector<qemu::Instruction> caller_, body_, ret_, behind_;
 };
 
-void expect_the_same(const Program& program, std::size_t told, std::size_t done) {
-    const Told cut = program.in_blocks(told);
-    const Told single = program.one_by_one(done);
+void expect_the_same(const CutFunction& program, std::size_t told, std::size_t done) {
+    const CutTold cut = program.in_blocks(told);
+    const CutTold single = program.one_by_one(done);
     ASSERT_EQ(cut.calls.size(), 1U);
     ASSERT_EQ(single.calls.size(), 1U);
     EXPECT_EQ(cut.calls[0].instructions, done + 1) << told;
@@ -85,14 +85,14 @@ void expect_the_same(const Program& program, std::size_t told, std::size_t done)
 }
 
 TEST(CutBlock, IsTimedAsFarAsItCame) {
-    const Program program({add_to_r0, unknown, add_to_r0, unknown, add_to_r0});
+    const CutFunction program({add_to_r0, unknown, add_to_r0, unknown, add_to_r0});
     for (const std::size_t done : {1U, 2U, 3U, 4U, 5U}) {
         expect_the_same(program, done, done);
     }
     // What faulted in its first instruction came that far; nothing is behind its last.
     expect_the_same(program, 0, 1);
     expect_the_same(program, 9, 5);
-    expect_the_same(Program({add_to_r0}), 1, 1);
+    expect_the_same(CutFunction({add_to_r0}), 1, 1);
 }
 
 }  // namespace
