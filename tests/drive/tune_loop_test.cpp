@@ -141,6 +141,25 @@ TEST(Margins, AgreeWithADenseSweep) {
     EXPECT_NEAR(degrees(tune::Grid(plant)(gains).phase_rad), phase, 0.5);
 }
 
+// A lead behind a dead time: |S| has a peak at about each odd multiple of a frequency, and the second is the highest.
+// It is looked for around the grid's own highest, not among the others.
+TEST(Margins, OfSeveralPeaksTheHighestIsTold) {
+    const SampledPlant plant(drive::make_fopdt(1.0, 1.0, 2.0), 0.05, "plant");
+    const Loop loop{&plant, {.kp = 0.1, .kd = 0.7, .filter_s = 0.02}};
+    double sensitivity = 0.0;
+    double at = 0.0;
+    for (int i = 1; i < 12'000; ++i) {
+        const double now = 1.0 / std::abs(1.0 + loop(1e-3 * i));
+        at = now > sensitivity ? 1e-3 * i : at;
+        sensitivity = std::max(sensitivity, now);
+    }
+    ASSERT_NEAR(at, 4.64, 0.01);  // beside 1.74 and 7.65
+    const Margins margins = tune::margins_of(loop);
+    EXPECT_NEAR(margins.sensitivity_at, at, 1.5e-3);
+    EXPECT_NEAR(margins.sensitivity, sensitivity, 1e-5);
+    EXPECT_GE(margins.sensitivity, sensitivity);
+}
+
 // K (1 - a) z^-1 / (1 - a z^-1) is -K (1 - a) / (1 + a) at half the sample's rate, where |S| is largest: the grid ends
 // there. As |L| is nowhere 1, there is no margin of phase.
 TEST(Grid, EndsAtHalfTheSampleRate) {
