@@ -12,28 +12,20 @@ public:
     /// \param at_random  which line is replaced: the same ones in every run
     Cache(std::int64_t bytes, std::int64_t ways, std::int64_t line_bytes, bool at_random = false);
 
-    struct Touch {
-        bool hit;
-        bool writes_back;  ///< a modified line leaves
-    };
-    /// Looks the line up, and brings it in if it is not there.
-    Touch touch(std::uint32_t address, bool store) {
+    /// Looks the line up, and brings it in if it is not there. \return whether it was there
+    bool touch(std::uint32_t address) {
         if (lines_.empty()) {
-            return {false, false};
+            return false;
         }
         const std::uint32_t tag = address >> line_shift_;
-        Line& newest = lines_[std::size_t{tag & (sets_ - 1)} * ways_];
-        if (newest.tag == tag) {
-            newest.modified = newest.modified || store;
-            return {true, false};
-        }
-        return touch_older(&newest, tag, store);
+        std::uint32_t& newest = lines_[std::size_t{tag & (sets_ - 1)} * ways_];
+        return newest == tag || touch_older(&newest, tag);
     }
     /// Whether all lines from this address to that are the ones that their sets had last: touching them changes
     /// nothing.
     [[nodiscard]] bool newest(std::uint32_t first, std::uint32_t last) const {
         for (std::uint32_t tag = first >> line_shift_; tag <= last >> line_shift_; ++tag) {
-            if (lines_[std::size_t{tag & (sets_ - 1)} * ways_].tag != tag) {
+            if (lines_[std::size_t{tag & (sets_ - 1)} * ways_] != tag) {
                 return false;
             }
         }
@@ -42,18 +34,15 @@ public:
     [[nodiscard]] bool on() const { return !lines_.empty(); }
 
 private:
-    struct Line {
-        std::uint32_t tag = 0xFFFFFFFFU;
-        bool modified = false;
-    };
-    Touch touch_older(Line* first, std::uint32_t tag, bool store);
+    static constexpr std::uint32_t no_line = 0xFFFFFFFFU;
+    bool touch_older(std::uint32_t* first, std::uint32_t tag);
 
     std::uint32_t line_shift_ = 0;
     std::uint32_t sets_ = 1;  // a power of two: the index is a field of the address
     std::uint32_t ways_ = 1;
     bool at_random_ = false;
     std::uint32_t random_ = 1;
-    std::vector<Line> lines_;  // of each set together, the most recently used first
+    std::vector<std::uint32_t> lines_;  // tags, those of each set together, the most recently used first
 };
 
 }  // namespace timing

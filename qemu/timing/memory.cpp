@@ -38,7 +38,7 @@ Delay Memory::read_flash(std::uint32_t address, bool fetch) {
     if (accelerator_.on()) {
         const bool ahead = figures_.memory_art_prefetch != 0 && line == prefetched_line_;
         prefetched_line_ = line + 1;
-        if (accelerator_.touch(address, false).hit) {
+        if (accelerator_.touch(address)) {
             return {0, Effect::flash_wait_states};
         }
         // What is read ahead has been under way since the line before was begun: eight words of 4 bytes.
@@ -64,7 +64,7 @@ Delay Memory::fetch(std::uint32_t address) {
     }
     const bool flash = place_of(address) == Place::flash;
     if (instructions_.on() && !accelerator_.on()) {
-        if (instructions_.touch(address, false).hit) {
+        if (instructions_.touch(address)) {
             return {};
         }
         const Delay delay = flash ? read_flash(address, true) : Delay{sram_line()};
@@ -91,8 +91,7 @@ Delay Memory::load_from_afar(std::uint32_t address) {
         return read_flash(address, false);
     }
     if (data_.on()) {
-        const Cache::Touch touch = data_.touch(address, false);
-        if (touch.hit) {
+        if (data_.touch(address)) {
             return {};
         }
         return {flash ? read_flash(address, false).cycles : sram_line(), Effect::dcache_misses};
@@ -104,7 +103,7 @@ Delay Memory::store(std::uint32_t address) {
     if (nothing_waits_ || place_of(address) != Place::axi) {  // a flash is not written by stores
         return {};
     }
-    if (data_.on() && data_.touch(address, true).hit) {
+    if (data_.on() && data_.touch(address)) {
         return {};
     }
     return {sram_line(), Effect::dcache_misses};

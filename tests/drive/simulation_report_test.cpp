@@ -76,6 +76,12 @@ TEST(SimulationReport, IsOfTheSchemeAndComparedWhereThatIsWanted) {
     EXPECT_EQ(both.method, drive::in_words({}));
     EXPECT_EQ(both.exact, exact.record.output);
     EXPECT_EQ(both.record.output, drive::simulate(model, {}, step.input).output);
+    for (const drive::SimulationReport* report : {&exact, &both}) {  // of the input that was given, at its stamps
+        EXPECT_EQ(report->record.name, step.name);
+        ASSERT_EQ(report->record.time_s, step.time_s);
+        EXPECT_EQ(report->record.input, step.input);
+        EXPECT_THAT(drive::to_text(*report, model), HasSubstr(", input step: 1001 samples, at 1 s the output is"));
+    }
     EXPECT_EQ(both.full_scale, 0.0);
     EXPECT_TRUE(drive::simulate(model, {}, step, false).exact.empty());
     drive::Scheme fixed;

@@ -1,6 +1,7 @@
 // Stability next to its border, and what is told of roots and poles: closed forms.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -36,6 +37,24 @@ TEST(StabilityLimits, ARootWithinATenMillionthOfARadianIsOnTheBorder) {
     EXPECT_STREQ(drive::name_of(Stability::stable), "stable");
     EXPECT_STREQ(drive::name_of(Stability::borderline), "borderline");
     EXPECT_STREQ(drive::name_of(Stability::unstable), "unstable");
+}
+
+// (s + 1 / r) (s + 1) (s + r): the eigenvalues err by a rounding of the largest, which the small root is improved from.
+TEST(StabilityLimits, SmallRootsBesideLargeOnesAreAsExactAsThose) {
+    for (const double r : {1e3, 1e4, 1e5}) {
+        const double middle = r + 1.0 + 1.0 / r;
+        const auto judged = drive::judge_stability(with({{1, 3}, {middle, 2}, {middle, 1}, {1, 0}}), 1.0);
+        ASSERT_EQ(judged.roots.size(), 3U);
+        std::vector<double> sizes;
+        for (const Complex root : judged.roots) {
+            sizes.push_back(std::abs(root));
+        }
+        std::sort(sizes.begin(), sizes.end());
+        EXPECT_NEAR(sizes[0] * r, 1.0, 1e-12) << r;
+        EXPECT_NEAR(sizes[1], 1.0, 1e-12) << r;
+        EXPECT_NEAR(sizes[2] / r, 1.0, 1e-12) << r;
+        EXPECT_LT(judged.largest_residual, 1e-14) << r;
+    }
 }
 
 TEST(StabilityLimits, RootsAndPolesAreThoseOfTheirPolynomial) {

@@ -54,6 +54,29 @@ TEST(SampledPlant, HasThePulseTransferFunction) {
     }
 }
 
+// What it leaves of an integrator's aliases is theirs behind the 20th on each side, and behind the 200th where they
+// count for more: 2e-4 of it below 0.3 rad a sample, and 0.3 % at Nyquist's frequency.
+TEST(SampledPlant, LeavesTheAliasesBehindTheTwentieth) {
+    const double h = 0.1;
+    const SampledPlant plant(integrator(1.0, 0.0), h, "plant");
+    for (const double angle : {0.02, 0.1, 0.29, 0.31, 1.0, 3.1}) {
+        const double w = angle / h;
+        const Complex lag = std::polar(1.0, -angle);
+        const Complex exact = h * lag / (1.0 - lag);
+        double rest = 0.0;
+        constexpr int last = 200'000;
+        for (int k = last; k > (angle < 0.3 ? 20 : 200); --k) {
+            const double apart = 2.0 * pi * k / h;
+            rest -= 1.0 / ((w + apart) * (w + apart)) + 1.0 / ((w - apart) * (w - apart));
+        }
+        rest -= 2.0 * h * h / (4.0 * pi * pi * last);
+        const Complex left = (exact - plant(w)) * h / (1.0 - lag);
+        EXPECT_NEAR(left.real() / rest, 1.0, 1e-3) << angle;
+        EXPECT_LT(std::abs(left.imag() / rest), 1e-3) << angle;
+        EXPECT_LT(std::abs(plant(w) / exact - 1.0), angle < 0.3 ? 2.1e-4 : 3e-3) << angle;
+    }
+}
+
 TEST(SampledPlant, RefusesWhatItCannotTell) {
     drive::Model direct = drive::make_fopdt(1.0, 1.0, 0.0);
     direct.numerator = {{1.0, 1.0}};
@@ -116,6 +139,25 @@ TEST(Margins, AgreeWithADenseSweep) {
     EXPECT_NEAR(margins.phase_deg, phase, 0.05);
     EXPECT_NEAR(tune::Grid(plant)(gains).sensitivity, sensitivity, 5e-3);
     EXPECT_NEAR(degrees(tune::Grid(plant)(gains).phase_rad), phase, 0.5);
+}
+
+// A lead behind a dead time: |S| has a peak at about each odd multiple of a frequency, and the second is the highest.
+// It is looked for around the grid's own highest, not among the others.
+TEST(Margins, OfSeveralPeaksTheHighestIsTold) {
+    const SampledPlant plant(drive::make_fopdt(1.0, 1.0, 2.0), 0.05, "plant");
+    const Loop loop{&plant, {.kp = 0.1, .kd = 0.7, .filter_s = 0.02}};
+    double sensitivity = 0.0;
+    double at = 0.0;
+    for (int i = 1; i < 12'000; ++i) {
+        const double now = 1.0 / std::abs(1.0 + loop(1e-3 * i));
+        at = now > sensitivity ? 1e-3 * i : at;
+        sensitivity = std::max(sensitivity, now);
+    }
+    ASSERT_NEAR(at, 4.64, 0.01);  // beside 1.74 and 7.65
+    const Margins margins = tune::margins_of(loop);
+    EXPECT_NEAR(margins.sensitivity_at, at, 1.5e-3);
+    EXPECT_NEAR(margins.sensitivity, sensitivity, 1e-5);
+    EXPECT_GE(margins.sensitivity, sensitivity);
 }
 
 // K (1 - a) z^-1 / (1 - a z^-1) is -K (1 - a) / (1 + a) at half the sample's rate, where |S| is largest: the grid ends

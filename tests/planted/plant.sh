@@ -192,7 +192,14 @@ wanted() {
     set +f
     return 1
 }
-printf '%s\n' "$bugs" | while IFS='|' read -r name file symbol change; do
+# Not by IFS='|': read takes a | that ends the line for the end of a field, and "& => |" would take the & out.
+fields() {  # LINE
+    name=${1%%|*} change=${1#*|}
+    file=${change%%|*} change=${change#*|}
+    symbol=${change%%|*} change=${change#*|}
+}
+printf '%s\n' "$bugs" | while IFS= read -r line; do
+    fields "$line"
     name=$(echo $name) file=$(echo $file)
     ! wanted "${name#!}" || printf '%s|%s|%s|%s\n' "$name" "$file" "$(echo "$symbol" | sed 's/^ *//; s/ *$//')" \
         "$(printf '%s' "$change" | sed 's/^ *//; s/ *$//')"
@@ -260,7 +267,8 @@ caught=0
 missed=''
 number=0
 count=$(wc -l <"$source/build/planted/bugs")
-while IFS='|' read -r name file symbol change <&3; do
+while IFS= read -r line <&3; do
+    fields "$line"
     number=$((number + 1))
     tests=$(tests_of "$file")
     cp -p "$copy/$file" "$build/original"

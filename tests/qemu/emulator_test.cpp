@@ -137,6 +137,20 @@ TEST(Emulate, AFailureSaysHowItEndedAndItsLastWords) {
     EXPECT_EQ(much.message.find("100000"), std::string::npos);
 }
 
+// What QEMU dies of it says in one line, and dumps all registers after it: of those the place, R15, is told.
+TEST(Emulate, OfAFatalErrorItsReasonAndItsPlaceAreTold) {
+    const std::string registers =
+        "echo R12=00000000 R13=20000f00 R14=fffffff9 R15=0000012c; echo XPSR=41000003 -Z-- T handler; kill -ABRT $$\n";
+    const Told told = told_by("echo row 0; echo 'qemu: fatal: Lockup: no way to escalate'; echo; " + registers);
+    EXPECT_EQ(told.status, glsum::Exit::check_failed);
+    EXPECT_EQ(told.message, "a.elf under the emulator was ended by signal 6: Lockup: no way to escalate, R15=0000012c");
+    EXPECT_EQ(told.lines.size(), 5U);
+    // Registers alone are no reason, nor is what another line says of one.
+    EXPECT_EQ(told_by("echo it is qemu: fatal: here; " + registers).message,
+              "a.elf under the emulator was ended by signal 6; it said:\n  it is qemu: fatal: here\n"
+              "  R12=00000000 R13=20000f00 R14=fffffff9 R15=0000012c\n  XPSR=41000003 -Z-- T handler");
+}
+
 TEST(Emulate, ALineWithoutAnEndIsRefused) {
     EXPECT_EQ(told_by("head -c 65536 /dev/zero | tr '\\0' x; echo\n").lines.size(), 1U);
     const Told endless = told_by("printf begin; head -c 70000 /dev/zero | tr '\\0' x; exec sleep 60\n");

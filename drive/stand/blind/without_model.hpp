@@ -53,7 +53,8 @@ struct OpenCase {
 void place_event(Fault& event, double first_s, double length_s, Chance& chance);
 
 /// The same seed, number and plan give the same case. Where the effect shows in no plant of the family another of the
-/// same list takes its place. \param number  from 1 \throws glsum::Failure (check failed) where none does.
+/// same list takes its place: of six effects each is given forty plants. \param number  from 1 \throws glsum::Failure
+/// (check failed) where none does.
 [[nodiscard]] OpenCase make_open_case(const OpenPlan& plan, std::uint64_t seed, std::size_t number);
 
 /// Cases of a seed, in order. \param done  called after each

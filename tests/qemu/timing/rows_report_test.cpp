@@ -130,6 +130,22 @@ TEST(RowsReport, TellsTheTenWorstAndTheirFourGreatestLosses) {
     EXPECT_THAT(text, HasSubstr("\nf itcm dtcm "));
 }
 
+// Losses that are alike come in the order of the effects, everywhere and in every run; what lost nothing is not named.
+TEST(RowsReport, LossesAsGreatAsOneAnotherKeepTheirOrder) {
+    Made all = made();
+    std::string losses;
+    for (qemu::PredictedCall& call : all.calls) {
+        call.lost.fill(0.0);
+        call.lost[1] = 1.0;
+        call.lost[3] = call.lost[6] = 7.0;
+    }
+    for (const std::size_t e : {3U, 6U}) {
+        losses += std::string(timing::effect_names[e]) + " 7, ";
+    }
+    const std::string text = qemu::to_text("m.csv", all.rows, all.calls, qemu::fit_of(all.rows, all.calls));
+    EXPECT_THAT(text, HasSubstr("  " + losses + std::string(timing::effect_names[1]) + " 1\n"));
+}
+
 // Over all groups as many rows count as they have: of 12, and by authors of 12 again.
 TEST(RowsReport, MeansCountEachRowOnce) {
     const Made all = made();
