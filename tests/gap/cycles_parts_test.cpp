@@ -292,8 +292,14 @@ TEST(BlindCyclesParts, SecretsHaveTheirSharesAndSizes) {
         at->second.first = std::min(at->second.first, value);
         at->second.second = std::max(at->second.second, value);
     };
+    std::map<std::string, double> costs;
+    double slower = 0.0;
     for (const auto& secret : gap::cycles::draw_secrets(count, 3, {"single_issue"})) {
         kinds[secret.kind] += 1.0 / count;
+        if (secret.kind == "cost") {
+            costs[secret.effects.front()] += 1.0 / count;
+            slower += secret.ratio < 1.0 ? 1.0 / count : 0.0;
+        }
         const auto has = [&](const char* name) {
             return std::count(secret.effects.begin(), secret.effects.end(), name) > 0;
         };
@@ -323,6 +329,12 @@ TEST(BlindCyclesParts, SecretsHaveTheirSharesAndSizes) {
     EXPECT_NEAR(kinds["unlisted"], 0.15, 0.002);
     EXPECT_NEAR(kinds["switch"], 0.225, 0.002);
     EXPECT_NEAR(kinds["cost"], 0.225, 0.002);
+    // Of the four costs each is as often, and of the clocks each direction. A deviation of 0.0005 and less.
+    ASSERT_EQ(costs.size(), 4U);
+    for (const auto& [name, share] : costs) {
+        EXPECT_NEAR(share, 0.225 / 4.0, 0.002) << name;
+    }
+    EXPECT_NEAR(slower, 0.225 / 8.0, 0.002);
     const auto expect = [&](const char* name, double low, double high) {
         EXPECT_GE(ranges[name].first, low) << name;
         EXPECT_LE(ranges[name].second, high) << name;
