@@ -65,4 +65,17 @@ TEST(PlotTimes, LinesAndShadesLieAsFromZero) {
     }
 }
 
+// As high as asked for 1100 px across; on a phone 400 across and three fifths as high, 110 at least.
+TEST(PlotSizes, AreThoseOfAScreenAndOfAPhone) {
+    const auto boxes = [](double height) {
+        return all_between(gap::to_svg({"left", height, {{"line", at_both_ends()}}}, times_from(0.0)), "viewBox=\"",
+                           "\"");
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(boxes(300.0), ElementsAre("0 0 1100 300", "0 0 400 180"));
+    EXPECT_THAT(boxes(190.0), ElementsAre("0 0 1100 190", "0 0 400 114"));
+    EXPECT_THAT(boxes(180.0), ElementsAre("0 0 1100 180", "0 0 400 110"));
+    EXPECT_THAT(boxes(110.0), ElementsAre("0 0 1100 110", "0 0 400 110"));
+}
+
 }  // namespace
