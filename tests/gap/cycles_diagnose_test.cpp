@@ -147,6 +147,7 @@ TEST(CyclesBlind, OtherRulesMakeTheCyclesOfEachCase) {
     const auto secrets = gap::cycles::draw_other_rules(200, 3, {"chain", "serial_fpu"});
     std::map<std::string, int> kinds;
     std::map<std::string, int> sets;
+    EXPECT_EQ(secrets.size(), 200U);
     std::map<std::string, int> mechanisms;
     for (const auto& secret : secrets) {
         ++kinds[secret.kind];

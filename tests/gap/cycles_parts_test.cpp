@@ -48,6 +48,24 @@ TEST(CyclesParts, AChangeIsBelievedByTheCyclesAndTheGap) {
     EXPECT_FALSE(gap::cycles::better(0.8501 * 0.4, 0.4));
 }
 
+// A kernel is met within 5 % of its slope, and 5 % or 8 cycles of its shortest call; closely within 2 % and 8 cycles.
+TEST(CyclesParts, ALineIsMetByItsSlopeAndItsShortestCall) {
+    const auto line = [](double slope, double constant, double shortest = 100.0) {
+        return gap::cycles::LineLeft{"k", "p", slope, constant, shortest};
+    };
+    for (const double sign : {1.0, -1.0}) {
+        EXPECT_TRUE(is_met(line(sign * 0.0499, 0.0)));
+        EXPECT_FALSE(is_met(line(sign * 0.0501, 0.0)));
+        EXPECT_TRUE(is_met(line(0.0, sign * 7.99)));
+        EXPECT_FALSE(is_met(line(0.0, sign * 8.01)));
+        EXPECT_TRUE(is_met(line(0.0, sign * 49.9, 1000.0)));
+        EXPECT_FALSE(is_met(line(0.0, sign * 50.1, 1000.0)));
+        EXPECT_TRUE(is_met_closely(line(sign * 0.01999, sign * 7.99)));
+        EXPECT_FALSE(is_met_closely(line(sign * 0.02001, 0.0)));
+        EXPECT_FALSE(is_met_closely(line(0.0, sign * 8.01, 1000.0)));
+    }
+}
+
 TEST(CyclesParts, RowsAreNamedByTheirPlacement) {
     EXPECT_EQ(gap::cycles::placement_of(row("k_f32", 5, 1.0)), "code=itcm data=dtcm");
     EXPECT_EQ(gap::cycles::placement_of(row("k_f32", 5, 1.0, true, "flash", "axi")), "code=flash data=axi maintenance");
