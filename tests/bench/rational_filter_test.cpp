@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
+#include <vector>
 
 namespace {
 
@@ -105,6 +108,58 @@ TEST(RationalFilter, AFittedOneOfAsManyPolesErrsLess) {
             const double fitted = fit_filter(goal, 1, poles, glsum::design::FilterKind::samples).error.band;
             for (const RationalRule rule : {RationalRule::oustaloup, RationalRule::charef}) {
                 EXPECT_LT(fitted, tune_rational(rule, goal, poles).error) << order << ", " << poles;
+            }
+        }
+    }
+}
+
+// The largest error over the band with the best gain, which a search by thirds finds: it falls, then rises.
+double least_error(RationalRule rule, const glsum::design::DerivativeGoal& goal, std::size_t poles,
+                   const glsum::design::Edges& edges, Mapping mapping, double near_gain) {
+    const Roots roots = roots_of(rule, goal.order, poles, edges);
+    std::vector<std::complex<double>> ratios;
+    for (const double hz : frequencies_of(goal)) {
+        const double angle = 2.0 * std::numbers::pi * hz * goal.step_s;
+        ratios.push_back(response_of(roots, mapping, goal.step_s, angle) /
+                         glsum::design::exact_response(goal.order, hz));
+    }
+    const auto error = [&](double gain) {
+        double largest = 0.0;
+        for (const auto& ratio : ratios) {
+            largest = std::max(largest, std::abs(gain * ratio - 1.0));
+        }
+        return largest;
+    };
+    double low = 0.8 * near_gain;
+    double high = 1.25 * near_gain;
+    for (int i = 0; i < 90; ++i) {
+        const double third = (high - low) / 3.0;
+        error(low + third) < error(high - third) ? high -= third : low += third;
+    }
+    return error(0.5 * (low + high));
+}
+
+// At the last step, a thousandth of a decade, no edge moves alone, with the other or against it, and errs less.
+TEST(RationalFilter, NoSmallMoveOfItsEdgesErrsLess) {
+    constexpr double step = 0.125 / 128.0;
+    for (const RationalRule rule : {RationalRule::oustaloup, RationalRule::charef}) {
+        for (const double order : {0.2, 0.5, 0.8, -0.5}) {
+            for (const std::size_t poles : {2U, 3U, 4U}) {
+                const glsum::design::DerivativeGoal goal{order, 0.001, glsum::design::Band{0.8, 80.0}, {}};
+                const auto tuned = tune_rational(rule, goal, poles);
+                const auto moved = [&](int low, int high) {
+                    return least_error(rule, goal, poles,
+                                       {tuned.edges.low_rad_s * std::pow(10.0, low * step),
+                                        tuned.edges.high_rad_s * std::pow(10.0, high * step)},
+                                       tuned.mapping, tuned.gain);
+                };
+                EXPECT_NEAR(moved(0, 0), tuned.error, 1e-6 * tuned.error) << order << ", " << poles;
+                for (const int low : {-1, 0, 1}) {
+                    for (const int high : {-1, 0, 1}) {
+                        EXPECT_GT(moved(low, high), (1.0 - 1e-6) * tuned.error)
+                            << order << ", " << poles << " by " << low << ", " << high;
+                    }
+                }
             }
         }
     }

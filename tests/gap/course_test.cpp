@@ -177,6 +177,8 @@ TEST(Forcing, OfAFurtherInputIsLaggedAndAdded) {
     scenario.input_before = 1.0;
     scenario.initial_output = 3.5;
     expect_near(constant.nodes_of(scenario), Values(7, 3.5));
+    scenario.model.delay_s = 1.2;
+    expect_near(constant.nodes_of(scenario), Values(7, 3.5));
     scenario.further_inputs = {{2, 1.0, 0.0}};
     try {
         (void)constant.nodes_of(scenario);

@@ -48,6 +48,24 @@ TEST(CyclesParts, AChangeIsBelievedByTheCyclesAndTheGap) {
     EXPECT_FALSE(gap::cycles::better(0.8501 * 0.4, 0.4));
 }
 
+// A kernel is met within 5 % of its slope, and 5 % or 8 cycles of its shortest call; closely within 2 % and 8 cycles.
+TEST(CyclesParts, ALineIsMetByItsSlopeAndItsShortestCall) {
+    const auto line = [](double slope, double constant, double shortest = 100.0) {
+        return gap::cycles::LineLeft{"k", "p", slope, constant, shortest};
+    };
+    for (const double sign : {1.0, -1.0}) {
+        EXPECT_TRUE(is_met(line(sign * 0.0499, 0.0)));
+        EXPECT_FALSE(is_met(line(sign * 0.0501, 0.0)));
+        EXPECT_TRUE(is_met(line(0.0, sign * 7.99)));
+        EXPECT_FALSE(is_met(line(0.0, sign * 8.01)));
+        EXPECT_TRUE(is_met(line(0.0, sign * 49.9, 1000.0)));
+        EXPECT_FALSE(is_met(line(0.0, sign * 50.1, 1000.0)));
+        EXPECT_TRUE(is_met_closely(line(sign * 0.01999, sign * 7.99)));
+        EXPECT_FALSE(is_met_closely(line(sign * 0.02001, 0.0)));
+        EXPECT_FALSE(is_met_closely(line(0.0, sign * 8.01, 1000.0)));
+    }
+}
+
 TEST(CyclesParts, RowsAreNamedByTheirPlacement) {
     EXPECT_EQ(gap::cycles::placement_of(row("k_f32", 5, 1.0)), "code=itcm data=dtcm");
     EXPECT_EQ(gap::cycles::placement_of(row("k_f32", 5, 1.0, true, "flash", "axi")), "code=flash data=axi maintenance");
@@ -292,8 +310,14 @@ TEST(BlindCyclesParts, SecretsHaveTheirSharesAndSizes) {
         at->second.first = std::min(at->second.first, value);
         at->second.second = std::max(at->second.second, value);
     };
+    std::map<std::string, double> costs;
+    double slower = 0.0;
     for (const auto& secret : gap::cycles::draw_secrets(count, 3, {"single_issue"})) {
         kinds[secret.kind] += 1.0 / count;
+        if (secret.kind == "cost") {
+            costs[secret.effects.front()] += 1.0 / count;
+            slower += secret.ratio < 1.0 ? 1.0 / count : 0.0;
+        }
         const auto has = [&](const char* name) {
             return std::count(secret.effects.begin(), secret.effects.end(), name) > 0;
         };
@@ -323,6 +347,12 @@ TEST(BlindCyclesParts, SecretsHaveTheirSharesAndSizes) {
     EXPECT_NEAR(kinds["unlisted"], 0.15, 0.002);
     EXPECT_NEAR(kinds["switch"], 0.225, 0.002);
     EXPECT_NEAR(kinds["cost"], 0.225, 0.002);
+    // Of the four costs each is as often, and of the clocks each direction. A deviation of 0.0005 and less.
+    ASSERT_EQ(costs.size(), 4U);
+    for (const auto& [name, share] : costs) {
+        EXPECT_NEAR(share, 0.225 / 4.0, 0.002) << name;
+    }
+    EXPECT_NEAR(slower, 0.225 / 8.0, 0.002);
     const auto expect = [&](const char* name, double low, double high) {
         EXPECT_GE(ranges[name].first, low) << name;
         EXPECT_LE(ranges[name].second, high) << name;

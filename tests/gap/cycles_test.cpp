@@ -423,6 +423,7 @@ TEST(Cycles, AClockAndASwitchAtOnceAreParted) {
 TEST(BlindCycles, SecretsAreOfEveryKindAndRepeatWithTheirSeed) {
     const std::vector<std::string> switches{"single_issue", "fpu_latency"};
     const auto secrets = gap::cycles::draw_secrets(400, 7, switches);
+    EXPECT_EQ(secrets.size(), 400U);
     std::map<std::string, int> kinds;
     std::set<std::string> effects;
     for (const auto& secret : secrets) {

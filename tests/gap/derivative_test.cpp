@@ -57,6 +57,24 @@ TEST(Derivative, HasTheWeightsOfItsGeneratingFunction) {
     }
 }
 
+// Five decays a decade, evenly, from one that lasts twice the horizon to one gone in half a sample.
+TEST(Derivative, DecaysAreFiveADecade) {
+    const auto check = [](std::size_t horizon, Eigen::Index count) {
+        const Eigen::ArrayXd lasts = -1.0 / gap::Exponentials(horizon).ratios().log();  // samples
+        ASSERT_EQ(lasts.size(), count) << horizon;
+        const double slowest = 2.0 * static_cast<double>(horizon);
+        EXPECT_NEAR(lasts(0), slowest, 1e-9 * slowest);
+        EXPECT_NEAR(lasts(count - 1), 0.5, 1e-9);
+        for (Eigen::Index m = 1; m < count; ++m) {
+            EXPECT_NEAR(lasts(m) / lasts(m - 1), std::pow(0.5 / slowest, 1.0 / static_cast<double>(count - 1)), 1e-9);
+        }
+    };
+    check(250, 15);  // three decades
+    check(251, 16);
+    check(2500, 20);  // four
+    check(2501, 21);
+}
+
 // Of whole orders the rest is a power of a third: nothing of it is remembered.
 TEST(Derivative, OfAWholeOrderHasNoMemory) {
     const gap::Exponentials exponentials(100);

@@ -169,6 +169,22 @@ TEST(CoverageEdges, ADirectionIsATenthOfTheSpanWithoutATurn) {
     EXPECT_THAT(lacks(dips(0.13), half), Not(Contains("falling output")));
 }
 
+// Readings that were lost for once are no motion, two in a row neither: medians of five.
+TEST(CoverageEdges, WhatAReadingWasLostForIsNoDirection) {
+    const Function rises = [](double t) { return t / 100.0; };
+    const auto spoilt = [&](double by, int readings, double sign) {
+        return [=](double t) { return sign * (t > 49.95 && t < 49.95 + 0.1 * readings ? t / 100.0 + by : t / 100.0); };
+    };
+    for (const double by : {0.8, -0.8}) {
+        for (const int readings : {1, 2}) {
+            EXPECT_THAT(lacks(rises, spoilt(by, readings, 1.0)), Not(Contains("falling output"))) << by << readings;
+            EXPECT_THAT(lacks(spoilt(0.0, 0, -1.0), spoilt(by, readings, -1.0)), Not(Contains("rising output")))
+                << by << readings;
+        }
+        EXPECT_THAT(lacks(rises, spoilt(by, 3, 1.0)), Contains("falling output")) << by;
+    }
+}
+
 TEST(CoverageEdges, ALevelLacksBeyondATwentiethOfTheSpan) {
     const auto input = [](double top, double share) {
         return [=](double t) { return t < 100.0 * share ? top : 0.5 * (1.0 + std::sin(t)); };

@@ -334,6 +334,10 @@ TEST_F(Rules, FewAlternativesAreNamed) {
     EXPECT_THAT(decision.effects, ElementsAre(5, 4, 3));
     EXPECT_EQ(decision.chosen, 5u);
     EXPECT_THAT(decision.notes, SizeIs(1));
+    for (const std::size_t i : all.effects) {
+        ranking_[i].gap_after = 0.45;
+    }
+    EXPECT_THAT(after("few_alternatives", all).effects, ElementsAre(1, 2, 3));  // as far: the likelier first
     all.effects.resize(3);
     EXPECT_THAT(after("few_alternatives", all).notes, IsEmpty());
 }

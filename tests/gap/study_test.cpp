@@ -296,6 +296,11 @@ TEST(Plausible, AreStampsInSeconds) {
     EXPECT_THAT(refusal_of(answer_of(model, 1.0, 0.00499), model), HasSubstr("but the model takes 2 s to move"));
     EXPECT_EQ(refusal_of(answer_of(model, 1.0, 9.9), model), "");
     EXPECT_THAT(refusal_of(answer_of(model, 1.0, 10.1), model), HasSubstr("but the model is done after 2 s"));
+    // The slowest of several terms, each over what restores: (6 / 1.5)^(1 / 0.5) of these; above 1, and below.
+    EXPECT_THAT(refusal_of(answer_of(model, 1.0, 0.03), model_of({{2.25, 2.0}, {6.0, 0.5}, {1.5, 0.0}})),
+                HasSubstr("but the model takes 16 s to move"));
+    EXPECT_THAT(refusal_of(answer_of(model, 1.0, 0.0001), model_of({{0.5, 2.0}, {0.1, 1.0}, {8.0, 0.0}})),
+                HasSubstr("but the model takes 0.25 s to move"));
     drive::Model late = model;
     late.delay_s = 1.0;
     EXPECT_EQ(refusal_of(answer_of(late, 1.0, 14.9), late), "");

@@ -91,6 +91,25 @@ TEST(FittedFilter, OnePoleThatSwingsIsWorthSeveral) {
     }
 }
 
+// A pole lies at most 0.9 beyond 0; where coefficients would be too large, 0.75, 0.6 or 0.4. These end there.
+TEST(FittedFilter, APoleSwingsAsFarAsCoefficientsStaySmall) {
+    const struct {
+        double order, low_hz;
+        FilterKind kind;
+        std::size_t near_taps;
+        double swing;
+    } ends[] = {{-0.9, 1.0, FilterKind::samples, 1, 0.9},
+                {0.7, 10.0, FilterKind::samples, 2, 0.75},
+                {-0.5, 50.0, FilterKind::samples, 2, 0.6},
+                {0.7, 50.0, FilterKind::increments, 1, 0.4}};
+    for (const auto& end : ends) {
+        const FittedFilter found =
+            fit_filter(goal_of(end.order, end.low_hz, 400.0, 0.0), end.near_taps, 3, end.kind, Poles::one_swings);
+        EXPECT_NEAR(found.modes.back().decay, 1.0 + end.swing, 1e-5) << end.order << " " << end.low_hz;
+        EXPECT_LE(found.amplification, 8.0) << end.order << " " << end.low_hz;
+    }
+}
+
 TEST(FittedFilter, WhatAmplifiesTooMuchIsNotTheBetterOne) {
     FittedFilter calm{1.0, {}, {}, {0.1, 1.0, 0.0, 0.0}, FilterKind::samples, 2.0};
     FittedFilter loud{1.0, {}, {}, {0.01, 1.0, 0.0, 0.0}, FilterKind::samples, 9.0};

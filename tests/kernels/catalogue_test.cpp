@@ -74,6 +74,9 @@ TEST(Catalogue, SaysWhatIsKeptAndWhatIsForgotten) {
     EXPECT_EQ(histories_of(Forgotten::held), Words{"mirrorhold"});
     EXPECT_EQ(histories_of(Forgotten::line), Words{"mirrorlinear"});
     EXPECT_EQ(histories_of([](const CatalogueEntry& entry) { return entry.integrator; }), Words{"modessum"});
+    EXPECT_EQ(histories_of([](const CatalogueEntry& entry) { return entry.modes; }),
+              (Words{"modes", "modessum", "modesdelta", "cascade", "cascadedelta"}));
+    EXPECT_EQ(histories_of([](const CatalogueEntry& entry) { return entry.blocks; }), Words{"nested"});
 }
 
 // Of those that round a product and its addition once, the technique that rounds both.
@@ -119,6 +122,8 @@ TEST(Catalogue, SaysWhichNumbersAKernelComputesIn) {
         EXPECT_EQ(entry.in_double, format == "f64" || format == "f32a64") << entry.name;
         EXPECT_EQ(entry.sample_bytes == 8, format == "f64") << entry.name;
         EXPECT_EQ(entry.sample_bytes == 2, format == "q15" || format == "q15c31") << entry.name;
+        EXPECT_EQ(entry.sample_bytes == 4, format == "f32" || format == "f32a64" || format == "q31" || format.empty())
+            << entry.name;
         EXPECT_EQ(entry.floating_point, format == "f64" || format == "f32" || format == "f32a64") << entry.name;
         EXPECT_EQ(entry.exact_sums, format == "q31" || format == "q15" || format == "q15c31") << entry.name;
     }

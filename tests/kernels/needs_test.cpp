@@ -270,6 +270,18 @@ TEST(Fixed, ScalesAtTheEdgesOfItsFormat) {
     using Horners = Sum<Ring, Horner, Q31>;
     EXPECT_EQ(bench::HostLine<Horners>({0.5, 40'000}).status(), Status::ok);
     EXPECT_EQ(bench::HostLine<Horners>({0.5, 40'001}).status(), Status::format_too_narrow);
+    // Weights whose magnitudes sum to a power of two just fit: 1 of order 0, 1 + 1 of order 1, 1 + 1 + 1 + 1 of -1.
+    const auto horner_scale = [](double order, std::size_t taps) {
+        bench::HostLine<Horners> line({order, taps});
+        EXPECT_EQ(line.status(), Status::ok);
+        EXPECT_EQ(line.state().scale.output_shift, line.state().scale.output_exponent);
+        return static_cast<int>(line.state().scale.output_exponent);
+    };
+    EXPECT_EQ(horner_scale(0.0, 20), 0);
+    EXPECT_EQ(horner_scale(1.0, 20), 1);
+    EXPECT_EQ(horner_scale(1.001, 20), 2);
+    EXPECT_EQ(horner_scale(-1.0, 4), 2);
+    EXPECT_EQ(horner_scale(-1.0, 5), 3);
 }
 
 TEST(Fixed, RoundsToIntegersAwayFromZero) {

@@ -33,7 +33,7 @@ done
 # The library that a file belongs to, and the tests that are to notice.
 library_of() {
     case $1 in
-        kernels/glsum/design/band* | kernels/glsum/design/derivative.cpp | kernels/glsum/design/filter.cpp | kernels/glsum/design/rational.cpp)
+        kernels/glsum/design/band* | kernels/glsum/design/derivative* | kernels/glsum/design/filter.cpp | kernels/glsum/design/rational.cpp)
             echo kernels/glsum/design/libglsum_filters.a ;;
         kernels/glsum/design/*) echo kernels/glsum/design/libglsum_design.a ;;
         kernels/glsum/model/pid*) echo bench/libglsum_generate_steppers.a ;;

@@ -20,8 +20,10 @@ namespace glsum::design {
 
 /// Which poles a filter may have.
 enum class Poles {
-    decaying,       ///< in [0, 1): what every kernel with modes holds
-    one_swings,     ///< one lies in (-0.9, 0): floating point alone. Of v towards 1 it is worth several others
+    decaying,  ///< in [0, 1): what every kernel with modes holds
+    /// One lies in (-0.9, 0), or from -0.75, -0.6 or -0.4 on where coefficients would be too large else: floating point
+    /// alone. Of v towards 1 it is worth several others.
+    one_swings,
     one_may_swing,  ///< the better of both
 };
 

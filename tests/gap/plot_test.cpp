@@ -1,0 +1,81 @@
+// Plots of logs whose stamps do not begin at 0: what is drawn, and shaded, lies where it lies from their first stamp
+// on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "gap/verdict/plot.hpp"
+
+namespace {
+
+std::vector<double> times_from(double first_s) {
+    std::vector<double> all;
+    for (int i = 0; i <= 240; ++i) {
+        all.push_back(first_s + 0.5 * i);
+    }
+    return all;
+}
+
+// 1 in the first tenth of the time and in the last twentieth, 0 between.
+std::vector<double> at_both_ends() {
+    std::vector<double> values(241, 0.0);
+    std::fill_n(values.begin(), 24, 1.0);
+    std::fill(values.end() - 13, values.end(), 1.0);
+    return values;
+}
+
+TEST(PlotTimes, ShadesCountFromTheFirstStamp) {
+    for (const double first_s : {0.0, 1000.0, -75.0}) {
+        const std::vector<double> shade = gap::shade_of(at_both_ends(), times_from(first_s));
+        ASSERT_EQ(shade.size(), 60U);
+        for (std::size_t part = 0; part < 60; ++part) {
+            // Four samples a part; the last has the last stamp, too.
+            EXPECT_NEAR(shade[part],
+                        part < 6 || (part > 56 && part < 59) ? 0.8
+                        : part == 59                         ? 1.0
+                                                             : 0.0,
+                        1e-12)
+                << first_s << " " << part;
+        }
+    }
+}
+
+// Where something lies across the picture: what stands between two marks, over all of them.
+std::vector<std::string> all_between(const std::string& text, const std::string& from, const std::string& to) {
+    std::vector<std::string> found;
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at)) {
+        at += from.size();
+        found.push_back(text.substr(at, text.find(to, at) - at));
+    }
+    return found;
+}
+
+TEST(PlotTimes, LinesAndShadesLieAsFromZero) {
+    const gap::PlotOf plot{"left", 300.0, {{"line", at_both_ends()}}, std::vector<double>{0.0, 0.5, 1.0}};
+    const std::string from_zero = gap::to_svg(plot, times_from(0.0));
+    ASSERT_EQ(all_between(from_zero, "points=\"", "\"").size(), 2U);  // of a screen and of a phone
+    ASSERT_EQ(all_between(from_zero, "<rect ", "/>").size(), 4U);
+    for (const double first_s : {1000.0, -75.0}) {
+        const std::string later = gap::to_svg(plot, times_from(first_s));
+        EXPECT_EQ(all_between(later, "points=\"", "\""), all_between(from_zero, "points=\"", "\""));
+        EXPECT_EQ(all_between(later, "<rect ", "/>"), all_between(from_zero, "<rect ", "/>"));
+        EXPECT_THAT(later, testing::HasSubstr(first_s > 0.0 ? ">1100<" : ">-50<"));  // as the stamps are
+    }
+}
+
+// As high as asked for 1100 px across; on a phone 400 across and three fifths as high, 110 at least.
+TEST(PlotSizes, AreThoseOfAScreenAndOfAPhone) {
+    const auto boxes = [](double height) {
+        return all_between(gap::to_svg({"left", height, {{"line", at_both_ends()}}}, times_from(0.0)), "viewBox=\"",
+                           "\"");
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(boxes(300.0), ElementsAre("0 0 1100 300", "0 0 400 180"));
+    EXPECT_THAT(boxes(190.0), ElementsAre("0 0 1100 190", "0 0 400 114"));
+    EXPECT_THAT(boxes(180.0), ElementsAre("0 0 1100 180", "0 0 400 110"));
+    EXPECT_THAT(boxes(110.0), ElementsAre("0 0 1100 110", "0 0 400 110"));
+}
+
+}  // namespace

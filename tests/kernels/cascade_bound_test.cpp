@@ -1,0 +1,111 @@
+// What a cascade's rounding costs, to first order, section by section, counted anew from what section_rounding.hpp and
+// cascade_bound.hpp state: neither too small nor larger than what was derived.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "bench/sweep/host_line.hpp"
+#include "glsum/bound.hpp"
+#include "glsum/filter/section_rounding.hpp"
+#include "glsum/registry.hpp"
+
+namespace {
+
+using namespace glsum;
+
+constexpr double u = 0x1p-24;
+constexpr double peak = 0.75;
+using OfFloats = Sum<Cascade, DirectForm2Transposed, F32>;
+using OfIntegers = Sum<Cascade, DirectForm1, Q31>;
+
+template <class K>
+double bound_of(const Design& design) {
+    bench::HostLine<K> line(design);
+    EXPECT_EQ(line.status(), Status::ok) << K::name();
+    return error_bound<K>(design, line.state(), peak, longest_record);
+}
+
+// Decays that forget in some samples, so that what rounding does to a pole moves it by next to nothing.
+const std::vector<Mode> one = {{0.3, -0.04}};
+const std::vector<Mode> two = {{0.1, -0.02}, {0.5, -0.05}};
+const std::vector<Mode> three = {{0.06, -0.004}, {0.3, -0.03}, {0.6, -0.08}};
+
+// An error passes a section by its l1 norm; what a section adds in each step passes its poles, 1/(d d') of it.
+template <class Format, class Rounding>
+double expected(const Design& design, double entering, const Rounding& rounding) {
+    double error = entering;
+    double reach = peak;
+    double gain = 1.0;
+    (void)for_each_section<Format>(design, [&](const HeldSection& held, const SectionPlace& place) {
+        const Section& s = place.exact;
+        const double before = reach;
+        gain *= s.gain;
+        reach = peak * (1.0 + std::fabs(gain - 1.0));
+        const double of_coefficients =
+            (std::fabs(held.b1 / place.down - s.b1) + std::fabs(held.b2 / place.down - s.b2)) * before +
+            (std::fabs(held.a1 - s.a1) + std::fabs(held.a2 - s.a2)) * reach;
+        error = (1.0 + std::fabs(s.gain - 1.0)) * error + of_coefficients / (s.slow * s.fast) +
+                rounding(s, place, before, reach);
+        return true;
+    });
+    return error;
+}
+
+// Of the output y: u Y; of what is kept of it, s1: u (2 |b1| X + 2 |a1| Y + 2 (X + Y) + s2); of s2, 2 u of |b2| X +
+// |a2| Y.
+TEST(CascadeBound, OfSectionsInSinglePrecision) {
+    for (const auto& modes : {one, two, three}) {
+        const Design design{0.5, 1 + 2 * modes.size(), modes};
+        const double wanted =
+            expected<F32>(design, u * peak, [](const Section& s, const SectionPlace&, double before, double reach) {
+                const double of_second = std::fabs(s.b2) * before + std::fabs(s.a2) * reach;
+                const double of_first =
+                    2.0 * std::fabs(s.b1) * before + 2.0 * std::fabs(s.a1) * reach + 2.0 * (before + reach) + of_second;
+                return u * (reach + of_first + 2.0 * of_second) / (s.slow * s.fast);
+            });
+        EXPECT_NEAR(bound_of<OfFloats>(design) / wanted, 1.0, 2e-4) << modes.size();
+    }
+}
+
+// Half a unit of each section's output, whose rounding is high-passed: at most 2/d of it, d of the faster pole. A
+// section's unit is that of its scale.
+TEST(CascadeBound, OfSectionsInFixedPoint) {
+    for (const auto& modes : {one, two, three}) {
+        const Design design{0.5, 1 + 2 * modes.size(), modes};
+        const double wanted =
+            expected<Q31>(design, 0x1p-32, [](const Section& s, const SectionPlace& place, double, double) {
+                return 2.0 / s.fast * std::ldexp(0.5, place.scale_bits - 31);
+            });
+        EXPECT_NEAR(bound_of<OfIntegers>(design) / wanted, 1.0, 2e-4) << modes.size();
+    }
+}
+
+// Behind near taps the cascade is a term as a window's are: what it has lost passes the last tap's coefficient. In
+// fixed point half a unit of each coefficient, sample and output beside it; the cascade's output reaches 1 at most.
+TEST(CascadeBound, OfNearTapsInFixedPoint) {
+    for (const std::size_t near_taps : {2U, 3U, 6U}) {
+        std::vector<double> a = {1.0};
+        for (std::size_t j = 1; j < near_taps; ++j) {
+            a.push_back(a.back() * (1.0 - 1.5 / static_cast<double>(j)));
+        }
+        std::vector<Mode> of_lead_one = two;
+        for (Mode& mode : of_lead_one) {
+            mode.weight /= a.back();
+        }
+        const Design design{0.5, near_taps + 4, two};
+        bench::HostLine<OfIntegers> line(design);
+        ASSERT_EQ(line.status(), Status::ok);
+        const double coefficient = std::ldexp(0.5, line.state().scale.table_exponent - 31);
+        double samples = 0.0;
+        for (std::size_t j = 0; j + 1 < near_taps; ++j) {
+            samples += std::fabs(a[j]) * 0x1p-32;
+        }
+        const double wanted = std::fabs(a.back()) * bound_of<OfIntegers>({0.5, 5, of_lead_one}) + samples +
+                              (peak * static_cast<double>(near_taps - 2) + 1.0) * coefficient +
+                              std::ldexp(0.5, line.state().scale.output_exponent - 31);
+        EXPECT_NEAR(bound_of<OfIntegers>(design) / wanted, 1.0, 1e-6) << near_taps;
+    }
+}
+
+}  // namespace
