@@ -22,16 +22,16 @@ template <class T, bool fused>
 /// The same, but that the first block of samples is taken from `recent`, into which `newest` moves afterwards. The
 /// samples stored by the last calls could be loaded as a vector only once all of these stores are done; `recent` is
 /// stored as it is loaded. Where vectors are short that costs more than it saves, and `recent` is left alone.
-/// \param a  beyond `longest_unshifted` blocks, and unless fused, with its shifted copies behind it (Simd::fill)
+/// \param a  of more than `longest_unshifted` samples, and unless fused, with its shifted copies behind it (Simd::fill)
 /// \param x  of `blocks` blocks, the newest among them \param recent  64 bytes, aligned to as many
 template <class T, bool fused>
 [[nodiscard]] T simd_slide(const T* a, const T* x, T* recent, std::size_t blocks, T newest);
 /// The name of that instruction set, as xsimd has it: "avx512f", "avx2", "sse2", "arm64+neon".
 [[nodiscard]] std::string_view simd_instruction_set();
 
-/// From so many blocks on, 1536 samples of 4 bytes, copies of the table that fall out of a first cache of 32 KB cost
-/// less than vectors across its lines.
-inline constexpr std::size_t longest_unshifted = 96;
+/// Of more samples, copies of the table that fall out of a first cache of 32 KB cost less than vectors across its
+/// lines.
+inline constexpr std::size_t longest_unshifted = 1536;
 
 struct Simd : WeightTable {
     static constexpr std::string_view word = "simd";
@@ -52,7 +52,7 @@ struct Simd : WeightTable {
     /// (simd_shifted.hpp).
     template <class Format>
     static constexpr std::size_t copies(std::size_t past) {
-        return held<Format>(past) > longest_unshifted * block<Format> ? 16 / sizeof(typename Format::Sample) : 1;
+        return held<Format>(past) > longest_unshifted ? 16 / sizeof(typename Format::Sample) : 1;
     }
     template <class Format>
     static constexpr std::size_t table_count(std::size_t past) {

@@ -119,7 +119,7 @@ T simd_slide_on(const T* a, const T* x, T* recent, std::size_t blocks, T newest)
     [[maybe_unused]] constexpr std::size_t parts = 64 / sizeof(T) / Batch::size;
     if constexpr (!keeps_recent<Architecture>) {
         if constexpr (!fused) {
-            if (blocks > longest_unshifted) {
+            if (blocks > longest_unshifted / (64 / sizeof(T))) {
                 return sum_of_shifted<T, Architecture>(a, x, blocks);
             }
         }
