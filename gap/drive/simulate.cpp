@@ -341,14 +341,19 @@ Course make_course(const Record& record, const Scenario& scenario, double allowe
 
 Course make_sketch(const Course& fine, const Record& thin, std::size_t every, const Scenario& scenario,
                    double allowed) {
+    // A node for each reading is enough, unless it shows another swing: what is added to it stays, while the fit moves
+    // on.
+    constexpr double another_swing = 0.05;
     const std::vector<double> wanted = simulate(scenario, fine);
+    const double finest = static_cast<double>(every) * fine.record().usual_interval_s / fine.grid().step_s;
     for (double per_interval = 0.25;; per_interval *= 2) {
         Course course(thin, per_interval);
         std::vector<double> off = simulate(scenario, course);
         for (std::size_t i = 0; i < off.size(); ++i) {
             off[i] = wanted[i * every] - off[i];
         }
-        if (per_interval >= static_cast<double>(every) || rms(off) <= allowed) {
+        const double enough = rms(off) > another_swing * rms(wanted) ? finest : static_cast<double>(every);
+        if (per_interval >= enough || rms(off) <= allowed) {
             if (std::isfinite(rms(off))) {
                 course.correct(std::move(off));
             }

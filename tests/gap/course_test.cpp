@@ -335,8 +335,15 @@ TEST(MadeSketch, IsTheCoarsestThatIsNearEnough) {
         EXPECT_EQ(gap::make_sketch(fine, thin, 2, swinging(), 0.9999 * rms(off(per_interval))).grid().count,
                   thin.grid(2.0 * per_interval).count);
     }
-    // As many nodes to the record's interval as there are samples, at most.
-    EXPECT_EQ(gap::make_sketch(fine, thin, 2, swinging(), 0.0).grid().count, thin.grid(2.0).count);
+    // As many nodes to the record's interval as there are samples, at most; as the fine one has where those are off by
+    // a twentieth of what is simulated.
+    gap::Scenario slow = swinging();
+    slow.model.denominator.front().coefficient *= 30.0;
+    const auto nodes_of = [&](const gap::Scenario& scenario) {
+        return gap::make_sketch(fine, thin, 2, scenario, 0.0).grid().count;
+    };
+    EXPECT_EQ(nodes_of(swinging()), thin.grid(4.0).count);
+    EXPECT_EQ(nodes_of(slow), thin.grid(2.0).count);
     gap::Scenario away = swinging();
     away.model.gain = 1e13;
     EXPECT_EQ(rms(gap::make_sketch(fine, thin, 2, away, 0.1).correction()), 0.0);

@@ -1,42 +1,15 @@
 #include "gap/drive/base/filtered.hpp"
 
 #include <Eigen/QR>
-#include <algorithm>
 #include <cmath>
+
+#include "gap/drive/base/even.hpp"
 
 namespace gap {
 namespace {
 
-constexpr std::size_t most_samples = 1500;  // of a record, evenly spaced: enough for a start
 constexpr int filters = 7;
 constexpr int delays = 9;
-
-// Evenly spaced, what is logged more densely averaged.
-struct Even {
-    double step_s;
-    Eigen::VectorXd input;  // held behind each sample
-    Eigen::VectorXd output;
-};
-
-Even even_of(const Record& record) {
-    const double per_interval = std::min(1.0, static_cast<double>(most_samples) / static_cast<double>(record.size()));
-    const Grid grid = record.grid(per_interval);
-    const std::vector<double> held = held_on(grid, record.time_s, record.input);
-    std::vector<double> times_s(grid.count);
-    std::vector<double> output(grid.count);
-    std::size_t i = 0;
-    for (std::size_t k = 0; k < grid.count; ++k) {
-        const double at = std::min(grid.at(k), record.time_s.back());
-        while (i + 2 < record.size() && record.time_s[i + 1] <= at) {
-            ++i;
-        }
-        const double share = (at - record.time_s[i]) / (record.time_s[i + 1] - record.time_s[i]);
-        output[k] = record.output[i] + std::clamp(share, 0.0, 1.0) * (record.output[i + 1] - record.output[i]);
-    }
-    const auto count = static_cast<Eigen::Index>(grid.count);
-    return {grid.step_s, Eigen::Map<const Eigen::VectorXd>(held.data(), count),
-            Eigen::Map<const Eigen::VectorXd>(output.data(), count)};
-}
 
 // The stages L^0 x .. L^n x of L = 1 / (1 + filter_s s), a column each, from rest.
 Eigen::MatrixXd stages_of(const Eigen::VectorXd& values, double step_s, double filter_s, int order, bool held) {
@@ -68,14 +41,6 @@ Eigen::VectorXd derivative_of(const Eigen::MatrixXd& stages, int power, double f
         binomial = binomial * (power - k) / (k + 1);
     }
     return sum / std::pow(filter_s, power);
-}
-
-Eigen::VectorXd late(const Eigen::VectorXd& values, Eigen::Index by) {
-    Eigen::VectorXd moved(values.size());
-    for (Eigen::Index k = 0; k < values.size(); ++k) {
-        moved(k) = values(std::max<Eigen::Index>(0, k - by));
-    }
-    return moved;
 }
 
 // Stages of the records' inputs and outputs under one filter.
@@ -152,7 +117,7 @@ std::vector<Coefficients> filtered_estimates(const Structure& structure, const s
     double length_s = 0.0;
     for (const Record& record : records) {
         even.push_back(even_of(record));
-        length_s = std::max(length_s, record.time_s.back() - record.time_s.front());
+        length_s = std::max(length_s, even.back().length_s);
     }
     const double step_s = even.front().step_s;
     std::vector<Coefficients> all;

@@ -13,13 +13,14 @@
 #include "gap/drive/base/filtered.hpp"
 #include "gap/drive/base/leftover.hpp"
 #include "gap/drive/base/modes.hpp"
+#include "gap/drive/base/part.hpp"
+#include "gap/drive/base/refined.hpp"
 #include "gap/drive/base/structure.hpp"
 #include "gap/drive/fit.hpp"
 
 namespace gap {
 namespace {
 
-constexpr double most_nodes = 1500.0;  // of a record while starts are compared
 // A further number takes so much of what is left where it was not fitted, or it follows something else than lags.
 constexpr double worth_a_number = 0.08;
 // A record that has not settled looks like an integrator's: it must be clearly better.
@@ -39,10 +40,10 @@ double longest_s(const std::vector<Record>& records) {
     return length_s;
 }
 
-std::vector<Course> rough_courses(const std::vector<Record>& records) {
+std::vector<Course> rough_courses(const std::vector<Part>& parts) {
     std::vector<Course> courses;
-    for (const Record& record : records) {
-        courses.emplace_back(record, std::min(1.0, most_nodes / static_cast<double>(record.size())));
+    for (const Part& part : parts) {
+        courses.emplace_back(part.record, part.per_interval);
     }
     return courses;
 }
@@ -262,12 +263,14 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
     if (structure.fractional) {
         starts = of_some_orders(starts);
     }
-    const std::vector<Course> courses = rough_courses(records);
+    std::vector<Part> parts;
+    std::ranges::transform(records, std::back_inserter(parts), part_of);
+    const std::vector<Course> courses = rough_courses(parts);
     Leftovers whole;  // of the start that leaves least, and
     Leftovers quick;  // of the one that leaves least of what is quick
     std::vector<Tried> tried;
     std::optional<drive::Form> quick_best;
-    for (Coefficients& start : starts) {
+    const auto rate = [&](Coefficients start) {
         start.gain = 1.0;
         const Leftovers left = leftovers_of(model_of(form_of(structure, start, driven)), courses, driven, quick_s);
         if (std::isfinite(left.whole.squares)) {
@@ -280,6 +283,14 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
             start.gain = left.quick.gain;
             quick_best = form_of(structure, start, driven);
         }
+    };
+    std::ranges::for_each(starts, rate);
+    if (driven) {
+        for (const Coefficients& start : apart(tried)) {
+            if (const std::optional<Coefficients> better = refined(structure, records, start)) {
+                rate(*better);
+            }
+        }
     }
     if (tried.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input,
@@ -288,7 +299,7 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
     }
     const bool lags_alone =
         driven && !structure.fractional && structure.integrators == 0 && structure.zeros == 0 && structure.order <= 2;
-    const bool parts = lags_alone && quick.quick.squares < worth_a_quick_one * whole.quick.squares;
+    const bool quick_apart = lags_alone && quick.quick.squares < worth_a_quick_one * whole.quick.squares;
     const bool winding = driven && (structure.order > 2 || structure.zeros > 0);
     std::vector<drive::Form> forms;
     for (const Coefficients& start : apart(std::move(tried))) {
@@ -296,7 +307,7 @@ Starts starts_of(const Structure& structure, const std::vector<Record>& records)
     }
     return {forms.front(),
             winding ? std::vector<drive::Form>(forms.begin() + 1, forms.end()) : std::vector<drive::Form>{},
-            parts ? quick_best : std::nullopt, quick_s};
+            quick_apart ? quick_best : std::nullopt, quick_s};
 }
 
 std::vector<Described> find_base(const Question& question, const std::function<void(const std::string&)>& say) {
