@@ -87,6 +87,14 @@ std::size_t thinning_of(const Study& study, const Record& record) {
     return static_cast<std::size_t>(std::max(1.0, std::min(static_cast<double>(record.size()) / enough, most)));
 }
 
+// How many readings show what it takes: of what swings several nodes to a reading, a thousand swings and more are left.
+std::size_t enough_of(const Course& course) {
+    constexpr std::size_t nodes = 6000;
+    const std::size_t readings = course.record().size();
+    const std::size_t count = course.grid().count;
+    return count > std::max(nodes, 2 * readings) ? readings * nodes / count : readings;
+}
+
 // Good to about the noise, or to a part of what the base leaves, before it is corrected: enough to see which candidates
 // are worth a finer grid. \param thin  takes the records that it is of
 Study sketch_of(const Study& study, const Candidate& base, std::vector<Record>& thin) {
@@ -102,11 +110,15 @@ Study sketch_of(const Study& study, const Candidate& base, std::vector<Record>& 
         const Record& record = study.courses[r].record();
         const std::size_t every = thinning_of(study, record);
         thin.push_back(thinned(record, every));
-        sketch.courses.push_back(
-            make_sketch(study.courses[r], thin.back(), every, scenario_of(study, base, r), allowed));
+        Course course = make_sketch(study.courses[r], thin.back(), every, scenario_of(study, base, r), allowed);
+        if (const std::size_t beginning = enough_of(course); beginning < thin.back().size()) {
+            thin.back() = up_to(thin.back(), thin.back().time_s[beginning]);
+            course = make_sketch(study.courses[r], thin.back(), every, scenario_of(study, base, r), allowed);
+        }
+        sketch.courses.push_back(std::move(course));
         sketch.counts.emplace_back();
-        for (std::size_t i = 0; i < record.size(); i += every) {
-            sketch.counts.back().push_back(study.counts[r][i]);
+        for (std::size_t i = 0; i < thin.back().size(); ++i) {
+            sketch.counts.back().push_back(study.counts[r][i * every]);
         }
         sketch.horizon = std::max<std::size_t>(study.horizon > 0 ? 1 : 0, study.horizon / every);
     }
