@@ -305,10 +305,14 @@ Proposal part(const Study& study, const std::vector<const Candidate*>& alternati
                 which = alternatives[i]->name();
             }
         }
-        if (nearest > best.apart) {
+        // Where the others run away, however they are refitted, nothing was simulated that would tell how far apart.
+        if (std::isfinite(nearest) && nearest > best.apart) {
             best = {trial.text, nearest, std::move(next)};
             hardest = which;
         }
+    }
+    if (best.text.empty()) {
+        return {other_record};
     }
     constexpr double visible = 0.3;
     if (best.apart < visible) {

@@ -74,6 +74,18 @@ TEST(Part, IsProposedWhereItIsVisible) {
     EXPECT_THAT(alike.parted(apart / 0.042).text, HasSubstr("within 0.042 of the noise of"));
 }
 
+// What runs away however it is refitted tells nothing of how far apart they would be: infinitely, a division would say.
+TEST(Part, IsNotAskedOfWhatRunsAway) {
+    Alike alike({"input_saturation", "quadratic_drag"}, 0.5);
+    gap::FreeParameter& drag = alike.causes[1].lasting[0][0];
+    drag.value = -1e6;
+    drag.lower = -1e7;
+    drag.upper = -1e5;
+    const gap::Proposal proposed = alike.parted(0.01);
+    EXPECT_THAT(proposed.text, StartsWith("a record at other levels and speeds"));
+    EXPECT_FALSE(proposed.record);
+}
+
 TEST(Part, OfAnEventIsTheSameRecordAgain) {
     Alike alike({"sensor_lag", "load_disturbance"}, 0.3);
     alike.causes[1].lasting.clear();
