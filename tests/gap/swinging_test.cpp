@@ -197,6 +197,27 @@ TEST(Swinging, IsSketchedOnAsManyNodesAsItTakes) {
     EXPECT_GE(record.usual_interval_s / sketch.grid().step_s, 4.0);
 }
 
+// Some 6000 nodes of a record are enough to choose by: what is judged is fitted on all of it.
+TEST(Swinging, IsSketchedInItsBeginning) {
+    const auto prepared = [](const gap::Record& record) {
+        drive::Model model;
+        model.kind = drive::Kind::fotf;
+        model.gain = oscillator.gain;
+        model.denominator = {{a_2, 2.0}, {a_1, 1.0}, {1.0, 0.0}};
+        return gap::prepare({gap::form_of(model), true, {record}, {record}, {}, gap::Metric::simulation, {}, 1});
+    };
+    const gap::Record record = logged({oscillator}, 2400, 10);
+    const gap::Ground ground = prepared(record);
+    const gap::Course& sketch = ground.sketch.courses.front();
+    EXPECT_EQ(ground.study.courses.front().record().size(), 2400U);
+    const double per_interval = record.usual_interval_s / sketch.grid().step_s;
+    EXPECT_NEAR(static_cast<double>(sketch.record().size()), 6000.0 / per_interval, 2.0);
+    EXPECT_EQ(ground.sketch.counts.front().size(), sketch.record().size());
+    EXPECT_EQ(sketch.record().time_s.front(), 0.0);
+    // Of fewer nodes it is all of it.
+    EXPECT_EQ(prepared(logged({oscillator}, 500, 10)).sketch.courses.front().record().size(), 500U);
+}
+
 // Its base is an oscillator of its frequency, and nothing is missing.
 TEST(Swinging, IsFoundAsWhatItIs) {
     const gap::Question question{gap::form_to_find(),

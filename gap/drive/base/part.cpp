@@ -28,8 +28,8 @@ double angle_per_reading(const Record& record) {
 Part part_of(const Record& record) {
     constexpr double nodes = 1500.0;
     constexpr double more_nodes = 3000.0;
-    constexpr double widest_angle =
-        0.15;  // from node to node, at which a swing is simulated within a per cent of its period
+    // From node to node, at which a swing is simulated within a per cent of its period.
+    constexpr double widest_angle = 0.15;
     constexpr double most_per_interval = 8.0;
     const auto size = static_cast<double>(record.size());
     const double usual = std::min(1.0, nodes / size);
