@@ -185,15 +185,13 @@ private:
     std::vector<Through> through_;
 };
 
-}  // namespace
+struct Start {
+    double cost;
+    LinearBase base;
+};
 
-LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double tau_s) {
-    Search search(records, step_s);
-    struct Start {
-        double cost;
-        LinearBase base;
-    };
-    // Of each time constant its best; the sum of squares has more than one valley.
+// Of each time constant its best, the best first; the sum of squares has more than one valley.
+std::vector<Start> starts_of(Search& search, double tau_s) {
     std::vector<Start> starts;
     for (const double time : {0.15, 0.3, 0.6, 1.0, 1.8}) {
         Start start{std::numeric_limits<double>::infinity(), {}};
@@ -210,6 +208,19 @@ LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double t
         starts.push_back(start);
     }
     std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
+    return starts;
+}
+
+}  // namespace
+
+LinearBase start_of(std::span<const EvenRecord> records, double step_s, double tau_s) {
+    Search search(records, step_s);
+    return starts_of(search, tau_s).front().base;
+}
+
+LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double tau_s) {
+    Search search(records, step_s);
+    const std::vector<Start> starts = starts_of(search, tau_s);
     LinearBase best = starts.front().base;
     double least = starts.front().cost;
     // In the logarithms of time and damping and in the delay.
