@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <span>
 
 #include "bench/gate/row_table.hpp"
 
@@ -98,8 +99,8 @@ Trend trend(const std::vector<NamedResults>& runs, const Rules& rules, const std
                                  std::vector<bool>(runs.size())};
             }
             const double ratio = std::exp(step.sum / static_cast<double>(step.change.of));
-            for (std::size_t later = run; later < runs.size(); ++later) {
-                found->second.level[later] *= ratio;
+            for (double& level : std::span(found->second.level).subspan(run)) {  // from now on
+                level *= ratio;
             }
             if (step.change.rows > 0) {
                 found->second.changed[run] = true;

@@ -9,7 +9,6 @@
 
 #include "base/parallel.hpp"
 #include "base/progress.hpp"
-#include "bench/choose/costs.hpp"
 #include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/kernel_run.hpp"
 #include "bench/rows/key.hpp"
@@ -26,7 +25,6 @@ namespace design = glsum::design;
 // over a decade.
 constexpr const char* kernels[] = {"modes_plain_f32", "modesdelta_plain_f32", "modessum_plain_f32", "cascade_df2t_f32",
                                    "cascadedelta_df2t_f32"};
-constexpr std::size_t longest = 20;
 
 struct Case {
     double order;
@@ -70,7 +68,7 @@ std::vector<Asked> points_of(const BandStudy& study, const Case& of) {
         if (!serves(kernel, of.order)) {
             continue;
         }
-        for (std::size_t taps = 3; taps <= longest; ++taps) {
+        for (std::size_t taps = 3; taps <= study.longest; ++taps) {
             const choose::ErrorAt at = errors.error(kernel, taps);
             const std::size_t modes =
                 choose::CountedOrder(of.order, true).length(kernel, taps, longest_length).modes.value_or(0);
@@ -117,7 +115,7 @@ const Rival* rival_of(const std::string& way) {
     return found == std::end(rivals) ? nullptr : found;
 }
 
-std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board) {
+std::vector<BandPoint> measure_bands(const BandStudy& study, const CostsOfOrder& costs_of) {
     std::vector<Case> cases;
     for (const double order : study.orders) {
         for (const design::Band& band : study.bands) {
@@ -133,14 +131,20 @@ std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& 
         });
     }
     std::vector<BandPoint> points;
-    for (std::size_t first = 0; first < cases.size(); first += study.bands.size()) {
-        choose::OnTarget costs(board, {cases[first].order, true}, Sweep().samples, Sweep().seed, study.jobs,
-                               study.core);
-        for (std::size_t i = first; i < first + study.bands.size(); ++i) {
-            add_costs(costs, found[i], points);
+    auto of_case = found.begin();
+    for (const double order : study.orders) {
+        const auto costs = costs_of({order, true});
+        for (std::size_t i = 0; i < study.bands.size(); ++i) {
+            add_costs(*costs, *of_case++, points);
         }
     }
     return points;
+}
+
+std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board) {
+    return measure_bands(study, [&](const choose::CountedOrder& order) {
+        return std::make_unique<choose::OnTarget>(board, order, Sweep().samples, Sweep().seed, study.jobs, study.core);
+    });
 }
 
 std::vector<BandRival> compare_bands(const std::vector<BandPoint>& points) {

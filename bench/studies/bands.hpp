@@ -4,9 +4,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "bench/choose/costs.hpp"
 #include "bench/rows/row.hpp"
 #include "glsum/design/derivative.hpp"
 #include "glsum/design/rational.hpp"
@@ -19,7 +22,8 @@ struct BandStudy {
     std::vector<glsum::design::Band> bands{{8, 80}, {0.8, 80}, {0.08, 80}, {0.008, 80}};
     std::vector<std::size_t> poles{2, 3, 4, 5, 6, 7, 8};  ///< of others' filters; rising
     double step_s = 0.001;
-    std::string core;  ///< of the timing model
+    std::size_t longest = 20;  ///< taps of a kernel
+    std::string core;          ///< of the timing model
     unsigned jobs = 1;
 };
 
@@ -48,12 +52,16 @@ inline constexpr Rival rivals[] = {{"oustaloup_f32", glsum::design::RationalRule
 /// Null for a kernel.
 [[nodiscard]] const Rival* rival_of(const std::string& way);
 
-/// Of kernels: every length up to 20 taps, certified, with the format's rounding and the arithmetic's noise. Of others'
-/// filters the same, in both forms: in parallel form in the cheapest kernel that can hold them (`modes_plain_f32`,
-/// above order 1 `modesdelta_plain_f32`, 1+P), or where it cannot, the error in double at the points of a search; and
-/// as a cascade of second-order sections (`cascade_df2t_f32`, `cascadedelta_df2t_f32`), where single precision holds
-/// its poles.
-/// \throws glsum::Failure for a core without a file
+/// Who says what kernels cost, their designs counted as of an order.
+using CostsOfOrder = std::function<std::unique_ptr<choose::CostSource>(const choose::CountedOrder&)>;
+
+/// Of kernels: every length up to the longest, certified, with the format's rounding and the arithmetic's noise. Of
+/// others' filters the same, in both forms: in parallel form in the cheapest kernel that can hold them
+/// (`modes_plain_f32`, above order 1 `modesdelta_plain_f32`, 1+P), or where it cannot, the error in double at the
+/// points of a search; and as a cascade of second-order sections (`cascade_df2t_f32`, `cascadedelta_df2t_f32`), where
+/// single precision holds its poles. What cannot be run is left out.
+[[nodiscard]] std::vector<BandPoint> measure_bands(const BandStudy& study, const CostsOfOrder& costs_of);
+/// On a core of the emulated board. \throws glsum::Failure for a core without a file
 [[nodiscard]] std::vector<BandPoint> measure_bands(const BandStudy& study, const qemu::Board& board);
 
 /// Of each of others' filters: the least error of ours within its cycles.

@@ -19,36 +19,34 @@ Oustaloup::Oustaloup(double order, double step_s, std::size_t poles, Band band, 
     };
     const std::complex<double> middle(0.0, std::sqrt(band.low_rad_s * band.high_rad_s));
     const std::complex<double> delay = std::exp(-middle * step_s);
-    std::vector<double> zeros_z;
-    std::vector<double> poles_z;
     double gain = std::pow(band.high_rad_s, r);
     std::complex<double> wanted(gain, 0.0);
     std::complex<double> found(1.0, 0.0);
     for (std::size_t k = 0; k < poles; ++k) {
         const double zero = root(k, 0.5 * (1.0 - r));
         const double pole = root(k, 0.5 * (1.0 + r));
+        double zero_z = std::exp(-zero * step_s);
+        double pole_z = std::exp(-pole * step_s);
         if (mapping == Mapping::tustin) {
             const double half = 0.5 * step_s;
-            zeros_z.push_back((1.0 - half * zero) / (1.0 + half * zero));
-            poles_z.push_back((1.0 - half * pole) / (1.0 + half * pole));
+            zero_z = (1.0 - half * zero) / (1.0 + half * zero);
+            pole_z = (1.0 - half * pole) / (1.0 + half * pole);
             gain *= (1.0 + half * zero) / (1.0 + half * pole);
         } else {
-            zeros_z.push_back(std::exp(-zero * step_s));
-            poles_z.push_back(std::exp(-pole * step_s));
             wanted *= (middle + zero) / (middle + pole);
-            found *= (1.0 - zeros_z.back() * delay) / (1.0 - poles_z.back() * delay);
+            found *= (1.0 - zero_z * delay) / (1.0 - pole_z * delay);
+        }
+        if (k % 2 == 0) {
+            sections_.push_back({-zero_z, 0.0, -pole_z, 0.0});
+        } else {
+            const Section one = sections_.back();
+            sections_.back() = {one.b1 - zero_z, -one.b1 * zero_z, one.a1 - pole_z, -one.a1 * pole_z};
         }
     }
     if (mapping == Mapping::matched) {
         gain = std::abs(wanted) / std::abs(found);
     }
     gain_ = gain * std::pow(step_s, r);
-    for (std::size_t k = 0; k < poles; k += 2) {
-        const bool pair = k + 1 < poles;
-        const double zero = pair ? zeros_z[k + 1] : 0.0;
-        const double pole = pair ? poles_z[k + 1] : 0.0;
-        sections_.push_back({-(zeros_z[k] + zero), zeros_z[k] * zero, -(poles_z[k] + pole), poles_z[k] * pole});
-    }
 }
 
 bool Oustaloup::takes(double order) { return glsum::design::has_rational(order); }

@@ -91,6 +91,25 @@ TEST(Gate, AllowsWhatTheRulesAllow) {
     EXPECT_TRUE(judge(run(), current, rules()).findings.empty());
 }
 
+// Of two rules the closer one decides: a tenth, of 80 loads 8, is nothing in either direction; more is.
+TEST(Gate, WhatTheRulesAllowIsNoImprovementEither) {
+    const auto found = [](double now) {
+        Results before = run();
+        Results after = run();
+        change(before, count_row, [](Json& row) { row["loads_per_sample"] = 80.0; });
+        change(after, count_row, [&](Json& row) { row["loads_per_sample"] = now; });
+        std::vector<Level> levels;
+        for (const Finding& finding : judge(before, after, rules()).findings) {
+            levels.push_back(finding.level);
+        }
+        return levels;
+    };
+    EXPECT_EQ(found(72.0), std::vector<Level>{});
+    EXPECT_EQ(found(71.9), std::vector{Level::improvement});
+    EXPECT_EQ(found(88.0), std::vector<Level>{});
+    EXPECT_EQ(found(88.1), std::vector{Level::warn});
+}
+
 TEST(Gate, TellsALostKernelFromALostRowAndALostCounter) {
     Results current = run();
     drop(current, [](const std::string& name) { return name.starts_with("gl/a/"); });

@@ -162,6 +162,16 @@ TEST(Merge, PutsPiecesInTheirOrderWhateverThatOfTheShards) {
     }
 }
 
+TEST(Merge, OfNothingIsNothing) {
+    std::vector<bench::NamedResults> shards = two_shards();
+    for (auto& shard : shards) {
+        shard.results.context["shard"]["pieces"] = 0;
+        shard.results.context["shard"]["rows_of_pieces"] = bench::Json::array();
+        shard.results.rows.clear();
+    }
+    EXPECT_TRUE(bench::merge(std::move(shards), false).rows.empty());
+}
+
 void expect_refused(const std::function<void(std::vector<bench::NamedResults>&)>& change, glsum::Exit status,
                     const std::string& words) {
     std::vector<bench::NamedResults> shards = two_shards();
@@ -201,6 +211,17 @@ TEST(Merge, RefusesWhatIsNotAllOfOneSweep) {
             s[1].results.context["shard"]["rows_of_pieces"] = {{0, 2}, {3, 0}};
         },
         Exit::bad_input, "the last numbered 3");
+    // A sweep of a single piece, too: it is numbered 0.
+    expect_refused(
+        [](Shards& s) {
+            s[0].results.context["shard"]["rows_of_pieces"] = {{1, 1}};
+            s[1].results.context["shard"]["rows_of_pieces"] = bench::Json::array();
+            s[1].results.rows.clear();
+            for (auto& shard : s) {
+                shard.results.context["shard"]["pieces"] = 1;
+            }
+        },
+        Exit::bad_input, "expected the 1 pieces of the sweep, found 1 in the shards, the last numbered 1");
     expect_refused([](Shards& s) { s[1].results.context["commit"] = "d"; }, Exit::not_comparable,
                    "commit differs: \"c\" in first.json, \"d\" in second.json");
     expect_refused([](Shards& s) { s[0].results.context["new_field"] = 1; }, Exit::not_comparable,

@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "bench/choose/costs.hpp"
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
@@ -67,6 +71,25 @@ TEST(OnTarget, CountsEachCaseOnce) {
         EXPECT_EQ(costs.measured(), 4U);
         EXPECT_EQ(costs.remembered(), 0U);
     }
+}
+
+// A kernel that computes other bits on the target has no cost: seen by a board whose second answer is changed on its
+// way.
+TEST(OnTarget, OtherBitsAreAFault) {
+    auto board = board_here();
+    if (!board) {
+        GTEST_SKIP() << "no board is here";
+    }
+    const base::Scratch folder;
+    std::ofstream(folder.file("emulate"))
+        << "#!/bin/sh\n'" << board->emulator.command.string() << "' \"$@\" | sed 's/^row 1 0 [0-9a-f]*/row 1 0 1/'\n";
+    std::filesystem::permissions(folder.file("emulate"), std::filesystem::perms::owner_all);
+    board->emulator.command = folder.file("emulate");
+    choose::OnTarget costs(*board, 0.5, 300, 7, 1);
+    const auto found = costs.costs({{"ring_plain_f32", 20}, {"ring_plain_f32", 21}});
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].fault, "");
+    EXPECT_EQ(found[1].fault, bench::other_bits);
 }
 
 }  // namespace

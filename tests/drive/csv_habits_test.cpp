@@ -1,5 +1,6 @@
 // Logs as loggers write them: what is found in the file, that it is said, and what is refused because it may be read in
 // two ways.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -79,6 +80,15 @@ TEST(LogHabits, DecimalCommasAmongCommasAreRefusedWithTheirReadings) {
     EXPECT_THAT(refusal("time_s,output\n1,5,2\n2,5,3\n", {.needs_input = false}),
                 AllOf(HasSubstr("l.csv:2: expected 2 fields, as the header has, found 3"), HasSubstr("'1,5 2'"),
                       HasSubstr("'1 5,2'"), HasSubstr("quote")));
+    // A sign belongs to a whole part, and is none itself, nor stands behind a comma.
+    for (const char* sign : {"-", "+"}) {
+        EXPECT_THAT(refusal(fmt::format("time_s,output\n{}1,5,2\n", sign), {.needs_input = false}),
+                    HasSubstr(fmt::format("it may be '{0}1,5 2' or '{0}1 5,2'; quote", sign)));
+        EXPECT_THAT(refusal(fmt::format("time_s,output\n{},5,2\n", sign), {.needs_input = false}),
+                    HasSubstr(fmt::format("it may be '{} 5,2'; quote", sign)));
+        EXPECT_THAT(refusal(fmt::format("time_s,output\n1,{}5,2\n", sign), {.needs_input = false}),
+                    HasSubstr(fmt::format("it may be '1 {}5,2'; quote", sign)));
+    }
     const std::string twice = "time_s,input,output\n0,0,0,5,1,5\n0,01,1,0,2,0\n0,02,-1,25,0,001\n";
     EXPECT_THAT(refusal(twice), AllOf(HasSubstr("found 6"), HasSubstr("'0,0 0,5 1,5'; --decimal comma reads it so")));
     expect_same(twice, "", {.decimal = "comma"});
@@ -167,46 +177,14 @@ TEST(LogColumns, AreFoundByUsualNamesContractNamesWin) {
 }
 
 TEST(LogColumns, NearNamesAreSuggested) {
-    EXPECT_THAT(refusal("time_s,Speed,speed_2,volts\n0,1,1,1\n", {.input = "volts", .output = "sped"}),
-                AllOf(HasSubstr("expected a column sped for the output"), HasSubstr("nearest: 'Speed'")));
-    EXPECT_THAT(refusal("tme_s,input,y\n0,1,1\n"), HasSubstr("nearest: 'tme_s'; --time-column names another"));
-    EXPECT_THAT(refusal("time_s,input,y\n0,1,1\n", {.output = "pressure"}), Not(HasSubstr("nearest")));
-}
-
-TEST(LogColumns, AreNamedByNumber) {
-    const std::string text = "0,7,1,2\n1,8,1,4\n";
-    const Log log = drive::parse_log(text, "l.csv", {.input = "3", .output = "4", .more_inputs = {"2"}});
-    EXPECT_THAT(log.input, ElementsAre(1, 1));
-    EXPECT_THAT(log.output, ElementsAre(2, 4));
-    EXPECT_THAT(log.more_inputs, ElementsAre(ElementsAre(7, 8)));
-    EXPECT_THAT(drive::parse_log("0,2\n1,4\n", "l.csv", {.needs_input = false}).output, ElementsAre(2, 4));
-    EXPECT_THAT(drive::parse_log("time_s,n [1/min],y\n0,2,3\n1,4,5\n", "l.csv", {.input = "2"}).input,
-                ElementsAre(2, 4));
-    EXPECT_THAT(drive::parse_log("time_s,1,2\n0,2,3\n1,4,5\n", "l.csv", {.input = "1", .output = "2"}).input,
-                ElementsAre(2, 4));
-    EXPECT_THAT(refusal("0,2\n1,4\n"), HasSubstr("found 2 columns without a header; --output-column N"));
-    EXPECT_THAT(refusal(text, {.input = "5"}), HasSubstr("expected a column 5 for the input; the log has no header"));
-    EXPECT_THAT(refusal(text, {.input = "u"}), HasSubstr("its columns are 1 to 4"));
-    EXPECT_THAT(refusal(text, {.input = "3"}), HasSubstr("different columns for the input and the output, found 3"));
-}
-
-TEST(LogColumns, SeveralInputsAndASimulation) {
-    const std::string text = "time_s,a,b,y,model\n0,1,10,5,5.5\n1,2,20,6,6.5\n1,3,30,8,9.5\n3,4,40,9,9.5\n4,4,50,9,9\n";
-    const Columns columns = {.input = "a", .more_inputs = {"b"}, .simulated = "model"};
-    Log log = drive::parse_log(text, "l.csv", columns);
-    (void)drive::order_stamps(log);
-    EXPECT_THAT(log.input, ElementsAre(1, 3, 4, 4));
-    EXPECT_THAT(log.more_inputs, ElementsAre(ElementsAre(10, 30, 40, 50)));
-    EXPECT_THAT(log.simulated, ElementsAre(5.5, 8, 9.5, 9));
-    const Log even = drive::resample(drive::parse_log(text, "l.csv", columns), 0.5, drive::Hold::linear).log;
-    EXPECT_THAT(even.more_inputs, ElementsAre(ElementsAre(10, 10, 30, 30, 30, 30, 40, 40, 50)));
-    EXPECT_THAT(even.simulated, ElementsAre(5.5, 6.75, 8, 8.375, 8.75, 9.125, 9.5, 9.25, 9));
-    EXPECT_THAT(drive::to_csv(log), HasSubstr("time_s,input,input_2,output,simulated\n0,1,10,5,5.5\n"));
-    EXPECT_THAT(refusal(text, {.input = "a", .more_inputs = {"a"}}),
-                HasSubstr("different columns for the input and another input, found a for both"));
-    EXPECT_THAT(refusal(text, {.input = "a", .more_inputs = {"c"}}), HasSubstr("expected a column c for the input"));
-    EXPECT_THAT(refusal(text, {.input = "a", .simulated = "y"}), HasSubstr("for the output and the simulation"));
-    EXPECT_THAT(refusal(text, {.input = "a", .simulated = "modl"}), HasSubstr("nearest: 'model'"));
+    const auto said = [](const std::string& names) {
+        return refusal("time_s," + names + ",y\n0,1,2,3,4,5\n1,1,2,3,4,5\n", {.input = "abcd"});
+    };
+    EXPECT_THAT(said("abxy,wxcd,axyz,p"), HasSubstr("; nearest: 'abxy', 'wxcd'"));
+    EXPECT_THAT(said("axyz,wxyd,xxxx,p"), Not(HasSubstr("nearest")));
+    EXPECT_THAT(said("my_ABCD_of_today,axxyz,ABCX,p"), HasSubstr("; nearest: 'ABCX', 'my_ABCD_of_today'"));
+    EXPECT_THAT(said("abxy,abcx,xbcd,abxd"),
+                AllOf(HasSubstr("; nearest: 'abcx', 'xbcd', 'abxd'"), Not(HasSubstr("'abxy'"))));
 }
 
 TEST(LogColumns, AReferenceIsHeldToo) {

@@ -252,6 +252,36 @@ TEST(Drawn, TanksLieBetweenTheirBounds) {
     EXPECT_TRUE(ten && percent);
 }
 
+// Until its dead time is over nothing moves.
+TEST(Drawn, OvensAndTanksWaitForTheirDeadTime) {
+    for (const blind::Family* family : {&blind::thermal_family(), &blind::hydraulic_family()}) {
+        Seen delay;
+        int none = 0;
+        constexpr int rigs = 3000;
+        for (std::uint64_t seed = 1; seed <= rigs; ++seed) {
+            Chance chance(seed, 11);
+            const auto rig = family->draw({}, chance);
+            blind::Held held;
+            for (int k = 0; k <= 600; ++k) {
+                held.time_s.push_back(7e-4 * k * rig->tau_s);
+                held.input.push_back(rig->full_input);
+            }
+            const auto z = rig->read({}, held, {}, 1);
+            const auto moves = std::find_if(z.begin(), z.end(), [&](double value) { return value != z.front(); });
+            ASSERT_NE(moves, z.end());
+            const double share = 7e-4 * static_cast<double>(moves - z.begin() - 1);
+            if (share < 1e-3) {
+                ++none;
+            } else {
+                delay(share);
+            }
+        }
+        EXPECT_NEAR(static_cast<double>(none) / rigs, 0.4, 0.01) << family->domain;
+        EXPECT_NEAR(delay.least, 0.02, 1.5e-3) << family->domain;
+        EXPECT_NEAR(delay.most, 0.4, 2e-3) << family->domain;
+    }
+}
+
 constexpr blind::Clock clock{.interval_s = 0.01, .spread_s = 0.0, .until_s = 40.0};
 constexpr double tau_s = 0.4;
 constexpr double high = 2.0;
@@ -604,6 +634,13 @@ TEST(Noise, HasItsDeviationAndItsMemory) {
     EXPECT_EQ(blind::digits(0.00123456), 0.001235);
     EXPECT_DOUBLE_EQ(blind::rms({1.0, 2.0}, {1.0, 4.0}), std::sqrt(2.0));
     EXPECT_DOUBLE_EQ(blind::deviation_of({1.0, 3.0}), 1.0);
+}
+
+TEST(Noise, HidesWhatIsLessThanTwiceAsLarge) {
+    const std::vector<double> zero(3, 0.0);
+    EXPECT_FALSE(blind::stands_out({0.5, -0.5, 0.5}, zero, 0.25));
+    EXPECT_TRUE(blind::stands_out({0.501, -0.501, 0.501}, zero, 0.25));
+    EXPECT_TRUE(blind::stands_out({0.25, 0.25, 1.0}, zero, 0.3));
 }
 
 TEST(Chance, IsEvenBetweenItsBounds) {

@@ -127,6 +127,19 @@ TEST(InverseLaplace, OfWhatGrowsIsExactUpToAThousand) {
     EXPECT_NEAR(growing(above, {{0.0, -above}})(0.9) / std::exp(above * 0.9), 1.0, 2e-9);
 }
 
+// A swing is looked for with 1.5 terms for each half turn until the octave's end, 1024 at most: whatever the function,
+// here e^-t, a faster one could be in it unseen.
+TEST(InverseLaplace, LooksForSwingsWithAThousandTerms) {
+    const auto at_one = [](double terms) {
+        const double fastest = terms * std::numbers::pi / (1.5 * 2.0);
+        return drive::InverseLaplace(
+            1, [](std::complex<double> s, std::span<std::complex<double>> values) { values[0] = 1.0 / (s + 1.0); },
+            {{fastest, 0.0}})(1.0);
+    };
+    EXPECT_NEAR(at_one(1024.5), std::exp(-1.0), 1e-9);
+    EXPECT_THROW((void)at_one(1025.5), glsum::Failure);
+}
+
 // Several transforms at once, each by its closed form, over many octaves.
 TEST(InverseLaplace, OfSeveralTransformsIsEachOnesFunction) {
     drive::InverseLaplace several(3,

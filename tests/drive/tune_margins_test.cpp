@@ -146,6 +146,14 @@ TEST(Grid, TakesEveryPhaseWhereTheDeadTimeSpins) {
     EXPECT_EQ(loud.unstable_poles, 1);
     EXPECT_EQ(loud.sensitivity, INFINITY);
     EXPECT_EQ(loud.phase_rad, 0.0);
+    // At 40 rad itself it is still followed: twenty half turns have gone by, and as many poles are unstable.
+    const double top = plant.nyquist();
+    ASSERT_EQ(top * (40.0 / top), 40.0);
+    const auto at_the_end = [&](double phase) {
+        return tune::Grid(SampledPlant(drive::make_fopdt(1.0, t, phase / top), h, "plant"))({.kp = 100.0});
+    };
+    EXPECT_GT(at_the_end(40.0).unstable_poles, 10);
+    EXPECT_EQ(at_the_end(40.01).unstable_poles, 1);
     // Where |L| has fallen before, nothing spins: 1 / s with the same dead time and a gain of a half of its limit.
     const SampledPlant slow(integrator(10.0), h, "plant");
     const tune::Grid::Answer fine = tune::Grid(slow)({.kp = 0.25 * pi / 10.0});

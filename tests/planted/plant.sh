@@ -87,7 +87,7 @@ tests_of() {
         bench/report/table.* | bench/report/plot* | bench/report/discretisation_table.* | reference/*) echo bench_tests qemu_tests ;;
         bench/report/*) echo bench_tests browser_tests ;;
         bench/studies/horizon* | bench/studies/model* | bench/studies/record*) echo studies_tests ;;
-        bench/studies/derivative*) echo choose_tests ;;
+        bench/studies/bands* | bench/studies/derivative*) echo choose_tests ;;
         bench/*) echo bench_tests qemu_tests ;;
         docs/site/*) echo docs_tests ;;
         drive/tune/*) echo tune_tests ;;

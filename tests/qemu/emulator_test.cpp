@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -177,6 +179,21 @@ TEST(Emulate, AnEmulatorThatIsGivenGraceMayFinish) {
     const qemu::Emulator usual{};
     EXPECT_EQ(usual.silence_limit, std::chrono::seconds(120));
     EXPECT_EQ(usual.grace, std::chrono::seconds(0));
+}
+
+// A signal that its caller takes care of, here every 10 ms, ends no waiting: neither for output nor for the end.
+TEST(Emulate, WaitsOnWhenASignalInterrupts) {
+    struct sigaction before {};
+    struct sigaction interrupting {};
+    interrupting.sa_handler = [](int) {};
+    sigaction(SIGALRM, &interrupting, &before);
+    const itimerval often{{0, 10'000}, {0, 10'000}};
+    setitimer(ITIMER_REAL, &often, nullptr);
+    const Told told = told_by("echo first; sleep 0.2; echo second; exec >/dev/null 2>&1; sleep 0.3; exit 7\n");
+    const itimerval never{};
+    setitimer(ITIMER_REAL, &never, nullptr);
+    sigaction(SIGALRM, &before, nullptr);
+    EXPECT_EQ(told.message, "a.elf under the emulator exited with 7; it said:\n  first\n  second");
 }
 
 TEST(Emulate, VersionIsTheFirstLineThatTheEmulatorPrints) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <vector>
 
 #include "base/failure.hpp"
@@ -80,12 +81,12 @@ std::vector<double> outputs_of(const drive::Model& plant, double step_s, std::si
     const double constant = drive::constant_coefficient(plant.denominator);
     drive::FastMemory memory(weights);
     std::vector<double> output(count, 0.0);
-    std::vector<double> input(count, 0.0);
+    std::deque<double> under_way(std::min(delay, count), 0.0);  // inputs that have not arrived yet
     for (std::size_t k = 0; k < count; ++k) {
         double increment = 0.0;
         if (k > 0) {
-            const double forcing =
-                k >= delay + 1 ? plant.gain * plant.numerator[0].coefficient * input[k - delay - 1] : 0.0;
+            const double forcing = plant.gain * plant.numerator[0].coefficient * under_way.front();
+            under_way.pop_front();
             increment = (forcing - memory.past() - constant * output[k - 1]) / (weights[0] + constant);
             output[k] = output[k - 1] + increment;
         }
@@ -93,7 +94,7 @@ std::vector<double> outputs_of(const drive::Model& plant, double step_s, std::si
         if (!std::isfinite(output[k])) {
             throw glsum::Failure(glsum::Exit::check_failed, "the loop does not stay finite");
         }
-        input[k] = controller(2 * k < count ? level : second_level * level, output[k]);
+        under_way.push_back(controller(2 * k < count ? level : second_level * level, output[k]));
     }
     return output;
 }

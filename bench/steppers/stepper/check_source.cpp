@@ -13,8 +13,8 @@ namespace {
 template <class ToText>
 std::string list_of(const std::vector<std::uint32_t>& numbers, ToText&& to_text) {
     std::string text;
-    for (std::size_t k = 0; k < numbers.size(); ++k) {
-        text += to_text(numbers[k]) + (k % 8 == 7 ? ",\n" : ", ");
+    for (const std::uint32_t number : numbers) {
+        text += to_text(number) + ",\n";
     }
     return text;
 }

@@ -181,7 +181,7 @@ Case make_case(const Plan& asked, std::uint64_t seed, std::size_t number) {
             for (std::size_t i = 0; plan.kind == Class::pair && i < each.size(); ++i) {
                 const Setup& other = each[1 - i];
                 const Moved moved = move_record(base, other, validate, own + 1);
-                shows = shows && rms(both, acquire(other, moved, {}, own + 1)) > 2.0 * truth.noise;
+                shows = shows && stands_out(both, acquire(other, moved, {}, own + 1), truth.noise);
             }
         } catch (const glsum::Failure&) {
             continue;  // a plant that runs away, or a bar beyond its stops: another one

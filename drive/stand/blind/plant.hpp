@@ -33,9 +33,9 @@ struct Plant {
 /// What is in no list of effects; 0: absent. Inputs, outputs and forces in the plant's units.
 struct Unlisted {
     double cogging_force = 0.0;  ///< a force that goes round with the output
-    double cogging_per_unit = 1.0;
+    double cogging_per_unit = 0.0;
     double hum_force = 0.0;  ///< a force that swings whatever the input does
-    double hum_hz = 1.0;
+    double hum_hz = 0.0;
     double near_gain = 0.0;        ///< share by which the input works better near output 0
     double stiffening = 0.0;       ///< force times y^3
     double delay_at_rest_s = 0.0;  ///< more delay at small inputs, falling to none at the full one

@@ -5,21 +5,18 @@
 #include <cmath>
 #include <limits>
 
+#include "drive/stand/blind/simplex.hpp"
+
 namespace stand::blind {
 namespace {
 
 using Matrix3 = std::array<std::array<double, 3>, 3>;
 
 Matrix3 product(const Matrix3& a, const Matrix3& b) {
-    Matrix3 c{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        for (std::size_t j = 0; j < 3; ++j) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                c[i][j] += a[i][k] * b[k][j];
-            }
-        }
-    }
-    return c;
+    const auto of = [&](std::size_t i, std::size_t j) {
+        return a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j];
+    };
+    return {{{of(0, 0), of(0, 1), of(0, 2)}, {of(1, 0), of(1, 1), of(1, 2)}, {of(2, 0), of(2, 1), of(2, 2)}}};
 }
 
 // Place, speed (times T) and held input one step on: the exponential, by Taylor's terms of a small part, squared.
@@ -136,66 +133,6 @@ double solve(Sums sums, LinearBase& base) {
     return std::max(0.0, m[3][3]);
 }
 
-using Point = std::array<double, 3>;
-
-// A point's mirror image and others on the line through a middle.
-Point along(const Point& middle, const Point& worst, double by) {
-    Point point{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        point[i] = middle[i] + by * (worst[i] - middle[i]);
-    }
-    return point;
-}
-
-template <class Cost>
-void descend_from(const Point& first, double reach, const Cost& cost) {
-    struct Corner {
-        Point point;
-        double cost;
-    };
-    std::vector<Corner> simplex{{first, cost(first)}};
-    for (std::size_t i = 0; i < 3; ++i) {
-        Point point = first;
-        point[i] += reach;
-        simplex.push_back({point, cost(point)});
-    }
-    constexpr int most_steps = 120;
-    for (int step = 0; step < most_steps; ++step) {
-        std::sort(simplex.begin(), simplex.end(), [](const Corner& a, const Corner& b) { return a.cost < b.cost; });
-        if (simplex.back().cost - simplex.front().cost <= 1e-4 * simplex.front().cost) {
-            return;
-        }
-        Point middle{};
-        for (std::size_t corner = 0; corner < 3; ++corner) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                middle[i] += simplex[corner].point[i] / 3.0;
-            }
-        }
-        Corner& worst = simplex.back();
-        const auto tried = [&](double by) {
-            const Point point = along(middle, worst.point, by);
-            return Corner{point, cost(point)};
-        };
-        const Corner mirrored = tried(-1.0);
-        if (mirrored.cost < simplex.front().cost) {
-            const Corner further = tried(-2.0);
-            worst = further.cost < mirrored.cost ? further : mirrored;
-        } else if (mirrored.cost < simplex[2].cost) {
-            worst = mirrored;
-        } else {
-            const Corner nearer = tried(mirrored.cost < worst.cost ? -0.5 : 0.5);
-            if (nearer.cost < std::min(mirrored.cost, worst.cost)) {
-                worst = nearer;
-                continue;
-            }
-            for (std::size_t corner = 1; corner < simplex.size(); ++corner) {
-                simplex[corner].point = along(simplex[0].point, simplex[corner].point, 0.5);
-                simplex[corner].cost = cost(simplex[corner].point);
-            }
-        }
-    }
-}
-
 class Search {
 public:
     Search(std::span<const EvenRecord> records, double step_s) : records_(records), step_s_(step_s) {
@@ -248,15 +185,13 @@ private:
     std::vector<Through> through_;
 };
 
-}  // namespace
+struct Start {
+    double cost;
+    LinearBase base;
+};
 
-LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double tau_s) {
-    Search search(records, step_s);
-    struct Start {
-        double cost;
-        LinearBase base;
-    };
-    // Of each time constant its best; the sum of squares has more than one valley.
+// Of each time constant its best, the best first; the sum of squares has more than one valley.
+std::vector<Start> starts_of(Search& search, double tau_s) {
     std::vector<Start> starts;
     for (const double time : {0.15, 0.3, 0.6, 1.0, 1.8}) {
         Start start{std::numeric_limits<double>::infinity(), {}};
@@ -273,10 +208,23 @@ LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double t
         starts.push_back(start);
     }
     std::sort(starts.begin(), starts.end(), [](const Start& a, const Start& b) { return a.cost < b.cost; });
+    return starts;
+}
+
+}  // namespace
+
+LinearBase start_of(std::span<const EvenRecord> records, double step_s, double tau_s) {
+    Search search(records, step_s);
+    return starts_of(search, tau_s).front().base;
+}
+
+LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double tau_s) {
+    Search search(records, step_s);
+    const std::vector<Start> starts = starts_of(search, tau_s);
     LinearBase best = starts.front().base;
     double least = starts.front().cost;
-    // Nelder and Mead's simplex in the logarithms of time and damping and in the delay.
-    const auto at = [&](const Point& point) {
+    // In the logarithms of time and damping and in the delay.
+    const auto at = [&](const Point3& point) {
         LinearBase tried{tau_s * std::exp(point[0]), std::clamp(std::exp(point[1]), 0.05, 20.0),
                          tau_s * std::max(0.0, point[2])};
         const double cost = search.cost_anew(tried);
@@ -287,13 +235,13 @@ LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double t
         return cost;
     };
     const auto point_of = [&](const LinearBase& base) {
-        return Point{std::log(base.time_s / tau_s), std::log(base.damping), base.delay_s / tau_s};
+        return Point3{std::log(base.time_s / tau_s), std::log(base.damping), base.delay_s / tau_s};
     };
     constexpr std::size_t valleys = 3;
     for (std::size_t i = 0; i < valleys; ++i) {
-        descend_from(point_of(starts[i].base), 0.3, at);
+        descend_simplex(point_of(starts[i].base), 0.3, at);
     }
-    descend_from(point_of(best), 0.1, at);
+    descend_simplex(point_of(best), 0.1, at);
     return best;
 }
 

@@ -24,7 +24,11 @@ struct LinearBase {
     double lead_gain = 0.0;  ///< b1
 };
 
-/// Least squares of the simulated output over all records, from a grid around `tau_s` on.
+/// The best of a grid: time constants of 0.15, 0.3, 0.6, 1 and 1.8 times `tau_s`, dampings of 0.3, 0.7, 1.2 and 2.5,
+/// and dead times of 0, 0.1, 0.25, 0.5 and 1 times `tau_s`.
+[[nodiscard]] LinearBase start_of(std::span<const EvenRecord> records, double step_s, double tau_s);
+
+/// Least squares of the simulated output over all records, from that grid on.
 [[nodiscard]] LinearBase fit_base(std::span<const EvenRecord> records, double step_s, double tau_s);
 
 /// Root of the mean square of what the base leaves of the logged samples of all records.

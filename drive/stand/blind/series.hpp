@@ -21,6 +21,11 @@ namespace stand::blind {
     return std::sqrt(square / static_cast<double>(a.size()));
 }
 
+/// Whether `a` differs from `b` by more than noise of that deviation could hide: twice as much, as a root mean square.
+[[nodiscard]] inline bool stands_out(const std::vector<double>& a, const std::vector<double>& b, double noise) {
+    return rms(a, b) > 2.0 * noise;
+}
+
 /// Standard deviation.
 [[nodiscard]] inline double deviation_of(const std::vector<double>& values) {
     double mean = 0.0;

@@ -38,7 +38,8 @@ constexpr Probe probes[] = {
     {"takes.multiple_first", "ldrd r1,r2,[r0]", 3},
     {"takes.multiple_first", "strd r1,r2,[r0]", 3},
     {"takes.multiple_first", "vldm r0,{s0-s7}", 9},
-    {"takes.multiple_first", "vldm r0,{s0-s31}", 33},  // as many as there are
+    {"takes.multiple_first", "vldm r0,{s0}; eor.w r5,r6,r7", 3},  // of one, too
+    {"takes.multiple_first", "vldm r0,{s0-s31}", 33},             // as many as there are
     {"takes.multiple_first", "vpush {s0-s3}; vpop {s0-s3}", 10},
     {"takes.fp_mac", "vfma.f32 s0,s1,s2", 3},
     {"takes.fp_mac", "vmla.f32 s0,s1,s2; vmla.f32 s3,s4,s5", 6},

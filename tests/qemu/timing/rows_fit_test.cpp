@@ -62,6 +62,14 @@ TEST(RowsFit, ErrorsCoverageWidthAndScore) {
     EXPECT_TRUE(fit.lines.empty());
 }
 
+TEST(RowsFit, RowsThatErrAlikeKeepTheirOrder) {
+    const auto call = predicted(125, 120, 130);
+    const qemu::RowsFit fit = qemu::fit_of(
+        {measured("a", 100), measured("b", 125), measured("c", 100), measured("d", 100), measured("e", 125)},
+        {call, call, call, call, call});
+    EXPECT_THAT(fit.worst, ElementsAre(0, 2, 3, 1, 4));
+}
+
 TEST(RowsFit, ARowIsMissedByCyclesOfACallNotOfItsParts) {
     const qemu::RowsFit fit =
         qemu::fit_of({measured("a", 10, 1000), measured("b", 10)}, {predicted(11, 9, 12), predicted(17.9, 9, 18)});

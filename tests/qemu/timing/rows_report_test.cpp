@@ -171,6 +171,22 @@ TEST(RowsReport, MeansCountEachRowOnce) {
     EXPECT_THAT(qemu::to_text("m.csv", all.rows, all.calls, fit), Not(HasSubstr("left out")));
 }
 
+// Shares are told in per cent.
+TEST(RowsReport, EndsWithTheWholeFit) {
+    const Made all = made();
+    qemu::RowsFit fit = qemu::fit_of(all.rows, all.calls);
+    fit.median_error = 0.125;
+    fit.worst_error = -0.5;
+    fit.missed = 3;
+    fit.inside = 0.75;
+    fit.median_half_width = 0.25;
+    fit.mean_interval_score = 0.875;
+    EXPECT_THAT(qemu::to_text("m.csv", all.rows, all.calls, fit),
+                testing::EndsWith("\nmedian error 12.50 %, worst -50.0 %; 9 of 12 rows within 5 % or 8 cycles\n"
+                                  "75.0 % of the rows inside the band; its median half-width 25.0 %, mean interval "
+                                  "score 87.5 %\n"));
+}
+
 // A row may miss by 5 % or 8 cycles, whichever is more; a line needs calls that differ by a quarter.
 TEST(RowsFit, AllowsWhatItsPageSays) {
     EXPECT_FALSE(qemu::misses(1049.9, 1000.0));

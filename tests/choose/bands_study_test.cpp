@@ -1,0 +1,224 @@
+// What cycles buy over a band: which filters are compared, by whose costs, what rows, table and picture say of them.
+#include "bench/studies/bands.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "bench/choose/derivative_errors.hpp"
+#include "tests/bench/pretend_gnuplot.hpp"
+
+namespace {
+
+using bench::BandPoint;
+using bench::BandStudy;
+using glsum::design::Band;
+using testing::ContainsRegex;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr Band narrow{8, 80};
+constexpr Band wide{0.8, 80};
+
+BandPoint made(const char* way, double cycles, double error, double order = 0.5, Band band = narrow,
+               const char* taps = "1+2") {
+    return {way, taps, order, band, error, cycles, cycles + 3.0, 8.0 * cycles};
+}
+
+// Ten cycles a tap and as many more as the order has hundredths, a hundred for the cascade; three taps are not to be
+// run.
+class MadeCosts : public choose::CostSource {
+public:
+    explicit MadeCosts(const choose::CountedOrder& order) : order_(order) { EXPECT_TRUE(order.fitted); }
+    [[nodiscard]] std::string unit() const override { return "model cycles"; }
+    [[nodiscard]] std::string limited_unit() const override { return unit(); }
+    [[nodiscard]] bool exact() const override { return true; }
+    [[nodiscard]] std::vector<choose::Cost> costs(const std::vector<choose::Case>& cases) override {
+        std::vector<choose::Cost> found;
+        for (const auto& [kernel, taps] : cases) {
+            const double cycles = cycles_of(kernel, taps, order_.order);
+            found.push_back({cycles, cycles + 1.0, 0.0, 4.0 * static_cast<double>(taps), taps == 3 ? "none" : ""});
+        }
+        return found;
+    }
+    static double cycles_of(const std::string& kernel, std::size_t taps, double order) {
+        return 10.0 * static_cast<double>(taps) + 100.0 * order + (kernel.starts_with("cascade") ? 100.0 : 0.0) +
+               (kernel.find("delta") != std::string::npos ? 1000.0 : 0.0);
+    }
+
+private:
+    choose::CountedOrder order_;
+};
+
+TEST(BandStudy, MeasuresEveryFilterAtItsOwnCosts) {
+    BandStudy study;
+    study.orders = {0.5, 1.5};
+    study.bands = {narrow, wide};
+    study.poles = {2};
+    study.longest = 5;
+    const auto points = bench::measure_bands(
+        study, [](const choose::CountedOrder& order) { return std::make_unique<MadeCosts>(order); });
+    std::set<std::pair<double, double>> cases;
+    std::map<double, std::set<std::string>> ways;
+    for (const BandPoint& point : points) {
+        cases.insert({point.order, point.band.low_hz});
+        ways[point.order].insert(point.way);
+        const std::size_t taps = point.taps == "1+2" ? 5U : 4U;
+        EXPECT_THAT(point.taps, testing::AnyOf("1+2", "2+1"));
+        const bench::Rival* rival = bench::rival_of(point.way);
+        const std::string kernel = rival == nullptr ? point.way
+                                   : rival->cascade ? (point.order > 1.0 ? "cascadedelta_df2t_f32" : "cascade_df2t_f32")
+                                                    : (point.order > 1.0 ? "modesdelta_plain_f32" : "modes_plain_f32");
+        EXPECT_EQ(point.model_cycles, MadeCosts::cycles_of(kernel, taps, point.order)) << point.way;
+        EXPECT_EQ(point.model_cycles_high, point.model_cycles + 1.0);
+        EXPECT_EQ(point.bytes, 4.0 * static_cast<double>(taps));
+        if (rival == nullptr) {
+            choose::DerivativeErrors errors({point.order, study.step_s, point.band, {}});
+            EXPECT_EQ(point.error, errors.error(point.way, taps).error) << point.way;
+        } else {
+            // What others' rules are certified to in such a kernel.
+            EXPECT_EQ(point.taps, "1+2");
+            choose::DerivativeErrors errors({point.order, study.step_s, point.band, {}},
+                                            rival->rule == glsum::design::RationalRule::oustaloup
+                                                ? choose::FilterDesign::oustaloup
+                                                : choose::FilterDesign::charef);
+            EXPECT_NEAR(point.error, errors.error(kernel, 5).error, 1e-3 * point.error) << point.way;
+        }
+    }
+    EXPECT_THAT(cases, ElementsAre(std::pair(0.5, 0.8), std::pair(0.5, 8.0), std::pair(1.5, 0.8), std::pair(1.5, 8.0)));
+    for (const double order : study.orders) {
+        EXPECT_THAT(ways[order],
+                    ElementsAre("cascade_df2t_f32", "cascadedelta_df2t_f32", "charef_df2t_f32", "charef_f32",
+                                "modes_plain_f32", "modesdelta_plain_f32", "oustaloup_df2t_f32", "oustaloup_f32"));
+    }
+    // Orders and bands come as they were asked for.
+    EXPECT_EQ(points.front().order, 0.5);
+    EXPECT_EQ(points.front().band, narrow);
+    EXPECT_EQ(points.back().order, 1.5);
+    EXPECT_EQ(points.back().band, wide);
+}
+
+TEST(BandStudy, LengthsBandsAndPolesAreThoseOfThePage) {
+    const BandStudy study;
+    EXPECT_EQ(study.longest, 20U);
+    EXPECT_THAT(study.orders, ElementsAre(0.2, 0.5, 0.9, -0.5, -0.9, 1.5));
+    EXPECT_THAT(study.bands, ElementsAre(Band{8, 80}, Band{0.8, 80}, Band{0.08, 80}, Band{0.008, 80}));
+    EXPECT_THAT(study.poles, ElementsAre(2U, 3U, 4U, 5U, 6U, 7U, 8U));
+    EXPECT_EQ(study.step_s, 0.001);
+}
+
+// Each of others' filters stands beside the best of ours within its cycles, of its own order and band.
+std::vector<BandPoint> compared() {
+    return {made("modes_plain_f32", 10.0, 0.01),     made("cascade_df2t_f32", 20.0, 0.001),
+            made("modes_plain_f32", 1.0, 1e-6, 0.9), made("modes_plain_f32", 1.0, 1e-6, 0.5, wide),
+            made("oustaloup_f32", 10.0, 0.02),       made("charef_f32", 25.0, 0.0005),
+            made("charef_df2t_f32", 9.0, 0.25)};
+}
+
+TEST(BandStudy, ComparesWithinEqualCycles) {
+    const auto found = bench::compare_bands(compared());
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].rival.way, "oustaloup_f32");
+    EXPECT_EQ(found[0].ours.error, 0.01);  // as many cycles are enough
+    EXPECT_DOUBLE_EQ(found[0].ratio(), 2.0);
+    EXPECT_EQ(found[1].ours.way, "cascade_df2t_f32");
+    EXPECT_DOUBLE_EQ(found[1].ratio(), 0.5);
+    EXPECT_TRUE(std::isinf(found[2].ours.error));
+    EXPECT_EQ(found[2].ratio(), 0.0);
+    EXPECT_EQ(bench::rival_of("modes_plain_f32"), nullptr);
+    EXPECT_STREQ(bench::rival_of("charef_df2t_f32")->way, "charef_df2t_f32");
+}
+
+TEST(BandStudy, HasARowForEachPoint) {
+    const auto rows = bench::rows_of_bands({made("oustaloup_f32", 10.0, 0.02)});
+    ASSERT_EQ(rows.size(), 1U);
+    EXPECT_EQ(rows[0].at("name"), "band/oustaloup_f32/order:0.5/taps:1+2/hz:8..80");
+    EXPECT_EQ(rows[0].at("iterations"), 1);
+    EXPECT_EQ(rows[0].at("band_error"), 0.02);
+    EXPECT_EQ(rows[0].at("model_cycles_per_sample"), 10.0);
+    EXPECT_EQ(rows[0].at("model_cycles_high"), 13.0);
+    EXPECT_EQ(rows[0].at("memory_bytes"), 80.0);
+}
+
+TEST(BandStudy, TableHasALineForEachFormOfBothFilters) {
+    BandStudy study;
+    study.orders = {0.5};
+    study.bands = {narrow};
+    study.poles = {2, 3};
+    std::vector<BandPoint> points{
+        made("modes_plain_f32", 10.0, 0.01), made("oustaloup_f32", 10.0, 0.02),
+        made("charef_f32", 10.0, 0.05),      made("oustaloup_df2t_f32", 12.0, 0.04),
+        made("charef_df2t_f32", 12.0, 0.03), made("oustaloup_f32", 9.0, 0.5, 0.5, narrow, "1+3")};
+    const std::string table = bench::to_table(study, points);
+    EXPECT_THAT(table, HasSubstr("\nOrder 0.5\n"));
+    EXPECT_THAT(table, ContainsRegex("8..80 +2  parallel +10.0 +80 +2 % +5 % +1 %  modes_plain_f32 1.2 +80 +2.0\n"));
+    EXPECT_THAT(table, ContainsRegex("8..80 +2  cascade +12.0 +96 +4 % +3 % +1 %  modes_plain_f32 1.2 +80 +3.0\n"));
+    EXPECT_THAT(table, Not(ContainsRegex("8..80 +3 ")));  // only one of both is there
+    // Of 0, 2, 3, 4 and 5.
+    EXPECT_THAT(table,
+                HasSubstr("Of 5 comparisons at equal cycles the fitted filter errs more in 1; the other's error is "
+                          "0 to 5 times its own, 3 times in the median."));
+    EXPECT_THAT(bench::to_table(study, {}), Not(HasSubstr("comparisons")));
+}
+
+class BandPlot : public PretendGnuplot {};
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
+        ++count;
+    }
+    return count;
+}
+
+// A panel for each order and band, and in it a front of each of both others and of ours.
+TEST_F(BandPlot, ShowsWhatNoOtherOfItsSeriesBetters) {
+    BandStudy study;
+    study.orders = {0.5, 0.9};
+    study.bands = {narrow};
+    const std::vector<BandPoint> points{made("modes_plain_f32", 20.0, 0.001), made("modes_plain_f32", 10.0, 0.01),
+                                        made("cascade_df2t_f32", 10.0, 0.02),  // as dear and worse
+                                        made("cascade_df2t_f32", 15.0, 0.01),  // dearer and no better
+                                        made("oustaloup_f32", 12.0, 0.04),    made("oustaloup_df2t_f32", 11.0, 0.05),
+                                        made("charef_f32", 40.0, 0.002)};
+    bench::plot_bands(study, points, stem());
+    const std::string script = sent();
+    EXPECT_THAT(script,
+                HasSubstr("$d0 << EOD\n11 5.000000e+00\n12 4.000000e+00\nEOD\n$d1 << EOD\n40 2.000000e-01\nEOD\n"
+                          "$d2 << EOD\n10 1.000000e+00\n20 1.000000e-01\nEOD\n"));
+    EXPECT_THAT(script, HasSubstr("$d0 << EOD\n0 NaN\nEOD\n"));  // of order 0.9
+    EXPECT_THAT(script, HasSubstr("set title \"order 0.5, 8 to 80 Hz\""));
+    EXPECT_THAT(script, HasSubstr("set title \"order 0.9, 8 to 80 Hz\""));
+    EXPECT_THAT(script, HasSubstr("set multiplot layout 2,1 "));
+    EXPECT_THAT(script, HasSubstr("set xrange [0:42]"));
+    double low = 0.0;
+    double high = 0.0;
+    ASSERT_EQ(std::sscanf(script.c_str() + script.find("set yrange"), "set yrange [%lf:%lf]", &low, &high), 2);
+    EXPECT_LT(low, 0.1);
+    EXPECT_GT(low, 0.01);
+    EXPECT_GT(high, 5.0);
+    EXPECT_LT(high, 50.0);
+    // Titles stand once, and what is drawn is told apart.
+    EXPECT_EQ(count_of(script, "title \"Oustaloup, tuned\""), 1U);
+    EXPECT_EQ(count_of(script, "title \"Charef, tuned\""), 1U);
+    EXPECT_EQ(count_of(script, "title \"fitted, as the kernel holds it\""), 1U);
+    EXPECT_EQ(count_of(script, "modelled cycles a sample\""), 1U);
+    std::set<std::string> colours;
+    for (std::size_t at = script.find("lc rgb \"", script.find("plot $d0")); at != std::string::npos;
+         at = script.find("lc rgb \"", at + 1)) {
+        colours.insert(script.substr(at + 8, 7));
+    }
+    EXPECT_EQ(colours.size(), 3U);
+    // Of the ratios 4, 5 and 2.
+    EXPECT_THAT(script,
+                HasSubstr("Of 3 comparisons at equal cycles the fitted filter errs more in 0; in the median the "
+                          "others err 4 times as much"));
+}
+
+}  // namespace
