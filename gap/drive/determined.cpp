@@ -157,9 +157,10 @@ bool leaves_open(const Study& study, const Candidate& candidate) {
         number->fixed = number->upper - number->lower < shown * number->scale;
     }
     const std::vector<double> shares = untold_shares(study, copy);
-    const std::vector<FreeParameter*> free = free_numbers(copy, false);
-    for (std::size_t i = 0; i < free.size(); ++i) {
-        if (free[i]->name.find('.') != std::string::npos && shares[i] > a_part) {
+    auto share = shares.begin();
+    for (const FreeParameter* number : free_numbers(copy, false)) {
+        const bool of_effect = number->name.find('.') != std::string::npos;
+        if (*share++ > a_part && of_effect) {
             return true;
         }
     }

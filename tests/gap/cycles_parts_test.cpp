@@ -11,6 +11,7 @@
 #include "gap/cycles/lines.hpp"
 #include "gap/cycles/locate.hpp"
 #include "gap/cycles/search.hpp"
+#include "gap/cycles/steps.hpp"
 #include "gap/cycles/verdict.hpp"
 
 namespace {
@@ -166,6 +167,43 @@ TEST(CyclesEvidence, ComparesRowsByTheirUnit) {
     made.question.rows[0].program = "a.elf";
     made.question.rows[1].program = "b.elf";
     EXPECT_NEAR(Evidence(made.question, made.by).floor(), 1.0 / 204.0, 1e-12);
+}
+
+// Of a clock twice as fast a call's cost is twice as many cycles. It is a step where it is off by more than it is worth
+// and, beside another clock, by more than a twentieth; what is less goes with the clock.
+TEST(CyclesSteps, ACostIsAStepWhereTheClockDoesNotTakeItAlong) {
+    Made made(
+        {row("a_f32", 10, 600), row("a_f32", 20, 1400, true), row("a_f32", 30, 1000), row("a_f32", 40, 1800, true)});
+    Evidence evidence(made.question, made.by);
+    const auto steps = [&](double ratio, double overhead, double maintenance, double before = 200.0) {
+        const State now{.core = "core", .overhead = before, .maintenance = 2.0 * before};
+        const State found{.core = "core", .ratio = ratio, .overhead = overhead, .maintenance = maintenance};
+        std::vector<std::string> effects;
+        double gap = evidence.judged_gap(evidence.whole(now));
+        for (const auto& step : gap::cycles::steps_to(evidence, found, now, found, 4.0)) {
+            effects.push_back(step.effect);
+            EXPECT_EQ(step.gap_before, gap);
+            gap = step.gap_after;
+        }
+        if (ratio != 1.0) {
+            EXPECT_EQ(gap, evidence.judged_gap(evidence.whole(found)));
+        }
+        std::sort(effects.begin(), effects.end());
+        return effects;
+    };
+    EXPECT_THAT(steps(2.0, 419.0, 800.0), ElementsAre("clock_ratio"));
+    EXPECT_THAT(steps(2.0, 381.0, 800.0), ElementsAre("clock_ratio"));
+    EXPECT_THAT(steps(2.0, 421.0, 800.0), ElementsAre("call_overhead", "clock_ratio"));
+    EXPECT_THAT(steps(2.0, 379.0, 800.0), ElementsAre("call_overhead", "clock_ratio"));
+    EXPECT_THAT(steps(2.0, 400.0, 839.0), ElementsAre("clock_ratio"));
+    EXPECT_THAT(steps(2.0, 400.0, 841.0), ElementsAre("cache_maintenance", "clock_ratio"));
+    EXPECT_THAT(steps(2.0, 421.0, 841.0), ElementsAre("cache_maintenance", "call_overhead", "clock_ratio"));
+    // A twentieth of 40 is less than such a cost is worth.
+    EXPECT_THAT(steps(2.0, 43.9, 80.0, 20.0), ElementsAre("clock_ratio"));
+    EXPECT_THAT(steps(2.0, 44.1, 80.0, 20.0), ElementsAre("call_overhead", "clock_ratio"));
+    // Of the same clock all that it is worth.
+    EXPECT_THAT(steps(1.0, 203.9, 404.1), ElementsAre("cache_maintenance"));
+    EXPECT_THAT(steps(1.0, 204.1, 400.0), ElementsAre("call_overhead"));
 }
 
 TEST(CyclesLines, HaveWhatIsLeftOfSlopeAndConstant) {

@@ -78,9 +78,11 @@ TEST(Disturbance, IsAsLarge) {
     judged.rms = 1.49;
     EXPECT_TRUE(gap::are_one_disturbance(fitted, judged));
     EXPECT_TRUE(gap::are_one_disturbance(judged, fitted));
-    judged.rms = 1.51;
-    EXPECT_FALSE(gap::are_one_disturbance(fitted, judged));
-    EXPECT_FALSE(gap::are_one_disturbance(judged, fitted));
+    for (const double half_more : {1.5, 1.51}) {
+        judged.rms = half_more;
+        EXPECT_FALSE(gap::are_one_disturbance(fitted, judged));
+        EXPECT_FALSE(gap::are_one_disturbance(judged, fitted));
+    }
 }
 
 TEST(Disturbance, ComesAnewTwelveTimes) {

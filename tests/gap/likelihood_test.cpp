@@ -188,6 +188,15 @@ TEST(Advantage, IsTheDifferenceOfScoresWithItsBounds) {
     const gap::Interval wide = gap::advantage(a, b);
     EXPECT_NEAR(wide.mean, 46.0, 1e-9);
     EXPECT_NEAR(0.5 * (wide.high - wide.low), 1.645 * 2.0 * 0.375 * std::sqrt(40.0), 1.2);
+    // What comes again in each fortieth of the samples is in each block, and no chance is left.
+    a = b = {};
+    for (int i = 0; i < 1600; ++i) {
+        a.by_sample.push_back(i % 40 < 20 ? 1.0 : -1.0);
+    }
+    b.by_sample.assign(1600, 0.0);
+    const gap::Interval again = gap::advantage(a, b);
+    EXPECT_NEAR(again.low, 0.0, 1e-9);
+    EXPECT_NEAR(again.high, 0.0, 1e-9);
 }
 
 TEST(WhitenerOf, IsOfWhatCounts) {

@@ -82,6 +82,19 @@ TEST(Locate, SaysWhatIsConstantApart) {
     EXPECT_NEAR(where.frequency.front().share, 1.0, 1e-12);
 }
 
+// The slowest wave that a record tells, whatever its length.
+TEST(Locate, TakesOnePeriodInTheRecordForNoConstant) {
+    for (const std::size_t count : {777U, 1000U, 1001U, 2000U, 2047U}) {
+        const gap::Record record = record_of(count, staircase);
+        const double period_s = interval_s * static_cast<double>(count);
+        const gap::Where where = gap::locate(
+            {record},
+            {residuals_of(record, [&](double t) { return std::sin(2.0 * std::numbers::pi * t / period_s); })});
+        EXPECT_NEAR(where.frequency.at(0).share, 0.0, 1e-12) << count;
+        EXPECT_NEAR(where.frequency.at(1).share, 1.0, 1e-12) << count;
+    }
+}
+
 TEST(Locate, StartsAPartAtEachStepOfAFewPercent) {
     // Of a span of 0.2, steps of a quarter; then steps of a twentieth.
     for (const double largest : {0.2, 1.0}) {

@@ -75,13 +75,14 @@ std::optional<std::size_t> goes_most_of_the_way(const Evidence& evidence, const 
     if (evidence.is_small_of_a_form(decision.base_gap)) {
         return std::nullopt;
     }
-    for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
-        if (evidence.ranking[i].score() > evidence.ranking.front().score() - clear_advantage &&
-            evidence.gap(i) < most * decision.base_gap) {
-            return i;
-        }
+    const auto found = std::find_if(evidence.ranking.begin(), evidence.ranking.end(), [&](const Ranked& one) {
+        return one.score() > evidence.ranking.front().score() - clear_advantage &&
+               one.gap_after < most * decision.base_gap;
+    });
+    if (found == evidence.ranking.end()) {
+        return std::nullopt;
     }
-    return std::nullopt;
+    return static_cast<std::size_t>(found - evidence.ranking.begin());
 }
 
 void choose(const Evidence& evidence, Decision& decision) {

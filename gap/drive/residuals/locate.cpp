@@ -192,10 +192,11 @@ std::vector<Share> by_level(const std::vector<Record>& records, const std::vecto
         shares = even_levels(*low, *high);
     }
     for (std::size_t r = 0; r < records.size(); ++r) {
-        for (std::size_t i = 0; i < records[r].size(); ++i) {
-            const auto above = std::upper_bound(shares.begin(), shares.end(), values(records[r])[i],
+        auto square = squares[r].begin();
+        for (const double at : values(records[r])) {
+            const auto above = std::upper_bound(shares.begin(), shares.end(), at,
                                                 [](double value, const Share& share) { return value < share.from; });
-            (above == shares.begin() ? shares.front() : *std::prev(above)).share += squares[r][i];
+            (above == shares.begin() ? shares.front() : *std::prev(above)).share += *square++;
         }
     }
     normalise(shares);

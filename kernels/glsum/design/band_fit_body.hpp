@@ -270,9 +270,7 @@ private:
 
     [[nodiscard]] Vector wanted() const {
         Vector ones = Vector::Zero(2 * points());
-        for (Eigen::Index i = 0; i < points(); ++i) {
-            ones(2 * i) = 1.0;
-        }
+        ones(Eigen::seqN(0, points(), 2)).setOnes();
         return ones;
     }
     [[nodiscard]] Vector row_weights() const {
