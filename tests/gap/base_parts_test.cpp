@@ -201,6 +201,8 @@ TEST(TwoModes, AreThePlantsOwnOrNone) {
     EXPECT_EQ(left(modes(0.099, 0.149, 3.0)), 2U);
     EXPECT_EQ(left(modes(0.101, 0.149, 3.0)), 1U);  // half of what one leaves
     EXPECT_EQ(left(modes(0.099, 0.151, 3.0)), 1U);
+    EXPECT_EQ(left(modes(0.1, 0.149, 3.0)), 1U);  // less than half
+    EXPECT_EQ(left(modes(0.099, 0.15, 3.0)), 1U);
     EXPECT_EQ(left(modes(0.099, 0.149, 9.9)), 2U);  // a third of the record
     EXPECT_EQ(left(modes(0.099, 0.149, 10.1)), 1U);
     EXPECT_EQ(left(modes(0.099, 0.149, -3.0)), 1U);  // it grows
