@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <optional>
 
@@ -48,6 +49,27 @@ bool Candidate::any(bool Effect::*trait) const {
 bool Candidate::has_events() const {
     return std::any_of(effects.begin(), effects.end(),
                        [](const Effect* effect) { return effect->kind == Kind::event; });
+}
+
+const std::vector<FreeParameter>* Candidate::numbers_of(const Effect* effect) const {
+    std::size_t at = 0;
+    for (const Effect* mine : effects) {
+        if (mine == effect && mine->kind == Kind::lasting) {
+            return &lasting[at];
+        }
+        at += mine->kind == Kind::lasting ? 1 : 0;
+    }
+    return nullptr;
+}
+
+std::optional<Special> Candidate::only(const Effect* effect) const {
+    const std::vector<FreeParameter>* numbers = numbers_of(effect);
+    if (numbers == nullptr || effect->is_only == nullptr) {
+        return std::nullopt;
+    }
+    std::vector<double> values;
+    std::ranges::transform(*numbers, std::back_inserter(values), &FreeParameter::value);
+    return effect->is_only(values);
 }
 
 std::size_t Candidate::effect_parameters() const {

@@ -1,6 +1,7 @@
 // A base model with some effects and the numbers that it has.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct Candidate {
     double cost = 0.0;                                ///< half the sum of squares of the (whitened) residuals
     [[nodiscard]] std::string name() const;           ///< "none", or effects joined by " + "
     [[nodiscard]] bool has(const std::string& effect) const;
+    /// A lasting effect's numbers; null: it has no such effect.
+    [[nodiscard]] const std::vector<FreeParameter>* numbers_of(const Effect* effect) const;
+    /// What one of its effects is with the numbers that it has (Effect::is_only).
+    [[nodiscard]] std::optional<Special> only(const Effect* effect) const;
     /// Whether one of its effects is so: `candidate.any(&Effect::rounds)`.
     [[nodiscard]] bool any(bool Effect::*trait) const;
     [[nodiscard]] bool has_events() const;

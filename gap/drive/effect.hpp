@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -88,6 +89,12 @@ struct Clue {
     const Scales& scales;
 };
 
+/// Another effect, at values of its own.
+struct Special {
+    std::string effect;
+    std::vector<double> values;  ///< in the order of its parameters
+};
+
 struct Effect {
     std::string name;
     Kind kind;
@@ -119,6 +126,8 @@ struct Effect {
     /// A further start that the residuals of what is there without it tell, for numbers whose basin is narrow: values
     /// in the order of `parameters`. For lasting ones.
     std::vector<double> (*start)(const Clue& clue) = nullptr;
+    /// What it is with these numbers, another effect that says as much by a simpler law; none: itself.
+    std::optional<Special> (*is_only)(std::span<const double> values) = nullptr;
     /// Whether the other one is a special case of it.
     [[nodiscard]] bool covers(const Effect& other) const;
 };

@@ -141,17 +141,6 @@ std::vector<FreeParameter> own_of(const Study& study, std::size_t record, const 
     return own;
 }
 
-const std::vector<FreeParameter>* lasting_of(const Candidate& candidate, const Effect* effect) {
-    std::size_t at = 0;
-    for (const Effect* mine : candidate.effects) {
-        if (mine == effect && mine->kind == Kind::lasting) {
-            return &candidate.lasting[at];
-        }
-        at += mine->kind == Kind::lasting ? 1 : 0;
-    }
-    return nullptr;
-}
-
 void hold_effects(Candidate& candidate) {
     for (auto& numbers : candidate.lasting) {
         for (FreeParameter& number : numbers) {
@@ -171,7 +160,7 @@ Candidate without_new_effects(const Study& study, const Candidate& of, const Can
             continue;
         }
         std::vector<FreeParameter>& numbers = absent.lasting[lasting++];
-        if (const auto* known = lasting_of(start, effect)) {
+        if (const auto* known = start.numbers_of(effect)) {
             numbers = *known;
             continue;
         }
@@ -193,13 +182,13 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
               const Whitener* whitener, const Effort& effort) {
     std::size_t count = 1;
     for (const Effect* effect : effects) {
-        if (lasting_of(start, effect) == nullptr) {
+        if (start.numbers_of(effect) == nullptr) {
             count = std::max(count, starts_of(*effect, study.scales));
         }
     }
     // One start more, where an effect can tell from what is left without it.
     const bool clued = std::any_of(effects.begin(), effects.end(), [&](const Effect* effect) {
-        return effect->start != nullptr && lasting_of(start, effect) == nullptr;
+        return effect->start != nullptr && start.numbers_of(effect) == nullptr;
     });
     count += clued ? 1 : 0;
     const bool in_stages = count > 1 || std::isfinite(effort.hopeless);
@@ -211,7 +200,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
         for (const Effect* effect : effects) {
             if (effect->kind == Kind::lasting) {
                 // What another candidate knows of the same effect is a better start than any.
-                const auto* known = lasting_of(start, effect);
+                const auto* known = start.numbers_of(effect);
                 std::vector<FreeParameter> told;
                 if (known == nullptr && clued && s + 1 == count && !start.own.empty()) {
                     told = clued_start(study, start, *effect);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "base/parallel.hpp"
 #include "gap/drive/jitter.hpp"
@@ -31,6 +32,23 @@ const Ranked* plain_best_of(const Found& found, std::size_t size) {
     return best == found.ranking.end() ? nullptr : &*best;
 }
 
+bool is_looked_for(const Ground& ground, const std::string& name) {
+    return std::ranges::any_of(ground.list, [&](const Effect* effect) { return effect->name == name; });
+}
+
+// The best with one of its effects as what it only is, from the numbers that say so.
+Candidate with_only(const Study& study, const Candidate& best, std::size_t i, const Special& special) {
+    const Effect& effect = effect_named(special.effect);
+    Candidate simpler = best;
+    simpler.effects[i] = &effect;
+    const auto at = simpler.lasting.begin() + (best.numbers_of(best.effects[i]) - best.lasting.data());
+    *at = parameters_of(effect, study.scales, 0);
+    for (std::size_t k = 0; k < at->size(); ++k) {
+        (*at)[k].value = std::clamp(special.values[k], (*at)[k].lower, (*at)[k].upper);
+    }
+    return simpler;
+}
+
 }  // namespace
 
 bool nested(const Effects& mine, const Effect& other) {
@@ -51,19 +69,29 @@ std::vector<Candidate> narrowed(const Neighbourhood& near, std::size_t size) {
 
 std::vector<Candidate> simplified(const Neighbourhood& near, std::size_t size) {
     const Candidate& best = near.found.best_of(size).trained;
-    std::vector<Effects> simpler;
+    struct Begun {
+        Effects effects;
+        Candidate start;
+    };
+    std::vector<Begun> simpler;
     for (std::size_t i = 0; i < best.effects.size(); ++i) {
+        if (const std::optional<Special> only = best.only(best.effects[i]);
+            only && !best.has(only->effect) && is_looked_for(near.of.ground, only->effect)) {
+            Candidate start = with_only(near.of.ground.study, best, i, *only);
+            simpler.push_back({start.effects, start});
+        }
         for (const Effect* special : near.of.ground.list) {
             Effects effects = best.effects;
             effects[i] = special;
             if (best.effects[i]->covers(*special) && !best.has(special->name) && !is_known(near.found, effects)) {
-                simpler.push_back(std::move(effects));
+                simpler.push_back({std::move(effects), best});
             }
         }
     }
     std::vector<Candidate> fitted(simpler.size());
-    base::parallel_for(simpler.size(), near.of.jobs,
-                       [&](std::size_t i) { fitted[i] = fit(near.of.ground.study, simpler[i], best, near.fits_by); });
+    base::parallel_for(simpler.size(), near.of.jobs, [&](std::size_t i) {
+        fitted[i] = fit(near.of.ground.study, simpler[i].effects, simpler[i].start, near.fits_by);
+    });
     return fitted;
 }
 

@@ -103,7 +103,7 @@ public:
             take(rivals(near()));
             renew_whitener();
         }
-        for (std::size_t size = 2; of_.ground.study.base.refit && found_.has_sized(size); ++size) {
+        for (std::size_t size = 1; of_.ground.study.base.refit && found_.has_sized(size); ++size) {
             take(simplified(near(), size));
         }
         if (of_.ground.study.base.refit && quantum_shows()) {

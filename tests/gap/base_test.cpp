@@ -181,6 +181,12 @@ TEST(Base, OfABentStaircaseIsAsQuickAsItsSteps) {
         std::find_if(all.begin(), all.end(), [](const gap::Described& one) { return one.name == "first_order"; });
     ASSERT_NE(one_lag, all.end());
     EXPECT_NEAR(value_of(one_lag->form, "a1") + value_of(one_lag->form, "delay_s"), 0.17, 0.02);
+    // A drag makes of a long lag at rest a quick one where the steps are: beside it the lag may be eight times as long.
+    const auto numbers = one_lag->form.parameters();
+    const auto lag =
+        std::find_if(numbers.begin(), numbers.end(), [](const drive::Parameter& one) { return one.name == "a1"; });
+    EXPECT_NEAR(lag->upper / lag->lower, 8.0 * 8.0, 1e-9);
+    EXPECT_NEAR(lag->upper / lag->value, 8.0, 2.0);
 }
 
 // A sensor that drifts is no lag that outlasts the record, with a zero beside it.

@@ -211,6 +211,24 @@ TEST_F(Rules, WhatCannotBePartedIsNamedByTheSimplerOne) {
     EXPECT_THAT(after("what_cannot_be_parted", attributed(sensor)).effects, ElementsAre(sensor));
 }
 
+// A valve that sticks and never jumps is a play, of as many numbers.
+TEST_F(Rules, WhatCannotBePartedIsWhatItsNumbersSay) {
+    const std::size_t valve = add({"valve_stiction"}, 0.5, 50.0);
+    const std::size_t play = add({"input_hysteresis"}, 0.5, 49.0);
+    const auto sticks_with = [&](double band, double jump) {
+        ranking_[valve].trained.lasting[0][0].value = band;
+        ranking_[valve].trained.lasting[0][1].value = jump;
+        return after("what_cannot_be_parted", attributed(valve)).effects;
+    };
+    EXPECT_THAT(sticks_with(0.4, 0.0), ElementsAre(play));
+    EXPECT_THAT(sticks_with(0.4, 0.019), ElementsAre(play));
+    EXPECT_THAT(sticks_with(0.4, 0.021), ElementsAre(valve, play));
+    // What says less than the numbers is none of it.
+    ranking_[play].by_sample.assign(samples, 20.0 / samples);
+    ranking_[play].gap_after = 0.6;
+    EXPECT_THAT(sticks_with(0.4, 0.0), ElementsAre(valve));
+}
+
 // A force in one direction alone is an operating point: where that is fitted, friction has one level or two.
 TEST_F(Rules, WhatCannotBePartedIsAlsoTheWiderOneWhereTheBaseTakesItUp) {
     const std::size_t even = add({"coulomb_friction"}, 0.5, 50.0);

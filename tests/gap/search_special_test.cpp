@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "gap/drive/near_best.hpp"
 #include "gap/drive/search.hpp"
 #include "gap/drive/start.hpp"
 
@@ -78,6 +79,38 @@ TEST(SearchBesideAForm, FitsTheSpecialCasesOfTheBestSet) {
     // Both lags are special cases of one that differs by direction, and each lead's finalists are two.
     EXPECT_THAT(tried, Contains(Set{"backlash", "sensor_lag"}));
     EXPECT_THAT(tried, Contains(Set{"backlash", "actuator_lag"}));
+}
+
+// A valve that sticks and never jumps is a play: that is fitted from the numbers that say so, not from its own starts.
+// Here they are wider than the input ever moves, so that no number has a slope and all stay where they begin.
+TEST(SearchBesideAForm, FitsWhatTheBestOneOnlyIs) {
+    gap::Question question{
+        gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)), true, {read(1)}, {read(2)}, {}, gap::Metric::simulation, {}, 1};
+    question.given_form = true;
+    gap::Ground ground = gap::prepare(question);
+    const gap::Search search{ground, 1, [](const std::string&) {}};
+    const gap::Effect& valve = gap::effect_named("valve_stiction");
+    const auto simplified = [&](double jump) {
+        gap::Found found;
+        gap::Candidate sticks = gap::fit(ground.study, {}, {}, nullptr);
+        sticks.effects = {&valve};
+        sticks.lasting = {gap::parameters_of(valve, ground.study.scales, 0)};
+        sticks.lasting[0][0].value = 100.0;
+        sticks.lasting[0][1].value = jump;
+        found.ranking.emplace_back();
+        found.ranking[0].trained = sticks;
+        return gap::simplified({search, found, nullptr}, 1);
+    };
+    const std::vector<gap::Candidate> simpler = simplified(1e-4);
+    ASSERT_EQ(simpler.size(), 1U);
+    EXPECT_EQ(simpler[0].name(), "input_hysteresis");
+    const std::vector<gap::FreeParameter>& numbers = simpler[0].lasting[0];
+    EXPECT_EQ(numbers[0].name, "input_hysteresis.width");
+    EXPECT_EQ(numbers[0].value, numbers[0].upper);
+    EXPECT_THAT(simplified(10.0), testing::IsEmpty());
+    // What is not looked for is not named.
+    std::erase(ground.list, &gap::effect_named("input_hysteresis"));
+    EXPECT_THAT(simplified(1e-4), testing::IsEmpty());
 }
 
 // Of the best set each is exchanged for the closest of what acts at the same place: as partners of a lead none of these

@@ -158,7 +158,7 @@ drive::Form held_near(drive::Form form, double times) {
 // As fitted to what is quick, and kept near it: whole residuals would make it slow again.
 drive::Form quick_form(Question alone, double quick_s) {
     constexpr double about = 4.0;
-    constexpr double near = 2.0;
+    constexpr double near = 8.0;
     alone.form = held_near(alone.form, about);
     const Ground part = prepare(alone);
     Whitener differences;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "gap/drive/decide/rule.hpp"
@@ -19,16 +20,24 @@ bool is_special_case(const Effect& effect, const Candidate& of) {
     return std::any_of(of.effects.begin(), of.effects.end(), [&](const Effect* mine) { return mine->covers(effect); });
 }
 
+// Whether one of the effects is only that one, with the numbers that it has.
+bool is_only(const Effect& effect, const Candidate& candidate) {
+    return std::ranges::any_of(candidate.effects, [&](const Effect* mine) {
+        const std::optional<Special> only = candidate.only(mine);
+        return only && only->effect == effect.name;
+    });
+}
+
 bool generalises(const Candidate& general, const Candidate& special) {
-    // Where the data hold a number of the wider one fast, it is not wider.
-    if (general.effects.size() != special.effects.size() ||
-        general.effect_parameters() <= special.effect_parameters()) {
+    if (general.effects.size() != special.effects.size()) {
         return false;
     }
+    // Where the data hold a number of the wider one fast, it is not wider.
+    const bool has_more = general.effect_parameters() > special.effect_parameters();
     bool more = false;
     for (const Effect* effect : special.effects) {
         const bool same = general.has(effect->name);
-        const bool wider = is_special_case(*effect, general);
+        const bool wider = (has_more && is_special_case(*effect, general)) || is_only(*effect, general);
         if (!same && !wider) {
             return false;
         }

@@ -66,6 +66,15 @@ std::vector<double> start(const Clue& clue) {
     return best_of(clue, candidates, add);
 }
 
+// Without a jump it neither sticks nor breaks loose: what is left is a play.
+std::optional<Special> is_only(std::span<const double> values) {
+    constexpr double next_to_no_jump = 0.05;
+    if (values[1] > next_to_no_jump * values[0]) {
+        return std::nullopt;
+    }
+    return Special{"input_hysteresis", {values[0], 1.0}};
+}
+
 }  // namespace
 
 const Effect& valve_stiction() {
@@ -78,6 +87,7 @@ const Effect& valve_stiction() {
         .numbers = {{"band"}, {"jump"}, {"softness", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical, Domain::hydraulic},
         .start = start,
+        .is_only = is_only,
     };
     return effect;
 }
