@@ -30,6 +30,12 @@ std::vector<double> next_values(const Effect& effect, const Scales& scales, cons
 
 }  // namespace
 
+std::vector<double> values_of(const std::vector<FreeParameter>& numbers) {
+    std::vector<double> values;
+    std::ranges::transform(numbers, std::back_inserter(values), &FreeParameter::value);
+    return values;
+}
+
 std::string Candidate::name() const {
     std::string joined;
     for (const Effect* effect : effects) {
@@ -67,9 +73,7 @@ std::optional<Special> Candidate::only(const Effect* effect) const {
     if (numbers == nullptr || effect->is_only == nullptr) {
         return std::nullopt;
     }
-    std::vector<double> values;
-    std::ranges::transform(*numbers, std::back_inserter(values), &FreeParameter::value);
-    return effect->is_only(values);
+    return effect->is_only(values_of(*numbers));
 }
 
 std::size_t Candidate::effect_parameters() const {

@@ -24,6 +24,8 @@ struct FreeParameter {
     std::string unit = {};  ///< of an effect's number, in those of input u and output y; empty: another's
 };
 
+[[nodiscard]] std::vector<double> values_of(const std::vector<FreeParameter>& numbers);
+
 struct Candidate {
     std::vector<const Effect*> effects;
     std::vector<FreeParameter> base;                  ///< shared by all records

@@ -126,6 +126,9 @@ struct Effect {
     /// A further start that the residuals of what is there without it tell, for numbers whose basin is narrow: values
     /// in the order of `parameters`. For lasting ones.
     std::vector<double> (*start)(const Clue& clue) = nullptr;
+    /// What it adds to the slope of the restoring term at an output, over the base's own, which is 1: a base that was
+    /// fitted without it has it in its numbers.
+    double (*slope)(std::span<const double> values, double output) = nullptr;
     /// What it is with these numbers, another effect that says as much by a simpler law; none: itself.
     std::optional<Special> (*is_only)(std::span<const double> values) = nullptr;
     /// Whether the other one is a special case of it.

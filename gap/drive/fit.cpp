@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "drive/solve.hpp"
 #include "gap/drive/clued_start.hpp"
 #include "gap/drive/cost.hpp"
+#include "gap/drive/kept_slope.hpp"
 
 namespace gap {
 namespace {
@@ -233,6 +235,10 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             led.lasting = attempt.lasting;
             descend(study, led, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
             attempts.push_back(std::move(led));
+        }
+        if (std::optional<Candidate> eased = with_slope_kept(study, attempt, start)) {
+            descend(study, *eased, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
+            attempts.push_back(std::move(*eased));
         }
         // What bends a swing changes its period: alone, before the base may follow, it would only be driven back to
         // none.

@@ -45,8 +45,16 @@ Study make_study(const Question& question, const std::vector<Record>& records, s
     study.base.operating_output = question.operating_output;
     study.base.from_no_input = question.from_no_input;
     study.base.idle_input = question.idle_input;
+    const double allowed = 0.3 * std::max(found.noise, least);
     for (const Record& record : records) {
-        study.courses.push_back(make_course(record, plain, 0.3 * std::max(found.noise, least)));
+        // Nobody drives a free motion: it moves from where it is let go, and from rest it would not tell any steps.
+        Scenario moving = plain;
+        if (question.refit && !scales.driven) {
+            const std::vector<FreeParameter> state = state_of(study, record);
+            moving.operating_output = scales.steady ? state[0].value : 0.0;
+            moving.initial_output = state[1].value - moving.operating_output;
+        }
+        study.courses.push_back(make_course(record, moving, allowed));
         if (!record.simulated.empty()) {
             agree_with(study.courses.back(), plain, record.simulated);
         }

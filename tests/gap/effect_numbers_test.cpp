@@ -193,10 +193,14 @@ TEST(EffectNumbers, OfThePlant) {
                   {{"coefficient", "rhs/speed^2", 0.0, 5.0 * drag, 0.0, {0.1 * drag, 0.6 * drag}},
                    {"of_speed", "1", 0.0, 1.0, 0.0, {0}, true}});
     const double brake = force / (far * far);
-    expect_ranges(
-        "quadratic_drag", speeds,
-        {{"coefficient", "rhs/speed^2", 0.0, 5.0 * drag, 0.0, {0.1 * drag, 0.6 * drag, 0.1 * brake, 0.6 * brake}},
-         {"of_speed", "1", 0.0, 1.0, 0.0, {0, 0, 1, 1}, true}});
+    expect_ranges("quadratic_drag", speeds,
+                  {{"coefficient",
+                    "rhs/speed^2",
+                    0.0,
+                    5.0 * drag,
+                    0.0,
+                    {0.1 * drag, 0.6 * drag, 0.1 * brake, 0.6 * brake, 2.0 * brake}},
+                   {"of_speed", "1", 0.0, 1.0, 0.0, {0, 0, 1, 1, 1}, true}});
     gap::Scales released = speeds;
     released.driven = false;
     for (const char* effect : {"gravity_nonlinearity", "cubic_stiffness"}) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/failure.hpp"
+#include "gap/drive/fit.hpp"
 #include "gap/drive/start.hpp"
 
 namespace {
@@ -107,6 +108,28 @@ TEST(Prepared, OfAFreeMotionHasNoEffectsOfTheInput) {
         EXPECT_THAT(free, Not(Contains(effect)));
     }
     EXPECT_THAT(free, Contains("coulomb_friction"));
+}
+
+// From rest it would not move, and any steps would do: they are measured from where it is let go.
+TEST(Prepared, OfAFreeSwingHasStepsThatFollowIt) {
+    gap::Question question = question_of(true);
+    drive::Model swing;
+    swing.denominator = {{0.25, 2.0}, {0.02, 1.0}, {1.0, 0.0}};  // 2 rad/s, of 6 decays in the record
+    question.form = gap::form_of(swing);
+    for (auto* records : {&question.train, &question.validate}) {
+        for (std::size_t i = 0; i < records->front().size(); ++i) {
+            const double t = records->front().time_s[i];
+            records->front().input[i] = 0.0;
+            records->front().output[i] = std::exp(-0.04 * t) * (std::cos(2.0 * t) + 0.02 * std::sin(2.0 * t));
+        }
+    }
+    const gap::Ground ground = gap::prepare(question);
+    for (const gap::Study* study : {&ground.study, &ground.validation}) {
+        EXPECT_LT(study->courses[0].grid().step_s, 0.1 / 4.0 + 1e-12);
+    }
+    const gap::Candidate found = gap::fit(ground.study, {}, ground.base, nullptr);
+    EXPECT_NEAR(found.base[0].value, 0.25, 1e-4);
+    EXPECT_NEAR(found.base[1].value, 0.02, 1e-4);
 }
 
 TEST(Prepared, JudgesByTheValidationOrByWhatIsKeptAside) {

@@ -78,6 +78,25 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEffectIsOverOneFewer) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
 }
 
+// Two that do nothing alone cancel each other together: of causes one at least goes a tenth of the way alone.
+TEST_F(Rules, ClearAdvantageTakesNothingThatActsOnlyTogetherBesideAForm) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.91, 5.0);
+    const std::size_t play = add({"backlash"}, 0.95, 3.0);
+    const std::size_t both = add({"quadratic_drag", "backlash"}, 0.3, 200.0);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    beside_a_form();
+    EXPECT_EQ(after("clear_advantage").effects.size(), 0U);
+    ranking_[drag].gap_after = 0.89;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[drag].gap_after = 0.91;
+    ranking_[play].gap_after = 0.89;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    // What was never tried alone says nothing.
+    ranking_[drag].trained.effects = ranking_[play].trained.effects = {&gap::effect_named("supply_sag")};
+    ranking_[play].gap_after = 0.91;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+}
+
 // The drive's own law is a little different from the listed one, and something else follows what that leaves.
 TEST_F(Rules, ClearAdvantageTakesNothingOfTheShapeOfALawBesideAForm) {
     const std::size_t bend = add({"output_curve"}, 0.1595, 100.0);

@@ -48,8 +48,29 @@ bool is_all_the_forms(const Evidence& evidence, std::size_t wider, std::size_t c
            !adds_facts_alone(evidence.ranking[wider].trained, evidence.ranking[chosen].trained);
 }
 
+// Laws that do next to nothing alone and much together cancel each other: so does an expansion of whatever is missing.
+// Of real causes each goes its part of the way.
+bool acts_only_together(const Evidence& evidence, std::size_t of) {
+    constexpr double next_to_nothing = 0.9;  // of the gap's rms is left
+    const std::vector<const Effect*>& effects = evidence.ranking[of].trained.effects;
+    if (!evidence.beside_form() || effects.size() < 2) {
+        return false;
+    }
+    bool tried = false;
+    for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
+        const std::vector<const Effect*>& alone = evidence.ranking[i].trained.effects;
+        if (alone.size() == 1 && std::ranges::find(effects, alone.front()) != effects.end()) {
+            tried = true;
+            if (evidence.gap(i) < next_to_nothing * evidence.gap(evidence.none())) {
+                return false;
+            }
+        }
+    }
+    return tried;
+}
+
 bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
-    if (is_all_the_forms(evidence, wider, chosen)) {
+    if (is_all_the_forms(evidence, wider, chosen) || acts_only_together(evidence, wider)) {
         return false;
     }
     const double before = evidence.gap(chosen);
@@ -151,7 +172,8 @@ void name_the_step(const Evidence& evidence, Decision& decision) {
 const Rule rule_of_clear_advantage{
     "clear_advantage",
     "Effects are taken one by one while each is clearly more likely on what was not fitted, whichever block of samples "
-    "is asked, and takes a material share of the gap. What training leaves open is not taken.",
+    "is asked, and takes a material share of the gap. What training leaves open is not taken, nor what acts only "
+    "together.",
     choose};
 
 const Rule rule_of_rounded_readings{

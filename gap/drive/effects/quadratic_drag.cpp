@@ -23,12 +23,17 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
              0.0,
              most * std::max(usual, of_output),
              0.0,
-             {0.1 * usual, 0.6 * usual, 0.1 * of_output, 0.6 * of_output}},
-            {"of_speed", "1", 0.0, 1.0, 0.0, {0.0, 0.0, 1.0, 1.0}, true}};
+             {0.1 * usual, 0.6 * usual, 0.1 * of_output, 0.6 * of_output, 2.0 * of_output}},
+            {"of_speed", "1", 0.0, 1.0, 0.0, {0.0, 0.0, 1.0, 1.0, 1.0}, true}};
 }
 
 void add(Scenario& scenario, std::span<const double> values) {
     (values[1] > 0.5 ? scenario.forces.drag_of_speed : scenario.forces.drag) += values[0];
+}
+
+// What is driven at some speed resists a further one by the tangent.
+double slope(std::span<const double> values, double output) {
+    return values[1] > 0.5 ? 2.0 * values[0] * std::fabs(output) : 0.0;
 }
 
 }  // namespace
@@ -42,6 +47,7 @@ const Effect& quadratic_drag() {
         .place = Place::plant,
         .numbers = {{"coefficient"}, {"of_speed", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical, Domain::hydraulic},
+        .slope = slope,
     };
     return effect;
 }
