@@ -6,6 +6,7 @@
 #include "gap/drive/clipped.hpp"
 #include "gap/drive/fit.hpp"
 #include "gap/drive/plausible.hpp"
+#include "gap/drive/released.hpp"
 
 namespace gap {
 namespace {
@@ -149,11 +150,17 @@ Ground prepare(const Question& question) {
     const std::vector<Record>& train = question.train;
     const bool split = question.validate.empty();
     const std::vector<Record>& validate = split ? train : question.validate;
-    const Audit found = audit(train);
+    Audit found = audit(train);
     Scales scales = scales_of(model_of(question.form), train, found);
+    const bool let_go = question.refit && !scales.driven;
+    if (let_go) {
+        say_releases(train, found.notes);
+        say_releases(question.validate, found.notes);
+    }
     scales.drains = question.domain != Domain::mechanical;
     const auto counted = [&](std::vector<std::vector<char>> counts, const std::vector<Record>& records) {
-        return question.past_clips ? without_clipped(std::move(counts), records) : counts;
+        counts = question.past_clips ? without_clipped(std::move(counts), records) : std::move(counts);
+        return let_go ? from_release(std::move(counts), records) : counts;
     };
     Study study = make_study(question, train,
                              counted(split ? part_counts(train, question.split_s, false) : all_count(train), train),
@@ -172,8 +179,9 @@ Ground prepare(const Question& question) {
     }
     std::vector<Record> thin;
     Study sketch = sketch_of(study, base, thin);
-    return {found, std::move(study),          std::move(sketch), std::move(validation), std::move(base),
-            split, list_of(question, scales), std::move(thin)};
+    return {std::move(found),          std::move(study), std::move(sketch),
+            std::move(validation),     std::move(base),  split,
+            list_of(question, scales), std::move(thin)};
 }
 
 }  // namespace gap

@@ -97,6 +97,19 @@ TEST_F(Rules, ClearAdvantageTakesNothingThatActsOnlyTogetherBesideAForm) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
 }
 
+// What is as likely without one of two has that one for nothing, whether or not training tells the numbers of the rest.
+TEST_F(Rules, ClearAdvantageTakesNothingThatIsAsLikelyWithoutIt) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);
+    const std::size_t drift = add({"sensor_drift"}, 0.2, 190.0);
+    const std::size_t both = add({"quadratic_drag", "sensor_drift"}, 0.2, 196.0);
+    known_.objections[drift] = "open";
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    beside_a_form();
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[drift].log_likelihood = 196.0;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+}
+
 // The drive's own law is a little different from the listed one, and something else follows what that leaves.
 TEST_F(Rules, ClearAdvantageTakesNothingOfTheShapeOfALawBesideAForm) {
     const std::size_t bend = add({"output_curve"}, 0.1595, 100.0);

@@ -69,8 +69,19 @@ bool acts_only_together(const Evidence& evidence, std::size_t of) {
     return tried;
 }
 
+// Whether it is as likely without one of its effects: that one explains nothing, though training may not tell the
+// numbers of what is left, so that it cannot be named.
+bool has_an_idle_one(const Evidence& evidence, std::size_t of) {
+    const Ranked& wide = evidence.ranking[of];
+    return evidence.beside_form() && std::ranges::any_of(evidence.ranking, [&](const Ranked& ranked) {
+               return !ranked.trained.effects.empty() && ranked.trained.effects.size() < wide.trained.effects.size() &&
+                      ranked.score() >= wide.score() && contains(wide.trained, ranked.trained);
+           });
+}
+
 bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
-    if (is_all_the_forms(evidence, wider, chosen) || acts_only_together(evidence, wider)) {
+    if (is_all_the_forms(evidence, wider, chosen) || acts_only_together(evidence, wider) ||
+        has_an_idle_one(evidence, wider)) {
         return false;
     }
     const double before = evidence.gap(chosen);
