@@ -155,7 +155,8 @@ drive::Form held_near(drive::Form form, double times) {
     return form;
 }
 
-// As fitted to what is quick, and kept near it: whole residuals would make it slow again.
+// As fitted to what is quick, and kept near it: whole residuals would make it slow again. Beside a drag it is the slope
+// at rest, some five times as slow as at speed, and has to get there.
 drive::Form quick_form(Question alone, double quick_s) {
     constexpr double about = 4.0;
     constexpr double near = 8.0;
