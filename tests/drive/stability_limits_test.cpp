@@ -81,6 +81,10 @@ TEST(StabilityLimits, RootsAndPolesAreThoseOfTheirPolynomial) {
     EXPECT_EQ(half(0.7).unstable_by_roots, 2);
     EXPECT_EQ(half(0.7).unstable_by_argument, 2);
     EXPECT_EQ(half(0.8).unstable_by_roots, 0);
+    // A root of size 3 is a pole of size 9.
+    const auto larger = drive::judge_stability(with({{1, 1.0}, {-6.0 * std::cos(1.0), 0.5}, {9, 0}}), 0.5);
+    ASSERT_EQ(larger.poles.size(), 2U);
+    EXPECT_LT(std::abs(larger.poles[1] - std::polar(9.0, 2.0)), 1e-8);
     // The smallest angle first; a root at 0 is on the border, whatever the others are.
     const auto three = drive::judge_stability(with({{1, 3}, {2, 2}, {2, 1}}), 1.0);
     ASSERT_EQ(three.roots.size(), 3U);
