@@ -104,6 +104,28 @@ TEST(StabilityLimits, RootsAndPolesAreThoseOfTheirPolynomial) {
     EXPECT_EQ(apart.unstable_by_argument, 0);
 }
 
+// (s + 1) (s + 2) ... (s + n), whose roots move a million times as far as its coefficients: the polished ones leave a
+// rounding of their polynomial.
+TEST(StabilityLimits, RootsLeaveARoundingOfTheirPolynomial) {
+    for (const int degree : {6, 9, 12}) {
+        std::vector<double> product{1.0};
+        for (int root = 1; root <= degree; ++root) {
+            product.push_back(0.0);
+            for (std::size_t i = product.size(); i-- > 0;) {
+                product[i] = root * product[i] + (i > 0 ? product[i - 1] : 0.0);
+            }
+        }
+        std::vector<drive::Term> terms;
+        for (std::size_t i = 0; i < product.size(); ++i) {
+            terms.push_back({product[i], static_cast<double>(i)});
+        }
+        const auto judged = drive::judge_stability(with(terms), 1.0);
+        EXPECT_LT(judged.largest_residual, 1e-15) << degree;
+        ASSERT_EQ(judged.poles.size(), static_cast<std::size_t>(degree));
+        EXPECT_EQ(judged.verdict, Stability::stable);
+    }
+}
+
 TEST(StabilityLimits, ZerosRightOfTheAxisOfWhatIsNoPolynomial) {
     // s^2.5 + 1 has poles at angles of +-pi / 2.5 on the principal sheet; s^3 + 1 two, s^3 - 1 one.
     EXPECT_EQ(drive::zeros_right_of_axis({{1, 2.5}, {1, 0}}), 2);
