@@ -132,6 +132,7 @@ TEST(Elf, HasTheWordsThatLieWhollyInASection) {
     const base::Scratch folder;
     test::MadeElf made;
     made.sections = {{0x100, test::bytes_of({1, 2})}, {0x2000, {1, 2, 3, 4, 5, 6}}};
+    made.symbols = {{"f", 0x101, 8, true}};
     made.write(folder.file("a.elf"));
     const qemu::Elf elf(folder.file("a.elf"));
     for (const std::uint32_t here : {0x100U, 0x104U, 0x2000U, 0x2002U}) {
