@@ -67,8 +67,7 @@ std::string_view take(std::string_view& rest, std::string_view mark) {
 }
 
 std::string unquoted(std::string_view text) {
-    const bool quoted = text.size() > 1 && text.front() == '"' && text.back() == '"';
-    return std::string(quoted ? text.substr(1, text.size() - 2) : text);
+    return std::string(text.starts_with('"') ? text.substr(1, text.size() - 2) : text);
 }
 
 void add_words(Words& words, std::string_view pair) {

@@ -11,8 +11,9 @@ namespace tune {
 /// The output of the plant for a unit step that is added to its input, over a horizon.
 ///
 /// Fourier's series of the response damped by e^(-at), from Y(a + jw) = G / (s (1 + L)): exact but for what lies above
-/// its highest frequency (a thousandth of the area) and for the damped rest of the next period (10^-4). Sampling enters
-/// as the hold's and the difference's transforms, without aliases.
+/// its highest frequency (a thousandth of the area) and for the damped rest of the next period (10^-4). Lanczos'
+/// factors average it over a 512th of the horizon on either side. Sampling enters as the hold's and the difference's
+/// transforms, without aliases.
 class LoadError {
 public:
     LoadError(const SampledPlant& plant, double horizon_s);

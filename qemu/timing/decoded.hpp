@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 namespace timing {
 
@@ -110,6 +111,7 @@ struct Decoded {
     std::array<Read, 36> reads{};
     std::array<Write, 36> writes{};
 
+    [[nodiscard]] std::span<const Read> all_reads() const { return std::span(reads).first(read_count); }
     void read(Role role, unsigned reg) { reads[read_count++] = {static_cast<std::uint8_t>(reg), role}; }
     void write(unsigned reg, Source source = Source::result) {
         writes[write_count++] = {static_cast<std::uint8_t>(reg), source};

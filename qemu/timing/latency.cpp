@@ -140,9 +140,7 @@ Consumer consumer_of(const Decoded& reader, Role role) {
             break;
     }
     const auto reads_early = [](const Read& read) { return read.role == Role::shifted; };
-    return std::any_of(reader.reads.begin(), reader.reads.begin() + reader.read_count, reads_early)
-               ? Consumer::operand_beside_shifted
-               : Consumer::operand;
+    return std::ranges::any_of(reader.all_reads(), reads_early) ? Consumer::operand_beside_shifted : Consumer::operand;
 }
 
 }  // namespace timing

@@ -213,9 +213,9 @@ Producer Pipeline::producer_of(const Prepared& instruction) const {
     switch (d.kind) {
         case Kind::add:
         case Kind::shift: {
-            for (std::size_t i = 0; i < d.read_count; ++i) {
-                const State::Value& value = state.values[d.reads[i].reg];
-                if (d.reads[i].role == Role::condition ||
+            for (const auto& [reg, role] : d.all_reads()) {
+                const State::Value& value = state.values[reg];
+                if (role == Role::condition ||
                     (value.producer != Producer::nothing &&
                      state.position / 2 < value.cycle + latencies_.between(value.producer, Consumer::shifted))) {
                     return Producer::late;
@@ -376,9 +376,9 @@ void Pipeline::note_fpu(const Decoded& d) {
         if (!d.fused) {
             state.last_mla = cycle;
         }
-        for (std::size_t i = 0; i < d.read_count; ++i) {
-            if (d.reads[i].role == Role::multiplicand) {
-                state.multiplicand_of_mac[d.reads[i].reg - registers::s0] = cycle;
+        for (const auto& [reg, role] : d.all_reads()) {
+            if (role == Role::multiplicand) {
+                state.multiplicand_of_mac[reg - registers::s0] = cycle;
             }
         }
     }

@@ -194,6 +194,27 @@ TEST(HorizonCase, ThePicturesMarginsDoNotGrowWithIt) {
     EXPECT_GT(many.height - many.bottom - many.top - 2.0 * many.down, 0.5 * many.height);
 }
 
+// The key stands in the margin on the right, as high as the highest panel.
+TEST(HorizonCase, ThePicturesKeyStandsBesideTheUppermostPanel) {
+    const HorizonCase one{0.5, 1e-3, 600, {}, {}, {}};
+    const std::string script = bench::picture_of({0.5, 0.9}, {one}).script;
+    double left = 0.0;
+    double right = 0.0;
+    double bottom = 0.0;
+    double top = 0.0;
+    double x = 0.0;
+    double y = 0.0;
+    ASSERT_EQ(std::sscanf(script.substr(script.find("margins")).c_str(), "margins %lf,%lf,%lf,%lf", &left, &right,
+                          &bottom, &top),
+              4);
+    ASSERT_EQ(std::sscanf(script.substr(script.find("set key")).c_str(), "set key at screen %lf, screen %lf left top",
+                          &x, &y),
+              2);
+    EXPECT_GT(x, right);
+    EXPECT_LT(x, 1.0);
+    EXPECT_EQ(y, top);
+}
+
 // a_0 ... of an order: what the sums are made of.
 std::vector<double> weights_of(double order, std::size_t count) {
     std::vector<double> weights{1.0};

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 #include "bench/choose/derivative_errors.hpp"
 #include "bench/choose/derivative_text.hpp"
@@ -131,6 +133,30 @@ TEST(DerivativeReport, WhatRunningGivesIsWithinTheCertificate) {
                 EXPECT_EQ(at.error, report.certified.largest()) << kernel << ", " << order;
             }
         }
+    }
+}
+
+// Sines of nine frequencies from end to end, each as many times the one before; their responses are the filter's to a
+// millionth, though a window of theirs is no whole number of periods.
+TEST(DerivativeReport, RunsSinesOfNineFrequencies) {
+    for (const auto& [low_hz, high_hz] : {std::pair(0.5, 80.0), std::pair(7.3, 191.0), std::pair(40.0, 40.0)}) {
+        const DerivativeGoal goal{0.5, 0.001, Band{low_hz, high_hz}, {}};
+        const FittedFilter fitted = fit_filter({0.5, 0.001, Band{0.5, 80.0}, {}}, 2, 4, FilterKind::samples);
+        const auto ran = choose::run("modes_plain_f64", 10, goal, fitted);
+        double largest = -1.0;
+        double largest_hz = 0.0;
+        for (int i = 0; i < 9; ++i) {
+            const double hz = low_hz * std::pow(high_hz / low_hz, i / 8.0);
+            const auto exact = glsum::design::exact_response(0.5, hz);
+            const auto own = glsum::design::frequency_response(fitted.filter(), 2.0 * std::numbers::pi * hz * 0.001);
+            const double error = std::abs(own - exact) / std::abs(exact);
+            if (error > largest) {
+                largest = error;
+                largest_hz = hz;
+            }
+        }
+        EXPECT_NEAR(ran.band, largest, 1e-6) << low_hz;
+        EXPECT_DOUBLE_EQ(ran.band_hz, largest_hz) << low_hz;
     }
 }
 

@@ -66,6 +66,12 @@ TEST(LinearBase, LeavesNothingOfItsOwnRecord) {
     }
 }
 
+// A swing of 150 radians a step, too: six terms of Taylor's, of a 4096th of the step, leave 1e-10 of it.
+TEST(LinearBase, IsAsExactHoweverFewTheSamples) {
+    const LinearBase base = made(step_s / 150.0, 0.02, 0.0);
+    EXPECT_LT(stand::blind::misfit(base, std::vector{record_of(base)}, step_s), 1e-10);
+}
+
 // As the root of the mean square, over all records' samples alike.
 TEST(LinearBase, MissesByTheRootOfTheMeanSquare) {
     const LinearBase base = made(0.7, 0.9, 0.1);

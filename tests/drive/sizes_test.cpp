@@ -213,6 +213,23 @@ TEST(EffectSizes, OfAMachineAreInItsOwnUnits) {
                    of_a_machine);
 }
 
+// Of a machine that was drawn: of its own input, time constant and record. A record's mean input is half of the full
+// one.
+TEST(EffectSizes, AreInTheUnitsOfTheMachineThatWasDrawn) {
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        Chance chance(seed, 5);
+        const auto rig = blind::mechanical_family().draw({}, chance);
+        const auto one = [&](const char* effect) {
+            return rig->draw(effect, EffectSize::clear, false, chance).begin()->second;
+        };
+        const double until_s = rig->clock.until_s;
+        EXPECT_NEAR(one("supply_sag") * 0.5 * rig->full_input * until_s, 0.12, 0.15 * 0.12) << seed;
+        EXPECT_NEAR(std::fabs(one("gain_drift")) * until_s, 0.12, 0.15 * 0.12) << seed;
+        EXPECT_NEAR(one("rate_limit") * rig->tau_s / rig->full_input, 1.0 / 1.5, 0.18 / 1.5) << seed;
+        EXPECT_NEAR(one("actuator_lag") / rig->tau_s, 0.3, 0.15 * 0.3) << seed;
+    }
+}
+
 TEST(EffectSizes, AtOneLevelBendWhereTheLevelIsNot) {
     const auto at_one_level = [](const std::string& effect, EffectSize size, Chance& chance) {
         return blind::draw_parameters(effect, size, scale, true, chance);

@@ -81,6 +81,10 @@ TEST(StabilityLimits, RootsAndPolesAreThoseOfTheirPolynomial) {
     EXPECT_EQ(half(0.7).unstable_by_roots, 2);
     EXPECT_EQ(half(0.7).unstable_by_argument, 2);
     EXPECT_EQ(half(0.8).unstable_by_roots, 0);
+    // A root of size 3 is a pole of size 9.
+    const auto larger = drive::judge_stability(with({{1, 1.0}, {-6.0 * std::cos(1.0), 0.5}, {9, 0}}), 0.5);
+    ASSERT_EQ(larger.poles.size(), 2U);
+    EXPECT_LT(std::abs(larger.poles[1] - std::polar(9.0, 2.0)), 1e-8);
     // The smallest angle first; a root at 0 is on the border, whatever the others are.
     const auto three = drive::judge_stability(with({{1, 3}, {2, 2}, {2, 1}}), 1.0);
     ASSERT_EQ(three.roots.size(), 3U);
@@ -98,6 +102,28 @@ TEST(StabilityLimits, RootsAndPolesAreThoseOfTheirPolynomial) {
     EXPECT_NEAR(slow / 1e-6, 1.0, 1e-9);
     EXPECT_NEAR(apart.poles[0].real() + apart.poles[1].real(), -1e6, 1e-3);
     EXPECT_EQ(apart.unstable_by_argument, 0);
+}
+
+// (s + 1) (s + 2) ... (s + n), whose roots move a million times as far as its coefficients: the polished ones leave a
+// rounding of their polynomial.
+TEST(StabilityLimits, RootsLeaveARoundingOfTheirPolynomial) {
+    for (const int degree : {6, 9, 12}) {
+        std::vector<double> product{1.0};
+        for (int root = 1; root <= degree; ++root) {
+            product.push_back(0.0);
+            for (std::size_t i = product.size(); i-- > 0;) {
+                product[i] = root * product[i] + (i > 0 ? product[i - 1] : 0.0);
+            }
+        }
+        std::vector<drive::Term> terms;
+        for (std::size_t i = 0; i < product.size(); ++i) {
+            terms.push_back({product[i], static_cast<double>(i)});
+        }
+        const auto judged = drive::judge_stability(with(terms), 1.0);
+        EXPECT_LT(judged.largest_residual, 1e-15) << degree;
+        ASSERT_EQ(judged.poles.size(), static_cast<std::size_t>(degree));
+        EXPECT_EQ(judged.verdict, Stability::stable);
+    }
 }
 
 TEST(StabilityLimits, ZerosRightOfTheAxisOfWhatIsNoPolynomial) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/failure.hpp"
 #include "drive/tune/load_error.hpp"
@@ -101,6 +102,36 @@ TEST(LoadError, IsTheAreaOfAResponseThatRests) {
     // same.
     EXPECT_NEAR(load.response({.kp = k, .kd = 0.2, .filter_s = 0.1})(199), 0.5, 2e-3);
     EXPECT_LT(load.response({.kp = k, .kd = 0.2, .filter_s = 0.1})(10), response(10) - 0.02);
+}
+
+// Lanczos' factors of 512 frequencies average the damped response over a 512th of the horizon on either side: of a
+// swing that takes a 128th of it, half of which that is, 2 / pi is left.
+TEST(LoadError, AveragesOverA512thOfTheHorizonOnEitherSide) {
+    constexpr double until_s = 4.0;
+    constexpr double w = 128.0 * 2.0 * std::numbers::pi / until_s;
+    constexpr double damping = 1e-3;
+    drive::Model swing;
+    swing.denominator = {{1.0 / (w * w), 2.0}, {2.0 * damping / w, 1.0}, {1.0, 0.0}};
+    const tune::LoadError load(SampledPlant(swing, 1e-3, "plant"), until_s);
+    const auto response = load.response({.kp = 0.0});
+    const double rate = std::log(1e4) / (2.0 * until_s);  // of the damping, 1e-4 over two horizons
+    const double w_damped = w * std::sqrt(1.0 - damping * damping);
+    const auto damped = [&](double t) {
+        const double sine = damping / std::sqrt(1.0 - damping * damping) * std::sin(w_damped * t);
+        return std::exp(-rate * t) * (1.0 - std::exp(-damping * w * t) * (std::cos(w_damped * t) + sine));
+    };
+    double largest = 0.0;
+    for (Eigen::Index i = 4; i < 190; ++i) {  // but for the ends of the period, which are cut off
+        const double t = load.times()(i);
+        double mean = 0.0;
+        constexpr int parts = 200;
+        for (int part = 0; part < parts; ++part) {
+            mean += damped(t + until_s / 512.0 * ((2.0 * part + 1.0) / parts - 1.0)) / parts;
+        }
+        EXPECT_NEAR(response(i), std::exp(rate * t) * mean, 5e-4) << i;
+        largest = std::max(largest, std::fabs(response(i) - 1.0));
+    }
+    EXPECT_NEAR(largest, 2.0 / std::numbers::pi, 0.03);
 }
 
 tune::Request with_margin(double degrees, double crossover) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -112,6 +113,28 @@ TEST(Disturbance, HasNoWaveAndNoBurst) {
     const gap::Disturbance uneven{1.0, 0.0, 50.0, false};
     EXPECT_FALSE(gap::are_one_disturbance(plain, uneven));
     EXPECT_FALSE(gap::are_one_disturbance(uneven, plain));
+}
+
+// A plant with a damping ratio of 0.17 swings on noise, and its sensor has noise of its own: of what is left at one
+// time half a swing later turns over by half, e^(-0.17 pi) of what is not the sensor's.
+TEST(Disturbance, MayBeWhatSwingsOnNoiseBehindANoisySensor) {
+    const gap::Record record = record_of();
+    constexpr double turn = 2.0 * std::numbers::pi / 10.0;  // radians an interval
+    const double radius = std::exp(-0.17 * turn);
+    for (unsigned seed = 21; seed <= 25; ++seed) {
+        std::mt19937_64 engine(seed);
+        std::normal_distribution<double> normal;
+        gap::Remainder left{&record, {}, {}, std::vector<char>(samples, 1)};
+        left.residuals.resize(samples);
+        double now = 0.0;
+        double before = 0.0;
+        for (double& value : left.residuals) {
+            const double next = 2.0 * radius * std::cos(turn) * now - radius * radius * before + normal(engine);
+            before = std::exchange(now, next);
+            value = now + normal(engine);
+        }
+        EXPECT_TRUE(gap::disturbance_of({left}, 1e-6).even) << seed;
+    }
 }
 
 TEST(Disturbance, IsNothingWhereNothingCounts) {

@@ -192,6 +192,22 @@ TEST(FixedController, StaysWithinItsBound) {
     }
 }
 
+// A proportional gain that 28 bits hold exactly errs by roundings alone: of the weighted error, by half a unit of it
+// and of its weight's 30 bits times half of full scale; of each product in the unit it is added up in; and of u.
+TEST(FixedController, AGainThatIsHeldExactlyErrsByItsRoundings) {
+    for (const double scale : {0.5, 2.0}) {
+        ControllerSpec spec = spec_of(scale);
+        spec.controller.gains = {.kp = 0.25};
+        const FixedController stepped(spec);
+        const generate::FixedPid& fixed = stepped.numbers();
+        const double product = 0.5 * fixed.output_unit() / std::pow(2.0, fixed.extra);
+        const double weighted = 0.5 * fixed.error_unit() + 0.5 * scale * 0x1p-30;
+        EXPECT_DOUBLE_EQ(stepped.error().per_sample, product);
+        EXPECT_DOUBLE_EQ(stepped.error().direct, 0.25 * weighted + product + 0.5 * fixed.output_unit());
+        EXPECT_DOUBLE_EQ(stepped.error().after(100), stepped.error().direct + 100.0 * product);
+    }
+}
+
 TEST(FixedController, ChangesWithoutABumpToTheBit) {
     FixedController stepped(spec_of());
     const generate::FixedPid& fixed = stepped.numbers();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/failure.hpp"
+#include "bench/generate/header.hpp"
 #include "bench/steppers/controller/certificate.hpp"
 #include "bench/steppers/controller/controller_header.hpp"
 #include "bench/steppers/controller/report.hpp"
@@ -225,6 +226,9 @@ TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
         other.replace(at, what.size(), with);
         return generate::check_bits_here(generate::written(spec, "own", other));
     };
+    EXPECT_NE(text.find("Runs 592 samples and compares the bits"), std::string::npos);
+    EXPECT_NE(text.find("k < 592U"), std::string::npos);
+    EXPECT_EQ(16 * generate::check_signal().size(), 592U);
     EXPECT_TRUE(checked("kp = 0.3F", "kp = 0.3F").good());
     EXPECT_EQ(checked("kp = 0.3F", "kp = 0.30000004F").first_wrong, 1U);
     // What only a limit shows, behind the first quarter of a thousand samples.

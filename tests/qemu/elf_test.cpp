@@ -127,6 +127,22 @@ TEST(Elf, FindsHalfwordsInItsCode) {
     EXPECT_TRUE(elf.halfwords_in_code(0x1234).empty());
 }
 
+// Four bytes of one section, wherever it lies.
+TEST(Elf, HasTheWordsThatLieWhollyInASection) {
+    const base::Scratch folder;
+    test::MadeElf made;
+    made.sections = {{0x100, test::bytes_of({1, 2})}, {0x2000, {1, 2, 3, 4, 5, 6}}};
+    made.symbols = {{"f", 0x101, 8, true}};
+    made.write(folder.file("a.elf"));
+    const qemu::Elf elf(folder.file("a.elf"));
+    for (const std::uint32_t here : {0x100U, 0x104U, 0x2000U, 0x2002U}) {
+        EXPECT_TRUE(elf.has_word(here)) << here;
+    }
+    for (const std::uint32_t beside : {0U, 0xFCU, 0xFFU, 0x105U, 0x108U, 0x1FFFU, 0x2003U, 0x2100U}) {
+        EXPECT_FALSE(elf.has_word(beside)) << beside;
+    }
+}
+
 TEST(SoftwareDouble, IsToldByTheNamesOfItsRoutines) {
     for (const char* name :
          {"__aeabi_dadd", "__aeabi_drsub", "__aeabi_dcmpun", "__aeabi_cdrcmple", "__aeabi_d2ulz", "__aeabi_ul2d",

@@ -9,8 +9,9 @@
 
 namespace generate {
 
-/// \param prefix  begins every identifier \param lines  of the opening comment: where it comes from, what was measured
-/// \throws glsum::Failure (bad input) for a prefix that is no identifier, (check failed) as `integral_sum`
+/// Its self-check runs 592 samples: `check_signal` 16 times, as the set point and, five samples on, as what is
+/// measured. \param prefix  begins every identifier \param lines  of the opening comment: where it comes from, what was
+/// measured \throws glsum::Failure (bad input) for a prefix that is no identifier, (check failed) as `integral_sum`
 [[nodiscard]] std::string make_controller_header(const ControllerSpec& spec, const std::string& prefix,
                                                  const std::string& licence, const std::vector<std::string>& lines);
 

@@ -14,8 +14,7 @@ bool is_no_operation(const Decoded& d) { return d.kind == Kind::hint && std::str
 bool is_single_load(const Decoded& d) { return d.kind == Kind::load && d.branch == Branch::none; }
 bool is_single_store(const Decoded& d) { return d.kind == Kind::store; }
 bool adds_index(const Decoded& d) {
-    return std::any_of(d.reads.begin(), d.reads.begin() + d.read_count,
-                       [](const Read& read) { return read.role == Role::index; });
+    return std::ranges::any_of(d.all_reads(), [](const Read& read) { return read.role == Role::index; });
 }
 // VABS and VNEG turn one bit over: their results are no later than a move's.
 bool computes(const Decoded& d) {
@@ -132,8 +131,7 @@ void Pipeline::wait_for_bytes(const Decoded& d, const Event& event) {
 }
 
 void Pipeline::wait_for_operands(const Decoded& d) {
-    for (std::size_t i = 0; i < d.read_count; ++i) {
-        const auto [reg, role] = d.reads[i];
+    for (const auto& [reg, role] : d.all_reads()) {
         if (reg < registers::pc && (role == Role::address || role == Role::index) && d.registers > 0) {
             const State::Value& value = state.values[reg];
             hold_cycle(value.loaded ? Effect::load_use : Effect::result_latency, value.address_from);

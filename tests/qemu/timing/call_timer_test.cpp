@@ -210,6 +210,34 @@ TEST(CallTimer, AnUnknownEncodingIsCountedWithItsAddress) {
     EXPECT_EQ(p.finish().unknown(), (std::map<std::uint32_t, std::uint64_t>{{0x100, 2}}));
 }
 
+// What faulted behind an IT comes back to it: its member is conditional and sets no flags, whatever was known before.
+TEST(CallTimer, AMemberIsOneThoughItsBlockWasCutWhenItWasNew) {
+    const auto last_call = [](bool first_is_cut, std::uint32_t between) {
+        Program p("stm32f746-itcm");
+        for (int calls = 0; calls < 9; ++calls) {
+            p.call(0x10);
+            p.run(0x100, 0x4289, 2);  // cmp r1, r1
+            for (std::uint32_t nth = 0; nth < between; ++nth) {
+                p.run(0x102 + 2 * nth, 0x4680, 2);  // mov r8, r0
+            }
+            p.run(0x110, 0xBF18, 2);  // it ne
+            if (first_is_cut && calls == 0) {
+                p.give_back(0x180);
+            } else {
+                p.add(0x112);             // addne r0, 1: outside of a block it would set the flags
+                p.run(0x114, 0x4151, 2);  // adcs r1, r2: waits for none
+                p.give_back(0x116);
+            }
+            p.add(0x14);
+        }
+        p.finish();
+        return p.calls.at(8).cores.at(0);
+    };
+    for (const std::uint32_t between : {4U, 5U}) {  // in either slot
+        EXPECT_EQ(last_call(true, between), last_call(false, between)) << between;
+    }
+}
+
 TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
     Program p("stm32f746-flash");
     for (int i = 0; i < 3; ++i) {

@@ -158,6 +158,24 @@ TEST(Predictor, AReturnGoesToItsCallAsFarAsTheStackHolds) {
     EXPECT_EQ(predictor.meet(back, 0x130, 0x602), timing::Prediction::right);
 }
 
+// However many it holds.
+TEST(Predictor, ReturnsComeBackFromAsManyCallsAsTheStackHolds) {
+    for (const std::uint32_t held : {1U, 3U, 6U, 8U}) {
+        timing::Predictor predictor(64, held);
+        auto bl = branch(timing::Branch::call);
+        bl.bytes = 4;
+        const auto back = branch(timing::Branch::back);
+        for (int turn = 0; turn < 2; ++turn) {
+            for (std::uint32_t depth = 1; depth <= held; ++depth) {
+                (void)predictor.meet(bl, 0x200 * depth, 0x100);
+            }
+            for (std::uint32_t depth = held; depth >= 1; --depth) {
+                EXPECT_EQ(predictor.meet(back, 0x110, 0x200 * depth + 4), timing::Prediction::right) << held << depth;
+            }
+        }
+    }
+}
+
 TEST(StoreBuffer, IsFullWhenItsBankFallsBehind) {
     timing::Figures figures = probe::core("stm32f746-itcm").figures;
     figures.store_entries = 4;

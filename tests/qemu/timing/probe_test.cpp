@@ -129,6 +129,7 @@ constexpr Probe probes[] = {
      6},  // 2; 3, as its place is odd; 1
     {"8.7", "vldm r0,{s0-s7}", 4},
     {"8.8", "ldm r0,{r1,r2,r3,r4}; eor.w r5,r4,r6", 3},  // the last register is there when it has issued
+    {"8.9", "stm r0!,{r1,r2,r3}", 2},                    // an odd number, wherever its place is
     // 9: stores
     {"9.1", "str.w r0,[r1]; str.w r2,[r3,#4]", 2},
     {"9.2", "ldr.w r0,[r1]; str.w r2,[r3]", 1},
