@@ -154,7 +154,7 @@ bool has_place(const std::string& rules) { return touched_by.contains(rules); }
 std::vector<std::string> other_rules_of(const std::string& core, const std::filesystem::path& cores) {
     const Question question = question_about({}, {core}, cores);
     std::vector<std::string> rules = question.fitting.at(core);
-    rules.erase(rules.begin());
+    // The nominal rules are everywhere.
     std::erase_if(rules, [](const std::string& set) { return !has_place(set); });
     if (rules.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input,
