@@ -291,6 +291,8 @@ TEST(LostSigns, BeginWhereReadingsTurn) {
                 ElementsAre(0, 2, 4, 4, 4, 3, -1, -1.21, -0.5, -4, -3, -2, -1, 0.15, 2));
     // One that begins downwards was there before.
     record.input.assign(15, -1.0);
+    record.output[0] = 1.0;
+    EXPECT_EQ(gap::with_signs({record})[0].output[0], -1.0);
     EXPECT_EQ(gap::with_signs({record})[0].output[2], -4.0);
 }
 

@@ -222,4 +222,15 @@ TEST(Flexible, ForeseesEachFourthOf24BlocksByTheOthers) {
     }
 }
 
+// Sizes are those of the whole record, its first sample's, too: an impulse there is an input.
+TEST(Flexible, SizesCountTheFirstSample) {
+    Made made;
+    made.record.input.assign(samples, 0.0);
+    made.record.input[0] = 1.0;
+    const gap::Remainder left = made.leaving([&](std::size_t i) { return made.y[i]; }, 0.01);
+    EXPECT_GT(gap::explain({left}, {}, delay_s, time_constant_s).explained, 0.9);
+    made.record.input[0] = 0.0;  // no input at all: nothing is asked
+    EXPECT_EQ(gap::explain({left}, {}, delay_s, time_constant_s).explained, 0.0);
+}
+
 }  // namespace
