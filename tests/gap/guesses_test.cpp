@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numbers>
+#include <vector>
 
 #include "gap/drive/base/even.hpp"
 #include "gap/drive/moments.hpp"

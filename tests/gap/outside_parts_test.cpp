@@ -2,6 +2,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "gap/drive/outside.hpp"
 #include "gap/drive/start.hpp"
 
