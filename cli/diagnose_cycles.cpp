@@ -121,10 +121,12 @@ Judged of_our_kernels(const Options& options, const std::string& text) {
 }
 
 Judged of_programs(const Options& options, const std::string& text) {
-    const gap::cycles::Programs programs(
-        calls_program(options.timeout),
-        qemu::parse_measured_calls(text, options.measured.string(), options.measured.parent_path()), options.core,
-        options.measured.string(), options.jobs);
+    const std::string name = options.measured.string();
+    const qemu::CallsProgram program = calls_program(options.timeout);
+    const auto calls = qemu::parse_measured_calls(text, name, options.measured.parent_path());
+    const gap::cycles::Programs programs(calls, options.core, program.cores_folder, [&](const auto& variants) {
+        return qemu::predict_calls(program, calls, name, variants, options.jobs);
+    });
     Judged judged{programs.question(), {}};
     judged.found = gap::cycles::diagnose(judged.question, [&](const auto& asked, const auto& variants) {
         // Loops of ours that part rival rules are asked about, too.

@@ -153,8 +153,10 @@ bool has_place(const std::string& rules) { return touched_by.contains(rules); }
 
 std::vector<std::string> other_rules_of(const std::string& core, const std::filesystem::path& cores) {
     const Question question = question_about({}, {core}, cores);
-    std::vector<std::string> rules = question.fitting.at(core);
-    rules.erase(rules.begin());
+    // A core that does not pay for all effects is judged by others, and has no rules of its own there.
+    const auto own = question.fitting.find(core);
+    std::vector<std::string> rules = own == question.fitting.end() ? std::vector<std::string>{} : own->second;
+    // The nominal rules are everywhere.
     std::erase_if(rules, [](const std::string& set) { return !has_place(set); });
     if (rules.empty()) {
         throw glsum::Failure(glsum::Exit::bad_input,

@@ -30,13 +30,12 @@ std::string data_of(const qemu::MeasuredCall& call, const timing::CoreFile& core
 
 }  // namespace
 
-Programs::Programs(qemu::CallsProgram program, std::vector<qemu::MeasuredCall> calls, const std::string& core,
-                   std::string name, unsigned jobs)
-    : program_(std::move(program)),
-      calls_(std::move(calls)),
+Programs::Programs(std::vector<qemu::MeasuredCall> calls, const std::string& core, std::filesystem::path cores_folder,
+                   PredictCalls predict)
+    : calls_(std::move(calls)),
       of_the_rows_(core.empty()),
-      name_(std::move(name)),
-      jobs_(jobs) {
+      cores_folder_(std::move(cores_folder)),
+      predict_(std::move(predict)) {
     std::set<std::string> cores;
     for (const qemu::MeasuredCall& call : calls_) {
         cores.insert(of_the_rows_ ? call.core : core);
@@ -45,20 +44,18 @@ Programs::Programs(qemu::CallsProgram program, std::vector<qemu::MeasuredCall> c
 }
 
 Question Programs::question() const {
-    const auto predicted =
-        qemu::predict_calls(program_, calls_, name_, {{of_the_rows_ ? "" : cores_.front()}}, jobs_).front();
+    const auto predicted = predict_({{of_the_rows_ ? "" : cores_.front()}}).front();
+    auto prediction = predicted.begin();
     std::vector<qemu::MeasuredCycles> rows;
-    for (std::size_t i = 0; i < calls_.size(); ++i) {
-        const qemu::MeasuredCall& call = calls_[i];
-        const timing::CoreFile core =
-            timing::read_named_core(program_.cores_folder, of_the_rows_ ? call.core : cores_.front());
+    for (const qemu::MeasuredCall& call : calls_) {
+        const timing::CoreFile core = timing::read_named_core(cores_folder_, of_the_rows_ ? call.core : cores_.front());
         rows.push_back({call.function, code_of(call, core), data_of(call, core), false,
-                        static_cast<std::uint32_t>(std::lround(predicted[i].instructions * call.per)),
+                        static_cast<std::uint32_t>(std::lround(prediction++->instructions * call.per)),
                         call.cycles * call.per, call.line});
         rows.back().program = call.elf.string();
         rows.back().per = call.per;
     }
-    return question_about(std::move(rows), cores_, program_.cores_folder);
+    return question_about(std::move(rows), cores_, cores_folder_);
 }
 
 std::vector<std::vector<qemu::PredictedCycles>> Programs::predict(
@@ -71,21 +68,20 @@ std::vector<std::vector<qemu::PredictedCycles>> Programs::predict(
             variant.core.clear();
         }
     }
-    const auto predicted = qemu::predict_calls(program_, calls_, name_, asked, jobs_);
-    std::vector<std::vector<qemu::PredictedCycles>> found(variants.size());
-    for (std::size_t v = 0; v < variants.size(); ++v) {
-        for (std::size_t i = 0; i < calls_.size(); ++i) {
-            const qemu::PredictedCall& call = predicted[v][i];
-            const double per = calls_[i].per;
-            found[v].push_back({call.cycles * per,
-                                call.low * per,
-                                call.high * per,
-                                0.0,
-                                static_cast<std::uint64_t>(std::llround(call.instructions * per)),
-                                {}});
-            for (std::size_t e = 0; e < timing::effect_count; ++e) {
-                found[v].back().half_cycles[e] = std::llround(2.0 * call.lost[e] * per);
-            }
+    std::vector<std::vector<qemu::PredictedCycles>> found;
+    for (const std::vector<qemu::PredictedCall>& predicted : predict_(asked)) {
+        found.emplace_back();
+        auto row = calls_.begin();
+        for (const qemu::PredictedCall& call : predicted) {
+            const double per = row++->per;
+            found.back().push_back({call.cycles * per,
+                                    call.low * per,
+                                    call.high * per,
+                                    0.0,
+                                    static_cast<std::uint64_t>(std::llround(call.instructions * per)),
+                                    {}});
+            std::ranges::transform(call.lost, found.back().back().half_cycles.begin(),
+                                   [&](double lost) { return std::llround(2.0 * lost * per); });
         }
     }
     return found;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -10,30 +11,33 @@
 
 namespace gap::cycles {
 
+/// Predictions of all calls, for each variant of a core, as `qemu::predict_calls` has them.
+using PredictCalls =
+    std::function<std::vector<std::vector<qemu::PredictedCall>>(const std::vector<qemu::CoreVariant>& variants)>;
+
 /// Rows of any programs' functions, and what predicts them.
 class Programs {
 public:
-    /// \param calls  at least one
-    /// \param core   the core file that is judged; empty: those that the rows name
-    /// \param name   of the file of the rows, with which messages begin
-    /// \param jobs   emulators at once
-    Programs(qemu::CallsProgram program, std::vector<qemu::MeasuredCall> calls, const std::string& core,
-             std::string name, unsigned jobs);
+    /// \param calls    at least one
+    /// \param core     the core file that is judged; empty: those that the rows name
+    /// \param cores    the folder of core files
+    /// \param predict  of these calls
+    Programs(std::vector<qemu::MeasuredCall> calls, const std::string& core, std::filesystem::path cores,
+             PredictCalls predict);
 
     /// The cycles of whole calls; the length of a row is what the call executes.
-    /// \throws glsum::Failure as `qemu::predict_calls`, and (bad input) where the rows' cores pay for different effects
+    /// \throws glsum::Failure as `predict`, and (bad input) where the rows' cores pay for different effects
     [[nodiscard]] Question question() const;
-    /// Of the question's rows; as `qemu::predict_calls`.
+    /// Of the question's rows; throws as `predict`.
     [[nodiscard]] std::vector<std::vector<qemu::PredictedCycles>> predict(
         const std::vector<qemu::CoreVariant>& variants) const;
 
 private:
-    qemu::CallsProgram program_;
     std::vector<qemu::MeasuredCall> calls_;
     bool of_the_rows_;                ///< each row is judged by the core that it names
     std::vector<std::string> cores_;  ///< that are judged
-    std::string name_;
-    unsigned jobs_;
+    std::filesystem::path cores_folder_;
+    PredictCalls predict_;
 };
 
 }  // namespace gap::cycles

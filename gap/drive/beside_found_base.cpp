@@ -94,6 +94,8 @@ void ask_jointly(Answer& answer, const Question& question) {
 
 }  // namespace
 
+bool is_settled(const Decision& decision) { return decision.outcome == Outcome::no_gap && !decision.disturbed; }
+
 Answer answer_beside_found_base(Question question, const std::function<void(const std::string&)>& say) {
     std::vector<Described> found = find_base(question, say);
     question.refit = true;
@@ -120,15 +122,14 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
         question.form = base->form;
         question.from_no_input = base->from_no_input;
         Answer answer = answer_to(question, say);
-        // Of a disturbance another base may still know what it is.
-        const bool closed = answer.decision.outcome == Outcome::no_gap && !answer.decision.disturbed;
+        const bool settled = is_settled(answer.decision);
         const double price = price_of(answer, base->numbers, floor);
         if (const Described* richer = answer.lag_wanted ? with_one_lag_more(found, *base) : nullptr;
             richer != nullptr && std::find(asked.begin(), asked.end(), richer) == asked.end()) {
             asked.push_back(richer);
         }
         tried.push_back({base->name, std::move(answer), price});
-        if (closed && tried.size() == 1) {
+        if (settled && tried.size() == 1) {
             break;
         }
     }

@@ -12,4 +12,7 @@ namespace gap {
 /// \param question  without a form \throws glsum::Failure (bad input): nothing explains anything
 [[nodiscard]] Answer answer_beside_found_base(Question question, const std::function<void(const std::string&)>& say);
 
+/// Whether no further base is asked: nothing is missing. Of a disturbance another base may still know what it is.
+[[nodiscard]] bool is_settled(const Decision& decision);
+
 }  // namespace gap

@@ -30,6 +30,8 @@ public:
     [[nodiscard]] std::size_t horizon() const { return horizon_; }
     /// Of each sample: r, in (0, 1).
     [[nodiscard]] const Eigen::ArrayXd& ratios() const { return ratios_; }
+    /// The places in the past, in samples, at which tables are fitted: 5 % apart, so that a longer past costs little.
+    [[nodiscard]] const std::vector<std::size_t>& fitted_at() const { return indices_; }
     /// D^v without its factor h^-v. \param order  v in (0, 3]
     [[nodiscard]] Table table(double order) const;
 

@@ -291,7 +291,48 @@ TEST(LostSigns, BeginWhereReadingsTurn) {
                 ElementsAre(0, 2, 4, 4, 4, 3, -1, -1.21, -0.5, -4, -3, -2, -1, 0.15, 2));
     // One that begins downwards was there before.
     record.input.assign(15, -1.0);
+    record.output[0] = 1.0;
+    EXPECT_EQ(gap::with_signs({record})[0].output[0], -1.0);
     EXPECT_EQ(gap::with_signs({record})[0].output[2], -4.0);
+}
+
+// What swings passes 0 without a change of the input: no sign of that tells where, a base that was fitted does, of what
+// judges too.
+TEST(LostSigns, AreThoseOfABaseWherePlantsSwing) {
+    // (1 + 0.3 s)(1 + 0.4 s + 0.7 s^2)
+    const drive::Model model = of({{0.21, 3.0}, {0.82, 2.0}, {0.7, 1.0}, {1.0, 0.0}});
+    const auto swinging = [&](double sign) {
+        gap::Record record = record_of(240, [sign](double t) { return sign * levels(t); });
+        record.output = response(record, model);
+        return record;
+    };
+    const gap::Record train = swinging(1.0);
+    const gap::Record judge = swinging(-1.0);
+    gap::Question question{{drive::Kind::fopdt, drive::make_fopdt(1.0, 2.0, 0.5)},
+                           false,
+                           {train},
+                           {judge},
+                           {},
+                           gap::Metric::simulation,
+                           {},
+                           1};
+    for (gap::Record* record : {&question.train[0], &question.validate[0]}) {
+        std::ranges::transform(record->output, record->output.begin(), [](double y) { return std::fabs(y); });
+    }
+    const auto wrong = [](const gap::Record& found, const gap::Record& truth) {
+        int count = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            EXPECT_EQ(std::fabs(found.output[i]), std::fabs(truth.output[i]));
+            count += found.output[i] * truth.output[i] < 0.0 && std::fabs(truth.output[i]) > 0.01 ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_GT(wrong(gap::with_signs(question.train)[0], train), 10);
+    EXPECT_GT(wrong(gap::with_signs(question.validate)[0], judge), 10);
+    const gap::Question found = gap::with_signs_of_a_base(question);
+    EXPECT_TRUE(found.refit);
+    EXPECT_EQ(wrong(found.train[0], train), 0);
+    EXPECT_EQ(wrong(found.validate[0], judge), 0);
 }
 
 }  // namespace

@@ -166,6 +166,18 @@ TEST(CyclesBlind, OtherRulesMakeTheCyclesOfEachCase) {
     EXPECT_EQ(sets[""], mechanisms["serial_fpu"]);
 }
 
+// The rival sets that fit silicon and every mechanism; a core of others' rules, or of none, has none to draw.
+TEST(CyclesBlind, OtherRulesAreTheRivalSetsAndEveryMechanism) {
+    std::vector<std::string> wanted{"barred", "chain", "unfolded"};
+    for (const std::string& mechanism : timing::mechanism_names()) {
+        wanted.push_back(mechanism);
+    }
+    EXPECT_EQ(gap::cycles::other_rules_of("stm32f746-itcm", TEST_CORES), wanted);
+    for (const char* core : {"m7-ideal", "cortex-m4-zerowait"}) {
+        EXPECT_THROW((void)gap::cycles::other_rules_of(core, TEST_CORES), glsum::Failure) << core;
+    }
+}
+
 TEST(CyclesBlind, EveryMechanismHasAPlaceAndACoreFile) {
     for (const std::string& mechanism : timing::mechanism_names()) {
         EXPECT_TRUE(gap::cycles::has_place(mechanism)) << mechanism;

@@ -75,6 +75,21 @@ TEST(Derivative, DecaysAreFiveADecade) {
     check(2501, 21);
 }
 
+// Every sample behind the near ones, then every twentieth of the way: some hundred and eighty of a hundred thousand.
+TEST(Derivative, IsFittedAtFewPlaces) {
+    const gap::Exponentials exponentials(100000);
+    const std::vector<std::size_t>& places = exponentials.fitted_at();
+    EXPECT_EQ(places.front(), near_count);
+    EXPECT_LE(places.back(), 100000U);
+    EXPECT_GT(places.back(), 95000U);
+    for (std::size_t i = 1; i < places.size(); ++i) {
+        const double apart = static_cast<double>(places[i] - places[i - 1]);
+        EXPECT_NEAR(apart, std::max(1.0, 0.05 * static_cast<double>(places[i - 1])), 1.0) << places[i];
+        EXPECT_GE(apart, 1.0);
+    }
+    EXPECT_NEAR(static_cast<double>(places.size()), 6.0 + std::log(100000.0 / 20.0) / std::log(1.05), 2.0);
+}
+
 // Of whole orders the rest is a power of a third: nothing of it is remembered.
 TEST(Derivative, OfAWholeOrderHasNoMemory) {
     const gap::Exponentials exponentials(100);

@@ -156,19 +156,6 @@ std::vector<std::string> lacks(const Function& known, const Function& asked) {
     return gap::extrapolated({record_of(1000, 0.1, held, known)}, {record_of(1000, 0.1, held, asked)});
 }
 
-TEST(CoverageEdges, ADirectionIsATenthOfTheSpanWithoutATurn) {
-    const Function rises = [](double t) { return t / 100.0; };
-    const auto dips = [](double by) {
-        return [=](double t) { return t < 50.0 ? 0.02 * t : t < 60.0 ? 1.0 - 0.1 * by * (t - 50.0) : 1.0 - by; };
-    };
-    EXPECT_THAT(lacks(rises, dips(0.105)), Contains("falling output"));
-    EXPECT_THAT(lacks(rises, dips(0.095)), Not(Contains("falling output")));
-    // Training that goes a quarter as far has it.
-    const auto half = dips(0.5);
-    EXPECT_THAT(lacks(dips(0.12), half), Contains("falling output"));
-    EXPECT_THAT(lacks(dips(0.13), half), Not(Contains("falling output")));
-}
-
 // Readings that were lost for once are no motion, two in a row neither: medians of five.
 TEST(CoverageEdges, WhatAReadingWasLostForIsNoDirection) {
     const Function rises = [](double t) { return t / 100.0; };
@@ -183,42 +170,6 @@ TEST(CoverageEdges, WhatAReadingWasLostForIsNoDirection) {
         }
         EXPECT_THAT(lacks(rises, spoilt(by, 3, 1.0)), Contains("falling output")) << by;
     }
-}
-
-TEST(CoverageEdges, ALevelLacksBeyondATwentiethOfTheSpan) {
-    const auto input = [](double top, double share) {
-        return [=](double t) { return t < 100.0 * share ? top : 0.5 * (1.0 + std::sin(t)); };
-    };
-    const auto asked = [&](double top, double share) {
-        return gap::extrapolated({record_of(
-                                     1000, 0.1, [](double t) { return 0.5 * (1.0 + std::sin(t)); },
-                                     [](double t) { return std::sin(0.3 * t); })},
-                                 {record_of(1000, 0.1, input(top, share), [](double t) { return std::sin(0.3 * t); })});
-    };
-    EXPECT_THAT(asked(1.06, 0.02), ElementsAre(StartsWith("input above 1")));
-    EXPECT_THAT(asked(1.045, 0.02), IsEmpty());
-    EXPECT_THAT(asked(1.06, 0.0095), IsEmpty());  // a hundredth of the samples
-    EXPECT_THAT(asked(-0.06, 0.02), ElementsAre(StartsWith("input below ")));
-    EXPECT_THAT(asked(-0.045, 0.02), IsEmpty());
-}
-
-TEST(CoverageEdges, ALevelLacksBetweenTwoThatAreAFifthApart) {
-    const auto two = [](double other) {
-        return [=](double t) { return std::fmod(t, 10.0) < 5.0 ? 0.0 : std::fmod(t, 20.0) < 10.0 ? other : 1.0; };
-    };
-    const auto within = [](double share) {
-        return [=](double t) {
-            return std::fmod(t, 10.0) < 10.0 * share ? 0.1 : std::fmod(t, 20.0) < 10.0 ? 0.0 : 1.0;
-        };
-    };
-    const auto output = [](double t) { return std::sin(0.3 * t); };
-    const auto asked = [&](double other, double share) {
-        return gap::extrapolated({record_of(1000, 0.1, two(other), output)},
-                                 {record_of(1000, 0.1, within(share), output)});
-    };
-    EXPECT_THAT(asked(0.22, 0.2), ElementsAre("input between 0 and 0.22"));
-    EXPECT_THAT(asked(0.19, 0.2), IsEmpty());
-    EXPECT_THAT(asked(0.22, 0.05), IsEmpty());
 }
 
 TEST(CoverageEdges, AStretchIsThirtyTwoSamples) {

@@ -253,4 +253,31 @@ TEST(CarriedOver, KeepsWhatLastsAndFindsEventsAnew) {
     EXPECT_LT(carried.cost, 0.05);
 }
 
+// Events are guessed beside the base as it is: a level that the record's own operating point takes up, and no other
+// number, hides no jump of a seventh of it.
+TEST(CarriedOver, GuessesEventsWhereTheStateHasTakenUpTheLevel) {
+    const gap::Effect& jumps = gap::effect_named("missed_counts");
+    Made train(1, true);
+    train.add([](double t) { return t > 14.95 ? 0.5 : 0.0; });
+    const gap::Candidate fitted =
+        gap::fit(train.study, {&jumps}, gap::fit(train.study, {}, {}, nullptr), nullptr, {0, 1, 5});
+    Made other(1, true);
+    gap::Record& record = other.records.front();
+    record.input.assign(record.size(), 1.0);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        record.output[i] = 4.0 + (record.time_s[i] > 19.95 ? 0.3 : 0.0);
+    }
+    other.study.courses.clear();
+    other.study.courses.emplace_back(record, 1);
+    const gap::Candidate carried = gap::carried_over(other.study, fitted, nullptr);
+    for (std::size_t i = 0; i < fitted.base.size(); ++i) {
+        EXPECT_EQ(carried.base[i].value, fitted.base[i].value) << fitted.base[i].name;
+    }
+    const auto number = [&](const std::string& name) {
+        return std::ranges::find(carried.own[0], "missed_counts." + name, &gap::FreeParameter::name)->value;
+    };
+    EXPECT_NEAR(number("at_s"), 19.95, 1e-9);
+    EXPECT_NEAR(number("size"), 0.3, 0.01);
+}
+
 }  // namespace

@@ -222,4 +222,39 @@ TEST(Flexible, ForeseesEachFourthOf24BlocksByTheOthers) {
     }
 }
 
+// Sizes are those of the whole record, its first sample's, too: an impulse there is an input.
+TEST(Flexible, SizesCountTheFirstSample) {
+    Made made;
+    made.record.input.assign(samples, 0.0);
+    made.record.input[0] = 1.0;
+    const gap::Remainder left = made.leaving([&](std::size_t i) { return made.y[i]; }, 0.01);
+    EXPECT_GT(gap::explain({left}, {}, delay_s, time_constant_s).explained, 0.9);
+    made.record.input[0] = 0.0;  // no input at all: nothing is asked
+    EXPECT_EQ(gap::explain({left}, {}, delay_s, time_constant_s).explained, 0.0);
+}
+
+// Blocks that do not count are no evidence: four that all gain as much are certain, three are too few.
+TEST(Flexible, IsCertainByTheBlocksThatCount) {
+    const Made& m = made();
+    const Made other(5);
+    const auto one = [](std::size_t) { return 1.0; };
+    gap::Remainder judged = m.leaving(one, 0.01, 3);
+    const std::vector<gap::Remainder> also{other.leaving(one, 0.01, 4)};
+    const auto by_blocks = [&](const std::vector<std::size_t>& blocks) {
+        std::ranges::fill(judged.counts, char{0});
+        for (const std::size_t block : blocks) {
+            std::fill_n(judged.counts.begin() + static_cast<std::ptrdiff_t>(block * samples / 24), samples / 24,
+                        char{1});
+        }
+        return gap::explain({judged}, also, delay_s, time_constant_s);
+    };
+    const gap::Flexible four = by_blocks({0, 5, 10, 15});
+    EXPECT_GT(four.explained, 0.99);
+    EXPECT_TRUE(four.certain);
+    const gap::Flexible three = by_blocks({0, 5, 10});
+    EXPECT_EQ(three.explained, 0.0);
+    EXPECT_FALSE(three.certain);
+    EXPECT_EQ(three.left.front(), judged.residuals);
+}
+
 }  // namespace

@@ -71,4 +71,21 @@ TEST(MissedCounts, AreSeenThroughNoiseByAsManySamplesAsItAsksFor) {
     EXPECT_EQ(grown, Values(6, 0.0));
 }
 
+// Of a reading that only grows nothing is refused where noise asks for more than 40 samples. The mean of what lies
+// behind grows along it, and with it what a jump of that size asks of the same noise: the last place that asks for 41
+// is the best one.
+TEST(MissedCounts, AreAskedOfFortySamplesAtMost) {
+    constexpr std::size_t count = 2001;
+    constexpr double slope = 1.0 / count;
+    constexpr double deviation = 1.0 / 6.0;  // of every sample, up and down in turn
+    const auto grown = [](std::size_t i) {
+        return slope * static_cast<double>(i) + (i % 2 == 0 ? deviation : -deviation);
+    };
+    const double noise = 1.4826 / std::sqrt(2.0) * 2.0 * deviation;  // to a thousandth
+    // 128 noise^2 / mean^2 = 40 where the mean of what lies behind, of a straight line, is this.
+    const double at = (2.0 * noise * std::sqrt(128.0 / 40.0) - 1.0) * count;
+    ASSERT_LT(at, count / 3.0);  // before the place that takes most, where nothing is refused
+    EXPECT_NEAR(guess_of(count, grown).at(0), before(at), 8.0 * gap_test::h);
+}
+
 }  // namespace

@@ -65,6 +65,21 @@ TEST(PlotTimes, LinesAndShadesLieAsFromZero) {
     }
 }
 
+// Round steps: 0.2 here. A tick stands at the end of what is drawn, too, where that is a billionth of a step below it.
+TEST(PlotTicks, ReachTheEndToABillionthOfAStep) {
+    const auto has_one = [](double below) {
+        std::vector<double> values = at_both_ends();
+        std::replace(values.begin(), values.end(), 1.0, 1.0 - below * 0.2e-9);
+        const std::string svg = gap::to_svg({"left", 300.0, {{"line", values}}}, times_from(0.0));
+        EXPECT_THAT(svg, testing::HasSubstr(">0.8</text>"));
+        EXPECT_THAT(svg, testing::Not(testing::HasSubstr(">0.9</text>")));
+        return svg.find(">1</text>") != std::string::npos;
+    };
+    EXPECT_TRUE(has_one(0.0));
+    EXPECT_TRUE(has_one(0.995));
+    EXPECT_FALSE(has_one(1.005));
+}
+
 // As high as asked for 1100 px across; on a phone 400 across and three fifths as high, 110 at least.
 TEST(PlotSizes, AreThoseOfAScreenAndOfAPhone) {
     const auto boxes = [](double height) {

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
+#include <span>
 
 #include "base/failure.hpp"
 #include "gap/drive/record.hpp"
@@ -102,6 +104,9 @@ TEST(RecordGrid, IsReadByStraightLines) {
     EXPECT_THAT(gap::read_at(grid, nodes, Values{10.0, 10.25, 10.5, 10.75, 11.4, 11.5}),
                 ElementsAre(0.0, 0.5, 1.0, 2.5, testing::DoubleNear(2.4, 1e-12), 2.0));
     EXPECT_THAT(gap::read_at(grid, nodes, Values{9.0, 12.0}), ElementsAre(0.0, 2.0));  // beyond the ends, these
+    // What lies behind the last node is none of it.
+    const Values longer{0.0, 1.0, 4.0, std::numeric_limits<double>::infinity()};
+    EXPECT_THAT(gap::read_at(grid, std::span(longer).first(3), Values{11.0}), ElementsAre(4.0));
 }
 
 TEST(RecordParts, AreWhatLiesBeforeATime) {

@@ -110,6 +110,14 @@ TEST_F(Rules, WhatCanBeForeseenIsMaterial) {
     beside_a_form();
     EXPECT_FALSE(too_much(0.5, 0.0798));
     EXPECT_TRUE(too_much(0.5, 0.0804));
+    // Just that much is tolerated: 0.75 of 9.375.
+    ranking_[drag].gap_after = 1.0;
+    known_.remainders[drag] = {0.75, true, {}};
+    gap::Decision at_the_edge = attributed(drag, 3.0625);
+    at_the_edge.noise_floor = 0.0625;
+    const gap::Foreseeable edge = gap::foreseeable(evidence(), at_the_edge);
+    EXPECT_EQ(edge.of_closable, 0.08);
+    EXPECT_FALSE(edge.is_too_much);
     EXPECT_TRUE((gap::Foreseeable{.of_closable = 0.1995}).is_minor());
     EXPECT_FALSE((gap::Foreseeable{.of_closable = 0.2005}).is_minor());
 }

@@ -228,6 +228,8 @@ TEST(FittedFilter, IsTheSameEachTime) {
 TEST(FittedFilter, AtTheEndTheLargestErrorIsTheLeast) {
     // Weights that follow the error come to 0.06626 in sixty rounds, Oustaloup's two poles, tuned, to 0.06620.
     EXPECT_LT(fit_filter(goal_of(0.2, 0.8, 80.0, 0.0), 1, 2, FilterKind::samples).error.band, 0.06618);
+    // Powers to 4096 come within a part in ten thousand of the least, which ever higher ones tend to.
+    EXPECT_NEAR(fit_filter(goal_of(0.9, 0.8, 80.0, 0.0), 1, 2, FilterKind::samples).error.band, 0.135381, 1.35e-5);
 }
 
 // A near tap more contains the filter without it. From a start in the middle the search for one pole finds so much;

@@ -108,4 +108,34 @@ TEST(CascadeBound, OfNearTapsInFixedPoint) {
     }
 }
 
+// Beside what the format holds of them, zeros and coefficients err by 2^-46 of themselves, as doubles made them; and
+// half a unit enters.
+TEST(CascadeBound, CountsWhatADoubleErrsBy) {
+    const Section section{0.25, -0.125, -0.5, 0.0625, 1.25, 0.25, 0.5};
+    const HeldSection held{1.0, section.b1, section.b2, section.a1, section.a2};
+    CascadeError<Q31> walk(peak, section.fast);
+    EXPECT_EQ(walk.error(), 0x1p-32);
+    walk.pass(section, held, 1.0, 0);
+    const double kept = 0.25 * 0.5;
+    const double reach = peak * 1.25;
+    const double wrong =
+        kept * (1.25 * 0x1p-32 + 0x1p-31 / 0.5) + 0x1p-46 * 0.375 * (peak + 0x1p-32) + 0x1p-46 * 0.5625 * reach;
+    EXPECT_EQ(walk.reach(), reach);
+    EXPECT_NEAR(walk.error() / (wrong / (kept - 0x1p-46 * 0.5625)), 1.0, 1e-9);
+}
+
+// Where a pole is negative, d > 1, the response swings: by d/(2 - d) times the gain's distance from 1.
+TEST(CascadeBound, OfAPoleThatSwings) {
+    const auto reach = [](double fastest, double gain) {
+        CascadeError<F32> walk(peak, fastest);
+        walk.pass({0.0, 0.0, 0.0, 0.0, gain, 0.5, fastest}, {1.0, 0.0, 0.0, 0.0, 0.0}, 1.0, 0);
+        return walk.reach() / peak;
+    };
+    EXPECT_DOUBLE_EQ(reach(1.5, 1.5), 1.0 + 3.0 * 0.5);
+    EXPECT_DOUBLE_EQ(reach(1.5, 0.5), 1.0 + 3.0 * 0.5);
+    EXPECT_DOUBLE_EQ(reach(1.2, 1.5), 1.0 + 1.5 * 0.5);
+    EXPECT_DOUBLE_EQ(reach(1.0, 1.5), 1.5);
+    EXPECT_DOUBLE_EQ(reach(0.5, 1.5), 1.5);
+}
+
 }  // namespace

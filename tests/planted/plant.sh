@@ -76,6 +76,7 @@ tests_of() {
     case $1 in
         kernels/glsum/design/held.hpp) echo choose_tests ;;
         kernels/glsum/design/rational.cpp) echo bench_tests choose_tests ;;
+        kernels/glsum/design/band_fit_body.hpp) echo band_fit_tests modes_tests ;;
         kernels/glsum/design/*) echo modes_tests ;;
         kernels/glsum/model/pid*) echo controller_tests ;;
         kernels/glsum/model/*) echo drive_tests ;;

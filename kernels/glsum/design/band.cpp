@@ -6,7 +6,6 @@
 #include <numbers>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <utility>
 
 #include "glsum/design/band_fit_body.hpp"
@@ -44,8 +43,9 @@ double amplification(const Filter& filter) {
 
 constexpr int rough_rounds = 6;
 constexpr int rounds = 60;
-// Powers of the error whose sums are made small at last, each in so many steps.
-constexpr double powers[] = {4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0};
+// At last sums of powers of the error are made small: of the fourth, and each time of four times that, up to this one,
+// each in so many steps.
+constexpr double last_power = 4096.0;
 constexpr int rounds_of_power = 8;
 
 // How far beyond 0 a pole may lie, tried in turn until coefficients are not too large: the nearer to the circle, the
@@ -120,7 +120,7 @@ struct Search {
             fit.improve(round < rounds / 2 || round % 2 == 0);
         }
         keep();
-        for (const double power : cost > 0.0 ? std::span<const double>() : std::span<const double>(powers)) {
+        for (double power = 4.0; !(cost > 0.0) && power <= last_power; power *= 4.0) {
             for (int round = 0; round < rounds_of_power; ++round) {
                 fit.sharpen(power);
                 keep();

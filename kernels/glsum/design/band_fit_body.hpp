@@ -1,4 +1,4 @@
-// The filter of given poles that errs least, and poles that err less. Included by band.cpp alone.
+// The filter of given poles that errs least, and poles that err less. Included by band.cpp, and by a test of its own.
 #pragma once
 
 #include <Eigen/Cholesky>
@@ -117,8 +117,10 @@ public:
             const double size = size_at(now_.residual, i);
             const double root = std::pow(size / largest, p - 1.0);
             const double along = std::sqrt(2.0 * p - 1.0);
-            const double cosine = size > 0.0 ? now_.residual(2 * i) / size : 1.0;
-            const double sine = size > 0.0 ? now_.residual(2 * i + 1) / size : 0.0;
+            // A point that is met exactly has no direction, and its root is 0.
+            const double unit = std::max(size, std::numeric_limits<double>::min());
+            const double cosine = now_.residual(2 * i) / unit;
+            const double sine = now_.residual(2 * i + 1) / unit;
             bent.row(2 * i) = root * along * (cosine * slopes.row(2 * i) + sine * slopes.row(2 * i + 1));
             bent.row(2 * i + 1) = root * (cosine * slopes.row(2 * i + 1) - sine * slopes.row(2 * i));
             right(2 * i) = -root * size / along;
@@ -273,12 +275,10 @@ private:
         ones(Eigen::seqN(0, points(), 2)).setOnes();
         return ones;
     }
+    // A point's own for both of its rows.
     [[nodiscard]] Vector row_weights() const {
-        Vector root(2 * points());
-        for (Eigen::Index i = 0; i < points(); ++i) {
-            root(2 * i) = root(2 * i + 1) = std::sqrt(weights_(i));
-        }
-        return root;
+        const Matrix of_both = weights_.cwiseSqrt().transpose().replicate(2, 1);
+        return of_both.reshaped();
     }
 
     void step_poles() {

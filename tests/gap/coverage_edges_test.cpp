@@ -1,0 +1,275 @@
+// What validation has and training lacks, at the edge of each rule: of readings without noise, or of a known one.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "gap/drive/audit.hpp"
+#include "gap/drive/coverage.hpp"
+
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Not;
+using Values = std::vector<double>;
+
+constexpr double interval_s = 0.1;
+
+gap::Record record_of(Values input, Values output) {
+    gap::Record record;
+    record.name = "made";
+    record.usual_interval_s = interval_s;
+    for (std::size_t i = 0; i < output.size(); ++i) {
+        record.time_s.push_back(interval_s * static_cast<double>(i));
+    }
+    record.input = std::move(input);
+    record.output = std::move(output);
+    return record;
+}
+
+std::vector<std::string> told(const gap::Record& train, const gap::Record& validate) {
+    return gap::extrapolated({train}, {validate});
+}
+
+// --- Directions.
+
+// Straight from place to place, fifty readings each, with some at each place.
+Values path(const Values& places) {
+    Values values;
+    for (std::size_t p = 0; p + 1 < places.size(); ++p) {
+        values.insert(values.end(), 10, places[p]);
+        for (int i = 0; i < 50; ++i) {
+            values.push_back(places[p] + (places[p + 1] - places[p]) * i / 50.0);
+        }
+    }
+    values.insert(values.end(), 10, places.back());
+    return values;
+}
+
+gap::Record moving(const Values& output) { return record_of(Values(output.size(), 1.0), output); }
+
+Values mirrored(Values values) {
+    for (double& value : values) {
+        value = 1.0 - value;
+    }
+    return values;
+}
+
+// Whether training of the one lacks the falls of the other; rises are told alike.
+bool lacks_falls(const Values& train, const Values& validate) {
+    const auto falls = told(moving(train), moving(validate));
+    const auto rises = told(moving(mirrored(train)), moving(mirrored(validate)));
+    const bool lacks = std::ranges::find(falls, "falling output") != falls.end();
+    EXPECT_EQ(std::ranges::find(rises, "rising output") != rises.end(), lacks);
+    return lacks;
+}
+
+// A fall of a tenth of the span is asked for, at once: not by several.
+TEST(CoverageEdges, AFallIsOfATenthOfTheSpan) {
+    const Values rise = path({0.0, 1.0});
+    EXPECT_FALSE(lacks_falls(rise, path({0.0, 1.0, 0.9005})));
+    EXPECT_TRUE(lacks_falls(rise, path({0.0, 1.0, 0.8995})));
+    EXPECT_FALSE(lacks_falls(rise, path({0.0, 0.5, 0.42, 0.8, 0.72, 1.0, 0.92})));
+    EXPECT_TRUE(lacks_falls(rise, path({0.5, 0.3995, 1.0})));  // as it begins
+    EXPECT_FALSE(lacks_falls(rise, path({0.5, 0.4005, 1.0})));
+}
+
+// A quarter of it is enough, in several.
+TEST(CoverageEdges, ItIsKnownByAQuarter) {
+    const Values falls = path({0.0, 1.0, 0.2});
+    EXPECT_TRUE(lacks_falls(path({0.0, 0.5, 0.301, 1.0}), falls));
+    EXPECT_FALSE(lacks_falls(path({0.0, 0.5, 0.299, 1.0}), falls));
+    EXPECT_FALSE(lacks_falls(path({0.0, 0.5, 0.399, 0.8, 0.699, 1.0}), falls));
+    EXPECT_TRUE(lacks_falls(path({0.0, 0.5, 0.401, 0.8, 0.701, 1.0}), falls));
+    EXPECT_FALSE(lacks_falls(path({0.3, 0.099, 1.0}), falls));  // as it begins
+    EXPECT_FALSE(lacks_falls(path({0.0, 1.0, 0.799}), falls));  // as it ends
+}
+
+// Three hundredths of the span are a turn.
+TEST(CoverageEdges, ATurnIsOfThreeHundredths) {
+    const Values falls = path({0.0, 1.0, 0.89});
+    EXPECT_TRUE(lacks_falls(path({0.0, 0.5, 0.4705, 1.0}), falls));
+    EXPECT_FALSE(lacks_falls(path({0.0, 0.5, 0.4695, 1.0}), falls));
+}
+
+// Or six times what differs from reading to reading, in either.
+TEST(CoverageEdges, ATurnIsBeyondNoise) {
+    const auto with_noise = [](const Values& places, double size) {
+        Values values = path(places);
+        std::mt19937 random(3);
+        std::normal_distribution<double> normal(0.0, size);
+        const Values noise = [&] {
+            Values drawn(400);
+            std::ranges::generate(drawn, [&] { return normal(random); });
+            return drawn;
+        }();
+        // A level with noise before the clean path.
+        values.insert(values.begin(), noise.begin(), noise.end());
+        for (std::size_t i = 0; i < noise.size(); ++i) {
+            values[i] += places.front();
+        }
+        return values;
+    };
+    constexpr double size = 0.02;
+    const double noise = gap::audit({moving(with_noise({0.0, 0.5, 0.4, 1.0}, size))}).noise;
+    ASSERT_GT(6.0 * noise, 0.04);
+    ASSERT_LT(6.0 * noise, 0.124);
+    for (const double turn : {0.997, 1.003}) {
+        const Values train = with_noise({0.0, 0.5, 0.5 - turn * 6.0 * noise, 1.0}, size);
+        ASSERT_NEAR(gap::audit({moving(train)}).noise, noise, 1e-3 * noise);
+        // A fall of that size is known as a quarter of another one.
+        const Values asked = path({0.0, 1.0, 1.0 - 3.9 * 6.0 * noise});
+        const auto found = told(moving(train), moving(asked));
+        EXPECT_EQ(std::ranges::find(found, "falling output") != found.end(), turn < 1.0) << turn;
+    }
+}
+
+// --- Levels.
+
+// The same output whatever the input.
+gap::Record driven(const Values& input) {
+    Values output;
+    for (std::size_t i = 0; i < input.size(); ++i) {
+        output.push_back(std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / 50.0));
+    }
+    return record_of(input, output);
+}
+
+// A level is beyond those of training by a twentieth of the span of both; a hundredth of the readings does not count.
+TEST(CoverageEdges, LevelsAreBeyondByATwentieth) {
+    const auto levels = [](double low, double high, std::size_t of_high = 150) {
+        Values input(300, low);
+        std::fill_n(input.begin(), of_high, high);
+        return driven(input);
+    };
+    const gap::Record train = levels(0.0, 1.0);
+    const auto input_told = [&](const gap::Record& validate) {
+        auto all = told(train, validate);
+        std::erase_if(all, [](const std::string& one) { return !one.starts_with("input"); });
+        return all;
+    };
+    EXPECT_THAT(input_told(levels(0.0, 1.052)), ElementsAre());
+    EXPECT_THAT(input_told(levels(0.0, 1.0535)), ElementsAre("input above 1"));
+    EXPECT_THAT(input_told(levels(-0.052, 1.0)), ElementsAre());
+    EXPECT_THAT(input_told(levels(-0.0535, 1.0)), ElementsAre("input below 0"));
+    EXPECT_THAT(input_told(levels(0.0, 2.0, 3)), ElementsAre());
+    EXPECT_THAT(input_told(levels(0.0, 2.0, 4)), ElementsAre("input above 1"));
+    EXPECT_THAT(input_told(levels(-1.0, 0.0, 297)), ElementsAre());
+    EXPECT_THAT(input_told(levels(-1.0, 0.0, 296)), ElementsAre("input below 0"));
+}
+
+// Or by four times the noise of the readings.
+TEST(CoverageEdges, LevelsAreBeyondNoise) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal(0.0, 1.0);
+    Values noise(600);
+    std::ranges::generate(noise, [&] { return normal(random); });
+    const gap::Record train = moving(noise);
+    const auto [low, high] = std::ranges::minmax(noise);
+    const double beyond = 4.0 * gap::audit({train}).noise;
+    const auto found = [&](double level) {
+        Values values = noise;
+        std::fill_n(values.begin(), 20, level);
+        return told(train, moving(values));
+    };
+    const auto above = Contains(testing::StartsWith("output above"));
+    const auto below = Contains(testing::StartsWith("output below"));
+    EXPECT_THAT(found(high + 0.997 * beyond), Not(above));
+    EXPECT_THAT(found(high + 1.003 * beyond), above);
+    EXPECT_THAT(found(low - 0.997 * beyond), Not(below));
+    EXPECT_THAT(found(low - 1.003 * beyond), below);
+}
+
+// A hole of a fifth of the span in what training had, and more than a tenth of the readings well within it.
+TEST(CoverageEdges, LevelsAreBetweenThoseOfTraining) {
+    const auto train = [](double hole) {
+        Values input;
+        for (int i = 0; i <= 100; ++i) {
+            input.push_back(0.4 * i / 100.0);
+            input.push_back(0.4 + hole + (0.6 - hole) * i / 100.0);
+        }
+        input.resize(310, 0.0);
+        return driven(input);
+    };
+    const auto validate = [](std::size_t within, double level) {
+        Values input(310, 0.0);
+        input.back() = 1.0;
+        std::fill_n(input.begin(), within, level);
+        return driven(input);
+    };
+    const auto hole = Contains(testing::StartsWith("input between 0.4 and"));
+    EXPECT_THAT(told(train(0.199), validate(200, 0.5)), Not(hole));
+    EXPECT_THAT(told(train(0.201), validate(200, 0.5)), hole);
+    EXPECT_THAT(told(train(0.3), validate(31, 0.5)), Not(hole));
+    EXPECT_THAT(told(train(0.3), validate(32, 0.5)), Contains("input between 0.4 and 0.7"));
+    EXPECT_THAT(told(train(0.3), validate(200, 0.4495)), Not(hole));
+    EXPECT_THAT(told(train(0.3), validate(200, 0.4505)), hole);
+    EXPECT_THAT(told(train(0.3), validate(200, 0.6495)), hole);
+    EXPECT_THAT(told(train(0.3), validate(200, 0.6505)), Not(hole));
+}
+
+// --- Frequencies.
+
+// Waves of whole periods, so many in 58.1 s: 0.10 Hz, 0.29 Hz and 1.0 Hz, each in a band of its own. The first band
+// begins at 0.9 of a period in the record; half-decades from there are 0.0155, 0.049, 0.155, 0.49 and 1.55 Hz.
+constexpr int periods[] = {6, 17, 60};
+
+gap::Record waves(const Values& amplitudes, int records_long = 1) {
+    const int last = 581 * records_long;
+    Values output;
+    for (int i = 0; i <= last; ++i) {
+        output.push_back(0.0);
+        for (std::size_t w = 0; w < amplitudes.size(); ++w) {
+            output.back() += amplitudes[w] * std::cos(2.0 * std::numbers::pi * periods[w] * records_long * i /
+                                                      static_cast<double>(last));
+        }
+    }
+    return record_of(Values(output.size(), 1.0), output);
+}
+
+std::vector<std::string> frequencies(const std::vector<gap::Record>& train, const gap::Record& validate) {
+    auto all = gap::extrapolated(train, {validate});
+    std::erase_if(all, [](const std::string& one) { return !one.ends_with("Hz"); });
+    return all;
+}
+
+TEST(CoverageEdges, FrequenciesAreToldByHalfDecades) {
+    // 0.1549 and 1.549 Hz.
+    EXPECT_THAT(frequencies({waves({1.0, 0.0, 0.0})}, waves({1.0, 1.0, 0.0})), ElementsAre("faster than 0.15 Hz"));
+    EXPECT_THAT(frequencies({waves({0.0, 0.0, 1.0})}, waves({0.0, 1.0, 1.0})), ElementsAre("slower than 0.49 Hz"));
+    EXPECT_THAT(frequencies({waves({0.0, 1.0, 0.0})}, waves({1.0, 1.0, 0.0})), ElementsAre("slower than 0.15 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 0.0, 1.0})}, waves({1.0, 1.0, 1.0})), ElementsAre("between 0.15 and 0.49 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 0.0, 0.0})}, waves({1.0, 1.0, 1.0})), ElementsAre("faster than 0.15 Hz"));
+    EXPECT_THAT(frequencies({waves({0.0, 1.0, 0.0})}, waves({1.0, 1.0, 1.0})),
+                ElementsAre("slower than 0.15 Hz", "faster than 0.49 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 1.0, 1.0})}, waves({1.0, 1.0, 1.0})), ElementsAre());
+}
+
+// From a fiftieth of what validation has in all; a twentieth of it is known. Squares of amplitudes.
+TEST(CoverageEdges, FrequenciesHaveTheirShare) {
+    EXPECT_THAT(frequencies({waves({1.0, 0.0})}, waves({1.0, 0.1422})), ElementsAre());
+    EXPECT_THAT(frequencies({waves({1.0, 0.0})}, waves({1.0, 0.1436})), ElementsAre("faster than 0.15 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 0.2228})}, waves({1.0, 1.0})), ElementsAre("faster than 0.15 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 0.2244})}, waves({1.0, 1.0})), ElementsAre());
+    // Several records by their lengths: a third of these.
+    EXPECT_THAT(frequencies({waves({1.0, 0.0}, 2), waves({1.0, 0.386})}, waves({1.0, 1.0})),
+                ElementsAre("faster than 0.24 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 0.0}, 2), waves({1.0, 0.389})}, waves({1.0, 1.0})), ElementsAre());
+}
+
+// What training has much of, a fiftieth of that, says on which side of it something is missing.
+TEST(CoverageEdges, FrequenciesAreBesideWhatTrainingHas) {
+    const gap::Record asked = waves({0.0, 1.0});
+    EXPECT_THAT(frequencies({waves({0.1405, 0.0, 1.0})}, asked), ElementsAre("slower than 0.49 Hz"));
+    EXPECT_THAT(frequencies({waves({0.1424, 0.0, 1.0})}, asked), ElementsAre("between 0.15 and 0.49 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 0.0, 0.1405})}, asked), ElementsAre("faster than 0.15 Hz"));
+    EXPECT_THAT(frequencies({waves({1.0, 0.0, 0.1424})}, asked), ElementsAre("between 0.15 and 0.49 Hz"));
+}
+
+}  // namespace
