@@ -69,6 +69,12 @@ TEST(KeptSlope, IsTakenOutOfGainAndLag) {
         const gap::FreeParameter& was = candidate.base[i];
         EXPECT_NEAR(kept->base[i].value, was.value * (was.name == "delay_s" ? 1.0 : slope), 1e-9) << was.name;
     }
+    // A lag's coefficient likewise, by any power of it; an order never.
+    gap::Candidate other = candidate;
+    other.base[1].name = "a2";
+    EXPECT_NEAR(gap::with_slope_kept(of.study, other, {})->base[1].value, slope * other.base[1].value, 1e-9);
+    other.base[1].name = "alpha1";
+    EXPECT_EQ(gap::with_slope_kept(of.study, other, {})->base[1].value, other.base[1].value);
     // No further than the fit may go.
     gap::Candidate narrow = candidate;
     narrow.base[0].upper = 1.5 * narrow.base[0].value;
