@@ -3,8 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <optional>
+
+#include "gap/drive/released.hpp"
 
 namespace gap {
 namespace {
@@ -172,11 +173,7 @@ std::vector<FreeParameter> state_of(const Study& study, const Record& record) {
     const double far = 1e3 * span + std::fabs(first);
     const double force = study.scales.force;
     // Where it would rest without input; what does not rest has a force in its place, a ramp of its own in each record.
-    // What is let go comes to rest; its last tenth is the nearest to it.
-    const auto tenth = static_cast<std::ptrdiff_t>(std::max<std::size_t>(1, record.size() / 10));
-    const double last =
-        std::accumulate(record.output.end() - tenth, record.output.end(), 0.0) / static_cast<double>(tenth);
-    const double rests_at = !study.scales.driven ? last : record.input.front() == 0.0 ? first : 0.0;
+    const double rests_at = !study.scales.driven ? level_at_rest(record) : record.input.front() == 0.0 ? first : 0.0;
     std::vector<FreeParameter> state = {
         study.scales.steady ? to_free("offset", rests_at, -far, far, span)
                             : to_free("bias", 0.0, -force, force, 0.1 * force),

@@ -8,11 +8,15 @@
 
 namespace gap {
 
-std::size_t samples_held(const Record& record) {
+double level_at_rest(const Record& record) {
     const std::vector<double>& z = record.output;
     const std::size_t tenth = std::max<std::size_t>(1, z.size() / 10);
-    const double rest =
-        std::accumulate(z.end() - static_cast<std::ptrdiff_t>(tenth), z.end(), 0.0) / static_cast<double>(tenth);
+    return std::accumulate(z.end() - static_cast<std::ptrdiff_t>(tenth), z.end(), 0.0) / static_cast<double>(tenth);
+}
+
+std::size_t samples_held(const Record& record) {
+    const std::vector<double>& z = record.output;
+    const double rest = level_at_rest(record);
     const bool above = z.front() > rest;
     std::size_t farthest = 0;
     std::size_t i = 0;

@@ -8,6 +8,9 @@
 
 namespace gap {
 
+/// Where a free motion comes to rest, in the output's unit: the mean of its last tenth, which is the nearest to it.
+[[nodiscard]] double level_at_rest(const Record& record);
+
 /// The samples before a free motion is let go: those up to its farthest reading before it first passes where it comes
 /// to rest. A hand that still leads it out is no part of it; where it is let go at rest that is the first sample. 0:
 /// the record does not pass there, or only in its last three quarters.

@@ -113,6 +113,48 @@ TEST(SearchBesideAForm, FitsWhatTheBestOneOnlyIs) {
     EXPECT_THAT(simplified(1e-4), testing::IsEmpty());
 }
 
+// Small moves and one as far as the range: of a play that only the large one passes its own starts know nothing.
+gap::Record played(unsigned seed, double width) {
+    gap::Record record = read(seed);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        record.input[i] *= i >= 200 && i < 220 ? 1.0 / std::fabs(record.input[i]) : 0.1;
+    }
+    gap::Scenario scenario;
+    scenario.model = drive::make_fopdt(2.0, 1.0, 0.0);
+    gap::effect_named("input_hysteresis").add_to(scenario, std::vector{width, 1.0});
+    record.output = gap::simulate(scenario, gap::Course(record, 8));
+    std::mt19937_64 engine(seed);
+    std::normal_distribution<double> noise(0.0, 2e-3);
+    for (double& z : record.output) {
+        z += noise(engine);
+    }
+    return record;
+}
+
+// One cause, too, is fitted from where the best says that it lies.
+TEST(SearchBesideAForm, FitsWhatTheBestSingleOnlyIs) {
+    constexpr double width = 0.8;
+    gap::Question question{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)),
+                           true,
+                           {played(1, width)},
+                           {played(2, width)},
+                           {},
+                           gap::Metric::simulation,
+                           {},
+                           1};
+    question.given_form = true;
+    gap::Ground ground = gap::prepare(question);
+    const gap::Effect& play = gap::effect_named("input_hysteresis");
+    ground.list = {&gap::effect_named("valve_stiction"), &play};
+    const gap::Found found = gap::search({ground, 1, [](const std::string&) {}});
+    const auto single = std::ranges::find_if(found.ranking, [&](const gap::Ranked& ranked) {
+        return ranked.trained.effects == std::vector<const gap::Effect*>{&play};
+    });
+    ASSERT_NE(single, found.ranking.end());
+    EXPECT_NEAR(single->trained.lasting[0][0].value, width, 0.01 * width);
+    EXPECT_NEAR(single->trained.lasting[0][1].value, 1.0, 0.01);
+}
+
 // Of the best set each is exchanged for the closest of what acts at the same place: as partners of a lead none of these
 // is fitted to the end.
 TEST(SearchBesideAForm, FitsTheRivalsOfTheBestSet) {

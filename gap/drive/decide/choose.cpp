@@ -79,9 +79,14 @@ bool has_an_idle_one(const Evidence& evidence, std::size_t of) {
            });
 }
 
+// What is no set of causes, however far it goes.
+bool is_no_set_of_causes(const Evidence& evidence, std::size_t wider, std::size_t chosen) {
+    return is_all_the_forms(evidence, wider, chosen) || acts_only_together(evidence, wider) ||
+           has_an_idle_one(evidence, wider) || follows_a_shape(evidence, wider, chosen);
+}
+
 bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
-    if (is_all_the_forms(evidence, wider, chosen) || acts_only_together(evidence, wider) ||
-        has_an_idle_one(evidence, wider)) {
+    if (is_no_set_of_causes(evidence, wider, chosen)) {
         return false;
     }
     const double before = evidence.gap(chosen);
@@ -97,8 +102,7 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
         ((so_far > 0 && taken < further_share_of_an_event * before) || before < small_gap_of_a_form)) {
         return false;
     }
-    return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material &&
-           !follows_a_shape(evidence, wider, chosen);
+    return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material;
 }
 
 // What cannot be named and yet goes most of the way, as likely as any, is more than nothing.
@@ -184,7 +188,7 @@ const Rule rule_of_clear_advantage{
     "clear_advantage",
     "Effects are taken one by one while each is clearly more likely on what was not fitted, whichever block of samples "
     "is asked, and takes a material share of the gap. What training leaves open is not taken, nor what acts only "
-    "together.",
+    "together, nor a set that is as likely without one of its own.",
     choose};
 
 const Rule rule_of_rounded_readings{
