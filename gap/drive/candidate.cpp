@@ -21,10 +21,21 @@ std::size_t free_count(const std::vector<FreeParameter>& list) {
         std::count_if(list.begin(), list.end(), [](const FreeParameter& parameter) { return !parameter.fixed; }));
 }
 
-std::vector<double> next_values(const Effect& effect, const Scales& scales, const FreeParameter*& next) {
-    std::vector<double> values;
-    for (std::size_t i = effect.parameters(scales).size(); i > 0; --i) {
-        values.push_back((next++)->value);
+// Those of all records, and those that a record has for itself. \param lasting  null: of an event
+std::vector<double> values_in(const std::vector<FreeParameter>& own, const Effect& effect,
+                              const std::vector<FreeParameter>* lasting) {
+    std::vector<double> values = lasting != nullptr ? values_of(*lasting) : std::vector<double>();
+    for (const FreeParameter& parameter : own) {
+        if (!parameter.name.starts_with(effect.name + ".")) {
+            continue;
+        }
+        if (lasting == nullptr) {
+            values.push_back(parameter.value);
+            continue;
+        }
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] = (*lasting)[i].name == parameter.name ? parameter.value : values[i];
+        }
     }
     return values;
 }
@@ -201,16 +212,33 @@ std::vector<FreeParameter> parameters_of(const Effect& effect, const Scales& sca
         const double value = parameter.starts[start % parameter.starts.size()];
         all.push_back(to_free(effect.name + "." + parameter.name, value, parameter.lower, parameter.upper,
                               std::max(std::fabs(value - parameter.none), 0.02 * (parameter.upper - parameter.lower))));
-        all.back().fixed = parameter.discrete || start >= parameter.free_starts;
+        all.back().fixed = parameter.discrete || start >= parameter.free_starts ||
+                           (parameter.of_record && effect.kind == Kind::lasting);
         all.back().unit = parameter.unit;
     }
     return all;
 }
 
+std::vector<FreeParameter> own_parameters_of(const Effect& effect, const Scales& scales) {
+    const std::vector<FreeParameter> all = parameters_of(effect, scales, 0);
+    if (effect.kind == Kind::event) {
+        return all;
+    }
+    std::vector<FreeParameter> own;
+    const std::vector<EffectParameter> named = effect.parameters(scales);
+    for (std::size_t i = 0; i < named.size(); ++i) {
+        if (named[i].of_record) {
+            own.push_back(all[i]);
+            own.back().fixed = named[i].discrete;
+        }
+    }
+    return own;
+}
+
 std::size_t starts_of(const Effect& effect, const Scales& scales) {
     std::size_t most = 1;
     for (const EffectParameter& parameter : effect.parameters(scales)) {
-        most = std::max(most, parameter.starts.size());
+        most = std::max(most, parameter.of_record ? 1 : parameter.starts.size());
     }
     return most;
 }
@@ -257,9 +285,9 @@ Scenario scenario_of(const Study& study, const Candidate& candidate, std::size_t
     }
     std::size_t next_lasting = 0;
     for (const Effect* effect : candidate.effects) {
-        const FreeParameter* lasting =
-            effect->kind == Kind::lasting ? candidate.lasting[next_lasting++].data() : nullptr;
-        effect->add_to(scenario, next_values(*effect, study.scales, lasting != nullptr ? lasting : own));
+        const std::vector<FreeParameter>* lasting =
+            effect->kind == Kind::lasting ? &candidate.lasting[next_lasting++] : nullptr;
+        effect->add_to(scenario, values_in(candidate.own[record], *effect, lasting));
     }
     return scenario;
 }

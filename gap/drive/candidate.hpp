@@ -30,7 +30,7 @@ struct Candidate {
     std::vector<const Effect*> effects;
     std::vector<FreeParameter> base;                  ///< shared by all records
     std::vector<std::vector<FreeParameter>> lasting;  ///< by effect
-    std::vector<std::vector<FreeParameter>> own;      ///< by record: its state, then events' parameters
+    std::vector<std::vector<FreeParameter>> own;      ///< by record: its state, then what it has of effects for itself
     double cost = 0.0;                                ///< half the sum of squares of the (whitened) residuals
     [[nodiscard]] std::string name() const;           ///< "none", or effects joined by " + "
     [[nodiscard]] bool has(const std::string& effect) const;
@@ -53,8 +53,10 @@ struct Candidate {
 [[nodiscard]] drive::Form with_values(const drive::Form& form, const Candidate& candidate);
 /// A record's own state likewise.
 [[nodiscard]] std::vector<FreeParameter> state_of(const Study& study, const Record& record);
-/// An effect's parameters at one of its starts.
+/// An effect's parameters at one of its starts; what each record has for itself is fixed.
 [[nodiscard]] std::vector<FreeParameter> parameters_of(const Effect& effect, const Scales& scales, std::size_t start);
+/// What a record has of an effect for itself: all of an event, of a lasting one what is so (EffectParameter).
+[[nodiscard]] std::vector<FreeParameter> own_parameters_of(const Effect& effect, const Scales& scales);
 [[nodiscard]] std::size_t starts_of(const Effect& effect, const Scales& scales);
 [[nodiscard]] bool applies(const Effect& effect, const Scales& scales);
 

@@ -52,6 +52,9 @@ struct EffectParameter {
     std::vector<double> starts;  ///< fits begin at each
     bool discrete = false;       ///< stays at its start: a variant, or a value that the audit found
     std::size_t free_starts = std::numeric_limits<std::size_t>::max();  ///< behind so many starts it is discrete
+    /// Of a lasting effect: each record has one of its own, which is begun at the best of the starts there. That of all
+    /// is the first record's.
+    bool of_record = false;
 };
 
 /// What an effect is bound to.

@@ -27,11 +27,9 @@ Candidate resting(const Study& study, const Candidate& fitted, const Record& rec
         rest.own[0][1].value = offset;
     }
     for (const Effect* effect : fitted.effects) {
-        if (effect->kind == Kind::event) {
-            for (const FreeParameter& parameter : parameters_of(*effect, study.scales, 0)) {
-                rest.own[0].push_back(parameter);
-                rest.own[0].back().value = 0.0;
-            }
+        for (const FreeParameter& parameter : own_parameters_of(*effect, study.scales)) {
+            rest.own[0].push_back(parameter);
+            rest.own[0].back().value = 0.0;
         }
     }
     return rest;

@@ -8,6 +8,7 @@
 #include "gap/drive/clued_start.hpp"
 #include "gap/drive/cost.hpp"
 #include "gap/drive/kept_slope.hpp"
+#include "gap/drive/own_start.hpp"
 
 namespace gap {
 namespace {
@@ -122,7 +123,7 @@ void guess_events(const Study& study, Candidate& attempt) {
     }
 }
 
-// Own numbers of a record: those of another candidate as far as it has them, events at rest.
+// Own numbers of a record: its state and those of lasting effects as another candidate has them, events at rest.
 std::vector<FreeParameter> own_of(const Study& study, std::size_t record, const std::vector<const Effect*>& effects,
                                   const Candidate& start) {
     std::vector<FreeParameter> own = state_of(study, study.courses[record].record());
@@ -130,15 +131,16 @@ std::vector<FreeParameter> own_of(const Study& study, std::size_t record, const 
         std::copy_n(start.own[record].begin(), own.size(), own.begin());
     }
     for (const Effect* effect : effects) {
-        if (effect->kind == Kind::event) {
-            auto more = parameters_of(*effect, study.scales, 0);
-            for (std::size_t i = 0; i < more.size(); ++i) {
-                if (effect->guess != nullptr) {
-                    more[i].value = std::clamp(effect->parameters(study.scales)[i].none, more[i].lower, more[i].upper);
-                }
+        auto more = own_parameters_of(*effect, study.scales);
+        for (std::size_t i = 0; i < more.size(); ++i) {
+            if (effect->guess != nullptr) {
+                more[i].value = std::clamp(effect->parameters(study.scales)[i].none, more[i].lower, more[i].upper);
+            } else if (effect->kind == Kind::lasting && record < start.own.size()) {
+                const auto known = std::ranges::find(start.own[record], more[i].name, &FreeParameter::name);
+                more[i] = known == start.own[record].end() ? more[i] : *known;
             }
-            own.insert(own.end(), more.begin(), more.end());
         }
+        own.insert(own.end(), more.begin(), more.end());
     }
     return own;
 }
@@ -216,6 +218,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             attempt.own.push_back(own_of(study, r, effects, start));
         }
         guess_events(study, attempt);
+        begin_own(study, attempt);
         // A base that was fitted to readings which hide it leads nowhere near the form's own values.
         if (std::any_of(effects.begin(), effects.end(),
                         [&](const Effect* effect) { return effect->hides_base && !start.has(effect->name); })) {
@@ -261,7 +264,8 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             }
         }
     }
-    const Candidate& best = *std::min_element(attempts.begin(), attempts.end(), by_cost);
+    Candidate& best = *std::min_element(attempts.begin(), attempts.end(), by_cost);
+    take_first_records(best);
     if (study.base.refit && !effects.empty() && start.own.size() == study.courses.size()) {
         // Any effect may be absent: then it goes as far as what it was begun from.
         Candidate absent = without_new_effects(study, best, start);
@@ -289,6 +293,7 @@ Candidate carried_over(const Study& study, const Candidate& fitted, const Whiten
         }
     }
     guess_events(study, carried);
+    begin_own(study, carried);
     descend(study, carried, true, whitener, 25);
     return carried;
 }

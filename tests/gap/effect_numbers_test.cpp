@@ -104,12 +104,19 @@ TEST(EffectNumbers, OfTheCommandAndTheActuator) {
                   {{"threshold", "u", 0.0, 0.95 * u, 0.0, both},
                    {"stops_below", "1", 0.0, 1.0, 0.0, {0, 0, 0, 0, 0, 0, 1, 1, 1, 1, 1, 1}, true},
                    {"width", "u", 0.0, u, 0.0, {0.004 * u}, true}});
-    const Values periods{0.6 * length,  0.6 * length,  0.3 * length,  0.3 * length,
-                         0.15 * length, 0.15 * length, 0.08 * length, 0.08 * length};
+    Values phases;
+    for (int k = -7; k <= 8; ++k) {
+        phases.push_back(k * pi / 8.0);
+    }
     expect_ranges("variable_delay", scales(),
                   {{"depth_s", "s", -2.0 * tc, 2.0 * tc, 0.0, {0.1 * tc}},
-                   {"period_s", "s", 4.0 * dt, 2.0 * length, 2.0 * length, periods},
-                   {"phase_rad", "rad", -4.0 * pi, 4.0 * pi, 0.0, {0, pi / 2, 0, pi / 2, 0, pi / 2, 0, pi / 2}}});
+                   {"period_s",
+                    "s",
+                    4.0 * dt,
+                    2.0 * length,
+                    2.0 * length,
+                    {0.6 * length, 0.3 * length, 0.15 * length, 0.08 * length}},
+                   {"phase_rad", "rad", -4.0 * pi, 4.0 * pi, 0.0, phases}});
 }
 
 // A command of two signs has twice the range, and a dead zone two widths.

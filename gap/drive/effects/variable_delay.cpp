@@ -1,5 +1,6 @@
 // The dead time goes up and down, by depth sin(2 pi t / period + phase), from the record's first stamp on: a network, a
-// queue. In all it is at least 0. What arrives twice counts twice, and what is overtaken never arrives.
+// queue. In all it is at least 0. What arrives twice counts twice, and what is overtaken never arrives. No logger waits
+// for the wave, so each record has its own phase.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,18 +18,24 @@ constexpr double pi = std::numbers::pi;
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
     std::vector<double> periods;
-    std::vector<double> phases;
     for (const double share : {0.6, 0.3, 0.15, 0.08}) {
-        for (const double phase : {0.0, 0.5 * pi}) {
-            periods.push_back(share * scales.length_s);
-            phases.push_back(phase);
-        }
+        periods.push_back(share * scales.length_s);
+    }
+    std::vector<double> phases;
+    for (int eighths = -7; eighths <= 8; ++eighths) {
+        phases.push_back(0.125 * pi * eighths);
     }
     // A depth below 0 is the other half of the phases: a fit may go through 0.
     const double deepest = 2.0 * scales.time_constant_s;
     return {{"depth_s", "s", -deepest, deepest, 0.0, {0.1 * scales.time_constant_s}},
             {"period_s", "s", 4.0 * scales.interval_s, 2.0 * scales.length_s, 2.0 * scales.length_s, periods},
-            {"phase_rad", "rad", -4.0 * pi, 4.0 * pi, 0.0, phases}};
+            {.name = "phase_rad",
+             .unit = "rad",
+             .lower = -4.0 * pi,
+             .upper = 4.0 * pi,
+             .none = 0.0,
+             .starts = phases,
+             .of_record = true}};
 }
 
 // \param held  means over intervals \param at  in intervals
