@@ -176,13 +176,25 @@ TEST_F(Rules, ClearAdvantageIsNoneWhereCleanReadingsLeaveAFormAsLittle) {
 }
 
 TEST_F(Rules, ClearAdvantageOfAnEventIsNoneWhereAFormMayLeaveAsMuchItself) {
-    const std::size_t jump = add({"missed_counts"}, 0.01, 50.0);
+    const std::size_t load = add({"load_disturbance"}, 0.01, 50.0);
     beside_a_form();
     ranking_[0].gap_after = 0.0449;
-    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(jump));
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(load));
     ranking_[0].gap_after = 0.0445;
     EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
     ground_.study.base.refit = ground_.validation.base.refit = false;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(load));
+}
+
+// No plant jumps from one reading to the next: there half of the gap is enough.
+TEST_F(Rules, ClearAdvantageOfAJumpOfReadingsIsHalfOfASmallGap) {
+    const std::size_t jump = add({"missed_counts"}, 0.0221, 50.0);
+    beside_a_form();
+    ranking_[0].gap_after = 0.0445;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(jump));
+    ranking_[jump].gap_after = 0.0224;
+    EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
+    ranking_[0].gap_after = 0.0449;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(jump));
 }
 

@@ -85,6 +85,12 @@ bool is_no_set_of_causes(const Evidence& evidence, std::size_t wider, std::size_
            has_an_idle_one(evidence, wider) || follows_a_shape(evidence, wider, chosen);
 }
 
+bool has_an_event_of_the_plant(const Candidate& candidate) {
+    return std::ranges::any_of(candidate.effects, [](const Effect* effect) {
+        return effect->kind == Kind::event && effect->place == Place::plant;
+    });
+}
+
 bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, double closable) {
     if (is_no_set_of_causes(evidence, wider, chosen)) {
         return false;
@@ -96,10 +102,13 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
     const double material = so_far == 0   ? of_first * before
                             : so_far == 1 ? std::min(further_share * closable, second_share * before)
                                           : further_share * closable;
-    // And where the form may leave as much itself there is nothing for it to explain.
-    if (evidence.beside_form() && evidence.ranking[wider].trained.has_events() &&
-        !evidence.ranking[chosen].trained.has_events() &&
-        ((so_far > 0 && taken < further_share_of_an_event * before) || before < small_gap_of_a_form)) {
+    // And where the form may leave as much itself there is nothing for it to explain, but for readings that jump from
+    // one to the next, as no plant does: those show by themselves.
+    const Candidate& wide = evidence.ranking[wider].trained;
+    const bool small = before < small_gap_of_a_form;
+    if (evidence.beside_form() && wide.has_events() && !evidence.ranking[chosen].trained.has_events() &&
+        ((small && has_an_event_of_the_plant(wide)) ||
+         ((small || so_far > 0) && taken < further_share_of_an_event * before))) {
         return false;
     }
     return is_clear(advantage(evidence.ranking[wider], evidence.ranking[chosen])) && taken > material;
