@@ -8,6 +8,7 @@
 
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/clipped.hpp"
+#include "gap/drive/ends.hpp"
 
 namespace gap {
 namespace {
@@ -213,6 +214,11 @@ Audit audit(const std::vector<Record>& records) {
         if (longest > 5.0 * record.usual_interval_s) {
             found.notes.push_back(fmt::format("{}: a gap of {:.4g} s between stamps, usually {:.4g} s", record.name,
                                               longest, record.usual_interval_s));
+        }
+        const std::vector<char> ends = readings_at_an_end(record);
+        if (const auto stay = std::count(ends.begin(), ends.end(), 1); stay > 0) {
+            found.notes.push_back(fmt::format(
+                "{}: {} readings stay where they are while the input goes further: an end?", record.name, stay));
         }
         const std::vector<char> clipped = clipped_readings(record);
         if (const auto held = std::count(clipped.begin(), clipped.end(), 1); held > 0) {

@@ -52,20 +52,4 @@ std::vector<char> clipped_readings(const Record& record) {
     return clipped;
 }
 
-std::vector<std::vector<char>> without_clipped(std::vector<std::vector<char>> counts,
-                                               const std::vector<Record>& records) {
-    constexpr std::ptrdiff_t fewest = 50;
-    for (std::size_t r = 0; r < counts.size(); ++r) {
-        const std::vector<char> clipped = clipped_readings(records[r]);
-        std::vector<char> left = counts[r];
-        for (std::size_t i = 0; i < left.size(); ++i) {
-            left[i] = clipped[i] != 0 ? 0 : left[i];
-        }
-        if (std::count(left.begin(), left.end(), 1) >= fewest) {
-            counts[r] = std::move(left);
-        }
-    }
-    return counts;
-}
-
 }  // namespace gap

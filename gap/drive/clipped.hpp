@@ -16,8 +16,4 @@ namespace gap {
 /// None where they would not be seen.
 [[nodiscard]] std::vector<char> clipped_readings(const Record& record);
 
-/// What counts, less what is clipped; of a record that would be left without fifty samples all that counted.
-[[nodiscard]] std::vector<std::vector<char>> without_clipped(std::vector<std::vector<char>> counts,
-                                                             const std::vector<Record>& records);
-
 }  // namespace gap

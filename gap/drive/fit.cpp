@@ -219,11 +219,17 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
         }
         guess_events(study, attempt);
         begin_own(study, attempt);
-        // A base that was fitted to readings which hide it leads nowhere near the form's own values.
-        if (std::any_of(effects.begin(), effects.end(),
-                        [&](const Effect* effect) { return effect->hides_base && !start.has(effect->name); })) {
+        // A base that was fitted to readings which hide it leads nowhere near the form's own values, nor do its
+        // records' states.
+        if (study.base.refit && std::any_of(effects.begin(), effects.end(), [&](const Effect* effect) {
+                return effect->hides_base && !start.has(effect->name);
+            })) {
             Candidate afresh = attempt;
             afresh.base = base_of(study);
+            for (std::size_t r = 0; r < afresh.own.size(); ++r) {
+                std::ranges::copy(state_of(study, study.courses[r].record()), afresh.own[r].begin());
+            }
+            descend(study, afresh, true, whitener, effort.first_iterations);
             descend(study, afresh, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
             attempts.push_back(std::move(afresh));
         }

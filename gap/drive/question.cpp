@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gap/drive/clipped.hpp"
+#include "gap/drive/ends.hpp"
 #include "gap/drive/fit.hpp"
 #include "gap/drive/plausible.hpp"
 #include "gap/drive/released.hpp"
@@ -159,7 +159,7 @@ Ground prepare(const Question& question) {
     }
     scales.drains = question.domain != Domain::mechanical;
     const auto counted = [&](std::vector<std::vector<char>> counts, const std::vector<Record>& records) {
-        counts = question.past_clips ? without_clipped(std::move(counts), records) : std::move(counts);
+        counts = question.past_ends ? without_ends(std::move(counts), records) : std::move(counts);
         return let_go ? from_release(std::move(counts), records) : counts;
     };
     Study study = make_study(question, train,

@@ -26,7 +26,7 @@ struct Question {
     bool given_form = false;               ///< of a model that is refitted: a linear effect is no other form of it
     bool find = false;                     ///< the base is looked for: `form` is none yet
     bool metric_free = false;              ///< predictions where the base that is found rests nowhere
-    bool past_clips = false;               ///< what a sensor's end holds is not counted: a base is looked for
+    bool past_ends = false;                ///< what is at an end is not counted: a base is looked for
     bool from_no_input = false;            ///< Base::from_no_input
     double idle_input = 0.0;               ///< Base::idle_input
     std::optional<double> horizon_s = {};  ///< of predictions; a fiftieth of the record unless it is given

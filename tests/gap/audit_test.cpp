@@ -9,6 +9,7 @@
 #include <random>
 
 #include "gap/drive/clipped.hpp"
+#include "gap/drive/ends.hpp"
 
 namespace {
 
@@ -237,7 +238,7 @@ TEST(Clipped, WouldNotShowAmongCoarseReadings) {
 
 TEST(Clipped, DoNotCountWhereFiftyOthersDo) {
     const auto left = [](std::size_t count) {
-        const auto counts = gap::without_clipped({std::vector<char>(400, 1)}, {record_of(clipped(0, count, 9.0))});
+        const auto counts = gap::without_ends({std::vector<char>(400, 1)}, {record_of(clipped(0, count, 9.0))});
         return std::count(counts[0].begin(), counts[0].end(), 1);
     };
     EXPECT_EQ(left(40), 360);
@@ -245,7 +246,7 @@ TEST(Clipped, DoNotCountWhereFiftyOthersDo) {
     EXPECT_EQ(left(351), 400);
     std::vector<char> aside(400, 1);
     std::fill_n(aside.begin() + 200, 100, 0);
-    const auto counts = gap::without_clipped({aside}, {record_of(clipped(0, 40, 9.0))});
+    const auto counts = gap::without_ends({aside}, {record_of(clipped(0, 40, 9.0))});
     EXPECT_EQ(std::count(counts[0].begin(), counts[0].end(), 1), 260);
 }
 

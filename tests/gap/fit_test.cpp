@@ -157,6 +157,40 @@ TEST(Fit, OfAFittedBaseIsNeverWorseThanWithoutTheEffect) {
     }
 }
 
+// Up a staircase beyond an end a base that was fitted without it is another plant, and so are the states of its
+// records.
+TEST(Fit, OfAnEndBeginsAtTheFormsNumbers) {
+    gap::Record record;
+    record.name = "made";
+    record.usual_interval_s = 0.1;
+    for (int i = 0; i < 300; ++i) {
+        record.time_s.push_back(0.1 * i);
+        record.input.push_back(i / 50);
+        record.output.push_back(0.0);
+    }
+    const drive::Model plant = drive::make_fopdt(2.0, 1.0, 0.0);
+    for (const auto& [name, values] :
+         {std::pair<const char*, std::vector<double>>("input_saturation", {2.6}), {"end_stop", {5.2, 0.0}}}) {
+        const gap::Effect& end = gap::effect_named(name);
+        gap::Scenario scenario;
+        scenario.model = plant;
+        end.add_to(scenario, values);
+        record.output = gap::simulate(scenario, gap::Course(record, 2));
+        gap::Study study{{gap::form_of(plant), true}, {}, {}, {}, 0.01, 0.001, 0};
+        study.scales = gap::scales_of(plant, {record}, {});
+        study.counts = gap::all_count({record});
+        study.courses.emplace_back(record, 2);
+        gap::Candidate astray = gap::fit(study, {}, {}, nullptr, {0, 1, 0});
+        astray.base[0].value = -0.4;
+        astray.base[1].value = 30.0;
+        astray.own[0][1].value = 9.0;
+        const gap::Candidate found = gap::fit(study, {&end}, astray, nullptr);
+        EXPECT_NEAR(found.lasting[0][0].value, values[0], 0.01) << name;
+        EXPECT_NEAR(found.base[0].value, 2.0, 0.02) << name;
+        EXPECT_LT(found.cost, 1e-3) << name;
+    }
+}
+
 // Where nothing better is found, exactly that, with the effect's numbers at the values that are none.
 TEST(Fit, OfAFittedBaseMayLeaveANewEffectOut) {
     const Made made(1, true);

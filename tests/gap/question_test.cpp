@@ -169,7 +169,7 @@ TEST(Prepared, LooksPastClippedReadings) {
         return std::count(ground.study.counts[0].begin(), ground.study.counts[0].end(), 1);
     };
     EXPECT_EQ(counted(), 401);
-    question.past_clips = true;
+    question.past_ends = true;
     EXPECT_EQ(counted(), 376);
 }
 

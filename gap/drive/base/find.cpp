@@ -107,7 +107,7 @@ Question of_training(const Question& question) {
     alone.validate.clear();
     alone.split_s.reset();
     alone.refit = true;
-    alone.past_clips = true;
+    alone.past_ends = true;
     alone.jobs = 1;
     if (question.split_s && question.validate.empty()) {
         for (Record& record : alone.train) {
@@ -324,7 +324,7 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     const Question alone = of_training(question);
     Question asked = question;
     asked.refit = true;
-    asked.past_clips = true;
+    asked.past_ends = true;
     asked.jobs = 1;
     base::parallel_for(tried.size(), question.jobs,
                        [&](std::size_t i) { found[i] = describe(*tried[i], alone, asked); });

@@ -3,7 +3,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "gap/drive/clipped.hpp"
+#include "gap/drive/ends.hpp"
 
 namespace gap {
 namespace {
@@ -25,11 +25,11 @@ void keep_quick(Eigen::MatrixXd& matrix, const std::vector<Course>& courses, dou
     }
 }
 
-// What a sensor's end holds tells nothing of the plant but that it is beyond.
-void forget_clipped(Eigen::MatrixXd& matrix, const std::vector<Course>& courses) {
+// What is at an end tells nothing of the plant but that it is beyond.
+void forget_ends(Eigen::MatrixXd& matrix, const std::vector<Course>& courses) {
     Eigen::Index row = 0;
     for (const Course& course : courses) {
-        const auto counts = without_clipped({std::vector<char>(course.record().size(), 1)}, {course.record()});
+        const auto counts = without_ends({std::vector<char>(course.record().size(), 1)}, {course.record()});
         for (const char count : counts.front()) {
             if (count == 0) {
                 matrix.row(row).setZero();
@@ -108,7 +108,7 @@ Eigen::MatrixXd columns_of(const drive::Model& model, const std::vector<Course>&
 
 Leftover leftover_of(const drive::Model& model, const std::vector<Course>& courses, bool driven) {
     Eigen::MatrixXd matrix = columns_of(model, courses, driven);
-    forget_clipped(matrix, courses);
+    forget_ends(matrix, courses);
     return solve(matrix, driven);
 }
 
@@ -116,8 +116,8 @@ Leftovers leftovers_of(const drive::Model& model, const std::vector<Course>& cou
     Eigen::MatrixXd matrix = columns_of(model, courses, driven);
     Eigen::MatrixXd quick = matrix;
     keep_quick(quick, courses, quick_s);
-    forget_clipped(matrix, courses);
-    forget_clipped(quick, courses);
+    forget_ends(matrix, courses);
+    forget_ends(quick, courses);
     return {solve(matrix, driven), solve(quick, driven)};
 }
 

@@ -35,6 +35,7 @@ const Effect& end_stop() {
         .place = Place::plant,
         .numbers = {{"limit"}, {"restitution", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical, Domain::hydraulic},
+        .hides_base = true,
     };
     return effect;
 }

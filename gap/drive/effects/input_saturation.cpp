@@ -37,6 +37,7 @@ const Effect& input_saturation() {
         .add_to = add,
         .place = Place::actuator,
         .numbers = {{"limit"}},
+        .hides_base = true,
     };
     return effect;
 }
