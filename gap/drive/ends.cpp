@@ -43,7 +43,7 @@ bool follows(const Record& record) {
 
 std::vector<char> readings_at_an_end(const Record& record) {
     constexpr double noises = 8.0;     // from the highest reading down
-    constexpr double of_swing = 0.01;  // likewise, where the noise is less
+    constexpr double of_swing = 0.02;  // likewise, where the noise is less
     constexpr double most_of_swing = 0.1;
     constexpr double further = 0.05;        // of the input's range
     constexpr double longest_delay = 0.03;  // of the record
