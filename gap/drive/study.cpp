@@ -20,7 +20,7 @@ double time_constant_of(const drive::Model& model, const Record& record) {
     }
     const double length_s = record.time_s.back() - record.time_s.front();
     const double found = weight > 0.0 ? sum / weight : 0.1 * length_s;
-    return std::clamp(found, 2.0 * record.usual_interval_s, 0.3 * length_s);
+    return std::min(std::max(found, 2.0 * record.usual_interval_s), 0.3 * length_s);
 }
 
 // A deployed simulation of more steps than this would take longer than the rest of the diagnosis.

@@ -40,14 +40,14 @@ gap::Record run(const Acceleration& acceleration, const Run& of) {
     record.name = "run";
     record.usual_interval_s = interval_s;
     std::mt19937_64 engine(of.seed);
-    std::normal_distribution<double> noise(0.0, of.noise);
+    std::normal_distribution<double> noise;
     double y = of.y;
     double speed = of.speed;
     for (int k = 0; k * interval_s < of.length_s; ++k) {
         const double from_s = k * interval_s;
         record.time_s.push_back(from_s);
         record.input.push_back(of.input(from_s));
-        record.output.push_back(y + noise(engine));
+        record.output.push_back(y + of.noise * noise(engine));
         for (int i = 0; i < substeps; ++i) {
             const double late_s = from_s + (i + 0.5) * step_s - of.delay_s;
             // Held from its stamp to the next; nothing before the record.
