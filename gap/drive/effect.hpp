@@ -107,6 +107,8 @@ struct Effect {
     void (*add_to)(Scenario& scenario, std::span<const double> values);
     /// Effects that are special cases of this one.
     std::vector<std::string> generalises = {};
+    /// Effects elsewhere that do the same as long as all moves slowly: a base's dynamics alone part them.
+    std::vector<std::string> looks_like = {};
     /// Where the residuals say that it happened: values in the order of `parameters`. For events.
     std::vector<double> (*guess)(const Clue& clue) = nullptr;
     Place place;
@@ -136,6 +138,8 @@ struct Effect {
     std::optional<Special> (*is_only)(std::span<const double> values) = nullptr;
     /// Whether the other one is a special case of it.
     [[nodiscard]] bool covers(const Effect& other) const;
+    /// Whether one of the two looks like the other.
+    [[nodiscard]] bool resembles(const Effect& other) const;
 };
 
 /// All that there are, in the order of the list (effects.def).

@@ -68,6 +68,13 @@ bool Effect::covers(const Effect& other) const {
     return std::find(generalises.begin(), generalises.end(), other.name) != generalises.end();
 }
 
+bool Effect::resembles(const Effect& other) const {
+    const auto says = [](const Effect& one, const Effect& like) {
+        return std::ranges::find(one.looks_like, like.name) != one.looks_like.end();
+    };
+    return says(*this, other) || says(other, *this);
+}
+
 const std::vector<const Effect*>& effects() {
     static const std::vector<const Effect*> all = {
 #define EFFECT(name) &name(),

@@ -335,6 +335,33 @@ TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatGoesAsFar) {
     EXPECT_THAT(named(), ElementsAre(cubic));
 }
 
+// A play of the input and friction against a spring part where all moves quickly, which a misfit hides: to twice as
+// much.
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatLooksAlike) {
+    const std::size_t play = add({"input_hysteresis", "input_curve"}, 0.10, 900.0);
+    const std::size_t friction = add({"input_curve", "coulomb_friction"}, 0.199, 500.0);
+    const auto named = [&] { return after("what_cannot_be_parted", attributed(play)).effects; };
+    set_noise(0.10 / 7.03);
+    EXPECT_THAT(named(), ElementsAre(play));
+    beside_a_form();
+    EXPECT_THAT(named(), ElementsAre(play, friction));
+    ranking_[friction].gap_after = 0.201;
+    EXPECT_THAT(named(), ElementsAre(play));
+    ranking_[friction].gap_after = 0.199;
+    set_noise(0.10 / 6.97);
+    EXPECT_THAT(named(), ElementsAre(play));
+}
+
+// The other way round, too; what stands in another one's place is no likeness.
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsFrictionOrAPlay) {
+    const std::size_t friction = add({"quadratic_drag", "coulomb_friction"}, 0.10, 900.0);
+    const std::size_t play = add({"input_hysteresis", "quadratic_drag"}, 0.199, 500.0);
+    add({"input_hysteresis", "coulomb_friction"}, 0.199, 400.0);
+    set_noise(0.10 / 7.03);
+    beside_a_form();
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(friction)).effects, ElementsAre(friction, play));
+}
+
 // Where some blocks of samples say the opposite twice as much is asked.
 TEST_F(Rules, WhatCannotBePartedInEveryBlockIsTwiceAsMuch) {
     const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);

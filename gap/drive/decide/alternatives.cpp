@@ -60,12 +60,32 @@ bool goes_as_far(const Evidence& evidence, std::size_t i, std::size_t chosen) {
            theirs < after + of_the_way * (evidence.gap(evidence.none()) - after);
 }
 
+// Whether one has another effect in the place of one of the other's that does the same as long as all moves slowly: a
+// play of the input, and friction against a spring. What parts them is how quickly the plant is, which a fitted form
+// that leaves more than noise has not in full.
+bool looks_alike(const Evidence& evidence, std::size_t i, std::size_t chosen) {
+    constexpr double about = 2.0;
+    const std::vector<const Effect*>& mine = evidence.ranking[chosen].trained.effects;
+    const std::vector<const Effect*>& theirs = evidence.ranking[i].trained.effects;
+    const auto without = [](std::vector<const Effect*> all, const Effect* one) {
+        std::erase(all, one);
+        return all;
+    };
+    return evidence.beside_form() && evidence.is_no_noise(evidence.gap(chosen)) &&
+           evidence.gap(i) < about * evidence.gap(chosen) && std::ranges::any_of(mine, [&](const Effect* one) {
+               return std::ranges::any_of(theirs, [&](const Effect* other) {
+                   return one->resembles(*other) &&
+                          std::ranges::is_permutation(without(mine, one), without(theirs, other));
+               });
+           });
+}
+
 // In [0.5, 0.97], by how far the nearest rival is.
 double confidence_by(double advantage) { return 0.5 + 0.47 * (1.0 - std::exp(-std::max(0.0, advantage) / 8.0)); }
 
 bool is_near(const Evidence& evidence, std::size_t chosen, std::size_t i, const Interval& over) {
     return over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage) ||
-           goes_as_far(evidence, i, chosen);
+           goes_as_far(evidence, i, chosen) || looks_alike(evidence, i, chosen);
 }
 
 // The candidate, or the special case of it that says as much. Beside a fitted form a wider one follows a part of the

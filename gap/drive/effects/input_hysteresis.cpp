@@ -35,6 +35,7 @@ const Effect& input_hysteresis() {
         .kind = Kind::lasting,
         .parameters = parameters,
         .add_to = add,
+        .looks_like = {"coulomb_friction"},
         .place = Place::actuator,
         .numbers = {{"width"}, {"share", Number::Given::otherwise, 1.0}},
         .domains = {Domain::mechanical, Domain::hydraulic, Domain::electric},
