@@ -318,13 +318,18 @@ TEST(TargetSource, AnswersThreeNumbersAStepperAndMakesItsCalls) {
         generate::write_file(folder.file((stepper.prefix + ".h").c_str()), stepper.text);
     }
     generate::write_file(folder.file("run.c"), generate::target_source(steppers) + R"(#include <stdio.h>
+static unsigned same = 1U;
 void glsum_make_calls(unsigned taps, unsigned software_double, void (*make)(unsigned call))
 {
     unsigned call;
+    other_f32_instance copy;
+    memcpy(&copy, &line_other, sizeof copy);
     printf("calls %u %u\n", taps, software_double);
     for (call = 0U; call < 5000U; ++call) {
         make(call);
+        (void)other_step_f32(&copy, input0_other[call % 4000U], input1_other[call % 4000U]);
     }
+    same = same && (make != calls[0] || memcmp(&copy, &line_other, sizeof copy) == 0);
 }
 int main(void)
 {
@@ -332,6 +337,7 @@ int main(void)
     for (number = 0U; number < glsum_verified_count; ++number) {
         printf("%u %u\n", number, glsum_verify(number));
     }
+    printf("same %u\n", same);
     printf("%u %u\n", (unsigned)sizeof(other_f32_instance), (unsigned)sizeof(whole_f32_instance));
     return 0;
 }
@@ -346,10 +352,10 @@ int main(void)
     const std::size_t space = text.find(' ', sizes);
     const std::string of_other = text.substr(sizes, space - sizes);
     const std::string of_whole = text.substr(space + 1, text.size() - space - 2);
-    // The tables' words are of the orders: the integral's 15 modes of 31 taps and the derivative's 9, of whole orders
-    // one sum's.
+    // Those calls are the header's own steps over the record, again and again. The tables' words are of the orders: the
+    // integral's 15 modes of 31 taps and the derivative's 9, of whole orders one sum's.
     EXPECT_EQ(text.substr(0, sizes), "calls 32 0\n0 1\n1 " + of_other + "\n2 " + std::to_string(4 * (2 * 15 + 2 * 9)) +
-                                         "\ncalls 32 0\n3 0\n4 " + of_whole + "\n5 4\n");
+                                         "\ncalls 32 0\n3 0\n4 " + of_whole + "\n5 4\nsame 1\n");
 }
 
 // From a board and a compiler that are pretended: what each stepper answered, its counts and its cycles.
