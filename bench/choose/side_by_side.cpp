@@ -49,8 +49,7 @@ std::string to_table(const std::vector<OnMachine>& rows, const std::vector<Answe
     }
     for (const Answer& answer : answers) {
         if (!answer.choice.chosen) {
-            text +=
-                fmt::format("  {}: nothing fits; {}\n", machine_of(answer.question.target)->name, nearest_miss(answer));
+            text += fmt::format("  {}: {}\n", machine_of(answer.question.target)->name, nearest_miss(answer));
         }
     }
     return text +

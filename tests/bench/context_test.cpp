@@ -4,10 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <regex>
 #include <string>
 
+#include "base/failure.hpp"
+#include "base/scratch.hpp"
+#include "bench/target/target_build.hpp"
 #include "bench/target/target_rows.hpp"
 #include "qemu/timing/core_file.hpp"
 #include "qemu/timing/effects.hpp"
@@ -83,6 +88,78 @@ TEST(Context, OfATimingIsAddedTo) {
     EXPECT_EQ(context.at("caches"), bench::Json({1, 2}));
     EXPECT_FALSE(context.contains("host_name"));
     EXPECT_EQ(context.at("schema"), "glsum-results-1");
+}
+
+// Of emulated machines: the first's fields have plain names, another's its word before them.
+TEST(Context, SaysWhichFirmwareEachMachineRan) {
+    const base::Scratch folder;
+    std::vector<qemu::Board> boards(base::machines.size());
+    for (std::size_t i = 0; i < boards.size(); ++i) {
+        boards[i].machine = &base::machines[i];
+        boards[i].cores = std::string(TEST_PROJECT) + "/qemu/cores";
+        const std::filesystem::path build = folder.file(std::string(base::machines[i].word).c_str());
+        std::filesystem::create_directories(build);
+        boards[i].measure_elf = build / "measure.elf";
+        std::ofstream(boards[i].measure_elf) << (i == 0 ? "abc" : "");
+        std::ofstream(build / "build_info.json")
+            << R"({"compiler": "GNU )" << 12 + i << R"(", "flags": "-mcpu=)" << base::machines[i].core << "\"}";
+    }
+    const std::string emulator = folder.file("qemu").string();
+    std::ofstream(emulator) << "#!/bin/sh\necho QEMU emulator version 7.2.22\necho and its licence\n";
+    std::filesystem::permissions(emulator, std::filesystem::perms::owner_all);
+    setenv("GLSUM_QEMU", emulator.c_str(), 1);
+    bench::Sweep sweep = small();
+    sweep.cores = {"stm32f746-itcm", "count"};
+    const bench::Json context = bench::make_context({}, sweep, boards);
+    unsetenv("GLSUM_QEMU");
+    EXPECT_EQ(context.at("target_compiler"), "GNU 12");
+    EXPECT_EQ(context.at("target_flags"), "-mcpu=cortex-m7");
+    EXPECT_EQ(context.at("m4_target_compiler"), "GNU 13");
+    EXPECT_EQ(context.at("m4_target_flags"), "-mcpu=cortex-m4");
+    // The published hashes of "abc" and of nothing.
+    EXPECT_EQ(context.at("elf_sha256"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+    EXPECT_EQ(context.at("m4_elf_sha256"), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+    EXPECT_EQ(context.at("qemu_version"), "QEMU emulator version 7.2.22");
+    EXPECT_EQ(context.at("target_count_order"), "0.5");
+    EXPECT_TRUE(context.contains("placement"));
+    EXPECT_TRUE(
+        std::regex_match(context.at("core_file").get<std::string>(), std::regex("stm32f746-itcm sha256:[0-9a-f]{64}")))
+        << context.at("core_file");
+}
+
+TEST(TargetBuild, IsTheCompilerAndTheFlagsOfTheFirmware) {
+    const bench::TargetBuild build = bench::parse_target_build(
+        R"({"compiler": "GNU 12.2.1", "flags": "-O3", "more": {"a": [{"b": 1}]}})", "build_info.json");
+    EXPECT_EQ(build.compiler, "GNU 12.2.1");
+    EXPECT_EQ(build.flags, "-O3");
+    const auto of = [](const std::string& compiler, const std::string& flags) {
+        return R"({"compiler": ")" + compiler + R"(", "flags": ")" + flags + "\"}";
+    };
+    // 4096 bytes each, and no more.
+    const std::string longest(4096, 'x');
+    EXPECT_EQ(bench::parse_target_build(of(longest, longest), "a file").flags, longest);
+    const auto refusal = [](const std::string& text) -> std::string {
+        try {
+            (void)bench::parse_target_build(text, "a file");
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+            return failure.what();
+        }
+        return "not refused";
+    };
+    EXPECT_EQ(refusal(of(longest + "x", "-O3")), "a file: expected JSON with the text compiler");
+    EXPECT_EQ(refusal(of("GNU", longest + "x")), "a file: expected JSON with the text flags");
+    EXPECT_EQ(refusal(R"({"compiler": "GNU"})"), "a file: expected JSON with the text flags");
+    EXPECT_EQ(refusal(R"({"compiler": "GNU", "flags": 3})"), "a file: expected JSON with the text flags");
+    for (const std::string text :
+         {"", "[1]", "3", R"({"compiler": "GNU", "flags": "-O3")", R"(["compiler", "flags"])"}) {
+        EXPECT_EQ(refusal(text), "a file: expected JSON with the text compiler") << text;
+    }
+    // Of any depth, and no larger than a build writes it.
+    const std::string deep = std::string(8000, '[') + std::string(8000, ']');
+    EXPECT_EQ(refusal(R"({"flags": "-O3", "compiler": )" + deep + "}"), "a file: expected JSON with the text compiler");
+    EXPECT_EQ(bench::parse_target_build(R"({"compiler": "a", "flags": "b", "c": )" + deep + "}", "a file").flags, "b");
+    EXPECT_EQ(refusal(of("GNU", "-O3") + std::string(4 * 4096, ' ')), "a file: expected JSON with the text compiler");
 }
 
 TEST(TargetRows, HoldTheModelsFigures) {

@@ -4,7 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <string>
+#include <vector>
+
 #include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "bench/gate/baseline.hpp"
 #include "bench/gate/outputs.hpp"
 #include "tests/bench/gate_rig.hpp"
@@ -41,6 +46,61 @@ TEST(GateBaseline, IsNoWrongRunAndNotEmpty) {
     EXPECT_THROW((void)make_baseline(wrong, {"*"}, Json::object(), "x", "y"), glsum::Failure);
     EXPECT_NO_THROW((void)make_baseline(wrong, {"*/accuracy/*"}, Json::object(), "x", "y"));
     EXPECT_THROW((void)make_baseline(run(), {"nothing"}, Json::object(), "x", "y"), glsum::Failure);
+}
+
+// What the history says of a change: each layer by its name, what got worse before what got better, and new rows.
+TEST(GateBaseline, TheHistorySaysWhatChangedLayerByLayer) {
+    Results baseline = run();
+    drop(baseline, [](const std::string& name) { return name.ends_with("/host"); });
+    const auto changes = [&](const Results& current) { return summary_of_changes(judge(baseline, current, rules())); };
+    Results current = baseline;
+    EXPECT_EQ(changes(current), "nothing");
+    scale(current, accuracy_row, "effective_taps", 0.5);  // which only warns
+    EXPECT_EQ(changes(current), "1 worse: accuracy");
+    scale(current, accuracy_row, "error_max", 2.0);
+    EXPECT_EQ(changes(current), "2 worse: accuracy");
+    scale(current, "gl/b/order:0.5/taps:50/m7:count", "instructions_per_sample", 0.5);
+    EXPECT_EQ(changes(current), "2 worse: accuracy, 1 better: instructions_and_bytes");
+    scale(current, "gl/b/order:0.5/taps:50/m7:count", "code_bytes", 0.5);
+    scale(current, count_row, "instructions_per_sample", 2.0);
+    current.rows.push_back(bench::make_row("gl/c/order:0.5/taps:50/m7:count", 32));
+    EXPECT_EQ(changes(current),
+              "2 worse: accuracy, 1 worse: instructions_and_bytes, 2 better: instructions_and_bytes, 1 new");
+    current.context["qemu_version"] = "7.2";  // what else differs comes first
+    EXPECT_EQ(changes(current).find("qemu_version (absent) -> 7.2, 2 worse: accuracy, "), 0U) << changes(current);
+    // A row that is there no more got no worse: it is lost.
+    current = baseline;
+    drop(current, [](const std::string& name) { return name == model_row; });
+    EXPECT_EQ(changes(current), "1 lost: rows");
+    // Of another compiler no value says anything.
+    current.context["compiler"] = "Clang 14.0.6";
+    EXPECT_EQ(changes(current), "compiler GNU 12.2.0 -> Clang 14.0.6; values not compared");
+}
+
+// Under version control: a difference names the rows that differ, and what was written is read as any result file.
+TEST(GateBaseline, IsWrittenWithARowALine) {
+    const base::Scratch folder;
+    const std::filesystem::path path = folder.file("baseline.json");
+    const Results baseline = make_baseline(run(), {"*/m7:*"}, Json::object(), "first", "nothing");
+    ASSERT_EQ(baseline.rows.size(), 4U);
+    write_baseline(path, baseline);
+    std::vector<std::string> lines;
+    std::ifstream in(path);
+    for (std::string line; std::getline(in, line);) {
+        lines.push_back(line);
+    }
+    ASSERT_GT(lines.size(), 6U);
+    for (std::size_t i = 0; i < 4; ++i) {
+        std::string line = lines[lines.size() - 6 + i];
+        if (i < 3) {
+            EXPECT_EQ(line.back(), ',');
+            line.pop_back();
+        }
+        EXPECT_EQ(Json::parse(line, nullptr, false), baseline.rows[i]) << line;
+    }
+    const Results again = bench::read_results(path);
+    EXPECT_EQ(again.context, baseline.context);
+    EXPECT_EQ(again.rows, baseline.rows);
 }
 
 TEST(GateOutputs, EscapeWhatTheirFormatsCannotHold) {

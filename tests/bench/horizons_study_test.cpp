@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "bench/target/target_rows.hpp"
 #include "glsum/design/blocks.hpp"
 #include "glsum/design/modes.hpp"
+#include "tests/choose/pretend_board.hpp"
 
 namespace {
 
@@ -98,6 +100,42 @@ TEST(HorizonCase, CoresStandBesideEachOtherAndEachFurtherOneHasARow) {
     EXPECT_NE(table.find("  error found  m7 cycles  m4 cycles\n"), std::string::npos) << table;
     EXPECT_NE(table.find("      1.0e-05         34         67\n"), std::string::npos) << table;
     EXPECT_NE(table.find("            -          -          -\n"), std::string::npos) << table;
+}
+
+// On machines that are pretended, whose calls take so many cycles a coefficient.
+TEST(HorizonStudy, EachDesignHasItsCyclesOnEachMachine) {
+    const test::PretendBoard m7(0.5, 100, 1, 20, 24, base::machines[0], "modes_plain_f32");
+    const test::PretendBoard m4(0.5, 100, 1, 50, 60, base::machines[1], "modes_plain_f32");
+    const bench::Study study = bench::measure_horizons({{100, 110, 200}, {0.5}, {m7.board(), m4.board()}});
+    EXPECT_EQ(study.context.at("core"), "stm32f746-itcm, cortex-m4-zerowait");
+    EXPECT_NE(study.text.find("modelled cycles of the same design in single precision, stm32f746-itcm, "
+                              "cortex-m4-zerowait.\n"),
+              std::string::npos)
+        << study.text;
+    std::map<std::string, std::size_t> lengths;  // of the designs, by their rows of the first machine
+    std::set<std::size_t> measured;
+    std::size_t on_m4 = 0;
+    for (const Json& row : study.rows) {
+        const auto name = row.at("name").get<std::string>();
+        if (!name.starts_with("horizon/modes/")) {
+            EXPECT_FALSE(row.contains("model_cycles_per_sample")) << name;
+            continue;
+        }
+        double cycles = 20.0;
+        if (const std::size_t at = name.find("/m4:cortex-m4-zerowait"); at != std::string::npos) {
+            cycles = 50.0 * static_cast<double>(lengths.at(name.substr(0, at)));
+            ++on_m4;
+        } else {
+            lengths[name] = row.at("near_taps").get<std::size_t>() + 2 * row.at("modes").get<std::size_t>();
+            measured.insert(lengths[name]);
+            cycles *= static_cast<double>(lengths[name]);
+        }
+        EXPECT_DOUBLE_EQ(row.at("model_cycles_per_sample").get<double>(), cycles) << name;
+    }
+    EXPECT_EQ(on_m4, lengths.size());
+    EXPECT_GT(measured.size(), 2U);
+    // Of designs of the same length one is measured for all.
+    EXPECT_GT(lengths.size(), measured.size());
 }
 
 TEST(HorizonCase, AModesRowThatErrsMoreThanItPromisesIsWrong) {

@@ -6,6 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <string>
@@ -13,11 +17,17 @@
 #include <vector>
 
 #include "base/failure.hpp"
+#include "base/files.hpp"
+#include "base/scratch.hpp"
+#include "base/sha256.hpp"
 #include "bench/studies/model_case.hpp"
 #include "bench/target/target_rows.hpp"
+#include "drive/model_file.hpp"
 #include "drive/response.hpp"
 #include "qemu/emulate/model_run.hpp"
 #include "tests/drive/plants.hpp"
+#include "tests/qemu/made_emulator.hpp"
+#include "tests/qemu/made_program.hpp"
 
 namespace {
 
@@ -264,6 +274,127 @@ std::vector<std::string> names_of(const bench::Study& study) {
         names.push_back(row.at("name"));
     }
     return names;
+}
+
+// A board that is pretended, whose firmware steps models with one kernel: a step takes 100 instructions and so many
+// cycles, and what is answered are these hashes, one after the other.
+class PretendStepper {
+public:
+    PretendStepper(const std::string& kernel, int cycles, const std::vector<std::uint64_t>& hashes,
+                   const base::Machine& machine) {
+        test::MadeElf made = test::program();
+        made.sections = {
+            {0x1000, {kernel.begin(), kernel.end()}},
+            {0x2000, test::bytes_of({0x1000, static_cast<std::uint32_t>(kernel.size()), test::ring + 1, 1})}};
+        made.symbols[0] = {"glsum_watched", 0x2000, 12};
+        made.symbols[1] = {"glsum_watched_count", 0x200C, 4};
+        made.write(folder_.file("model.elf"));
+        std::ofstream(folder_.file("build_info.json")) << R"({"compiler": "GNU 12.2.1", "flags": "-O3"})";
+        std::ofstream answers(folder_.file("hashes"));
+        for (const std::uint64_t hash : hashes) {
+            answers << fmt::format("{:x}\n", hash);
+        }
+        std::string losses;
+        for (std::size_t e = 0; e < timing::effect_count; ++e) {
+            losses += " 0";
+        }
+        // Timed are the first step, and of the last 32 the first 8 with two before them.
+        const std::string body = fmt::format(R"sh(for plan; do :; done
+tail -n +2 "$plan" >rows
+wc -l <rows >>runs
+while read -r kernel increments half delay steps rest; do
+    echo "calls {0} $((steps + 1)) 100 9 9 9"
+done <rows >"$(of out)"
+{{ echo "reached {0} {0}"; echo end; }} >>"$(of out)"
+while read -r row; do
+    echo "calls 11 {0} 100 core 1 {2}{1} 0"; echo end
+done <rows >"$(of times)"
+n=0
+while read -r row; do
+    n=$((n + 1)); echo "row $((n - 1)) 0 $(sed -n "${{n}}p" hashes) 12 34 56"
+done <rows
+sed "1,${{n}}d" hashes >left; mv left hashes
+echo "end $n"
+)sh",
+                                             test::ring, losses, 2 * cycles);
+        board.board = {folder_.file("measure.elf"),
+                       folder_.file("measure.elf"),
+                       "x.so",
+                       test::made_emulator(folder_, body),
+                       TEST_CORES,
+                       &machine};
+        board.cores = {std::string(machine.default_core)};
+    }
+    /// How many models were stepped by each run of it.
+    [[nodiscard]] std::vector<int> runs() const {
+        std::ifstream in(folder_.file("runs"));
+        return {std::istream_iterator<int>(in), {}};
+    }
+
+    bench::ModelBoard board;
+
+private:
+    base::Scratch folder_;
+};
+
+TEST(ModelsStudy, EachMachineStepsThemAtItsCostAndItsBitsAreTheHosts) {
+    const auto model = [](const char* name) {
+        const std::string path = std::string(TEST_PROJECT "/drive/models/") + name + ".json";
+        return drive::parse_model(base::read_file(path, drive::most_model_bytes), path);
+    };
+    const std::vector<double> one{1.0};
+    std::vector<std::uint64_t> hashes;
+    const auto hash = [&](const char* name, std::size_t taps, std::size_t steps) {
+        const drive::RealtimeModel design(model(name), Writing::delta, Memory{taps}, 0.001);
+        hashes.push_back(qemu::step_model_here({"ring_plain_f32", &design.design(), one, steps}).hash);
+    };
+    // Of whole orders there is one length; more than the firmware has room for at once, in two runs.
+    hash("fopdt", 1, 6228);
+    hash("sopdt", 2, 6064);
+    bench::Models wanted = host_only({"ringdelta_plain_f32"});
+    for (std::size_t taps = 10; taps < 29; ++taps) {
+        hash("niopdt", taps, 6000);
+        wanted.lengths.emplace_back(Memory{taps});
+    }
+    const PretendStepper m7("ring_plain_f32", 300, hashes, base::machines[0]);
+    hashes[20] ^= 1;  // of 28 taps
+    const PretendStepper m4("ring_plain_f32", 600, hashes, base::machines[1]);
+    const base::Scratch folder;
+    std::ofstream(folder.file("qemu")) << "#!/bin/sh\necho QEMU emulator version 7.2.22\n";
+    std::filesystem::permissions(folder.file("qemu"), std::filesystem::perms::owner_all);
+    setenv("GLSUM_QEMU", folder.file("qemu").c_str(), 1);
+    wanted.targets = {"m7", "m4"};
+    wanted.boards = {m7.board, m4.board};
+    const bench::Study study = measured(wanted);
+    unsetenv("GLSUM_QEMU");
+    EXPECT_EQ(m7.runs(), (std::vector<int>{20, 1}));
+    EXPECT_EQ(m4.runs(), m7.runs());
+    EXPECT_EQ(study.wrong, 1U);
+    ASSERT_EQ(study.rows.size(), 21U * 4U);
+    const char* const names[] = {"/m7:count", "/m7:stm32f746-itcm", "/m4:count", "/m4:cortex-m4-zerowait"};
+    for (std::size_t i = 0; i < study.rows.size(); ++i) {
+        const Json& row = study.rows[i];
+        const auto name = row.at("name").get<std::string>();
+        const std::string design = i / 4 == 0   ? "fopdt/ringdelta_plain_f32/taps:1"
+                                   : i / 4 == 1 ? "sopdt/ringdelta_plain_f32/taps:2"
+                                                : fmt::format("niopdt/ringdelta_plain_f32/taps:{}", 8 + i / 4);
+        EXPECT_EQ(name, "drive/" + design + names[i % 4]);
+        EXPECT_EQ(row.at("instructions_per_sample"), 100.0) << name;
+        EXPECT_EQ(row.contains("error_message"), i / 4 == 20 && i % 4 >= 2) << name;
+        const double clock = i % 4 < 2 ? 216e6 : 24e6;
+        EXPECT_DOUBLE_EQ(row.at("instructions_share_of_period").get<double>(), 100.0 / (0.001 * clock)) << name;
+        ASSERT_EQ(row.contains("model_cycles_per_sample"), i % 2 == 1) << name;
+        if (i % 2 == 1) {
+            const double cycles = i % 4 == 1 ? 300.0 : 600.0;
+            EXPECT_DOUBLE_EQ(row.at("model_cycles_per_sample").get<double>(), cycles) << name;
+            EXPECT_DOUBLE_EQ(row.at("real_time").get<double>(), cycles / clock * 1e9) << name;
+        }
+    }
+    EXPECT_THAT(study.text, testing::HasSubstr("\n  M7: instructions a step on the emulated core"));
+    EXPECT_THAT(study.text, testing::HasSubstr("the cycles of a step on stm32f746-itcm"));
+    EXPECT_THAT(study.text, testing::HasSubstr("the cycles of a step on cortex-m4-zerowait"));
+    // The program that was run is that which steps models.
+    EXPECT_EQ(study.context.at("elf_sha256"), base::sha256_of(qemu::model_elf(m7.board.board)));
 }
 
 // T (y_k - y_(k-1))/h + y_k = 1 is y_k = 1 - (1 + h/T)^-(k-d); the exact answer is 1 - exp(-(t - 1.2279)/T).

@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <set>
 
 #include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "bench/choose/brute_force.hpp"
 #include "bench/choose/earlier.hpp"
 #include "bench/choose/question.hpp"
@@ -17,6 +21,7 @@
 #include "glsum/bound.hpp"
 #include "glsum/design/modes.hpp"
 #include "glsum/registry.hpp"
+#include "tests/choose/pretend_board.hpp"
 
 namespace {
 
@@ -340,6 +345,86 @@ TEST(Question, OneKernelWithoutABoardHasItsErrorAndNoCost) {
                       [&] { (void)choose::measure_one(question, "mirrordelta_plain_f32", 20, std::nullopt); })
                   .find("mirrordelta_plain_f32 with 20 taps: the order is not in (-2, 2]"),
               std::string::npos);
+}
+
+TEST(Question, TargetsHaveTheirWords) {
+    using choose::Target;
+    for (const auto& [word, target] : {std::pair("host", Target::host), {"m7", Target::m7}, {"m4", Target::m4}}) {
+        EXPECT_EQ(choose::target_called(word), target);
+        EXPECT_EQ(choose::word_of(target), word);
+    }
+    EXPECT_FALSE(choose::target_called("m5"));
+    EXPECT_EQ(choose::machine_of(Target::host), nullptr);
+    EXPECT_EQ(choose::machine_of(Target::m4), &base::machines[1]);
+}
+
+// Errors of the records here, costs of a board that is pretended: where each tap costs as much, the shortest length
+// that meets the error is chosen.
+TEST(Question, IsAnsweredByErrorsHereAndCostsThere) {
+    const test::PretendBoard pretended(0.5, 60, 2020);
+    for (std::size_t taps = 1; taps <= 60; ++taps) {
+        pretended.knows(taps);
+    }
+    const base::Scratch folder;
+    std::ofstream(folder.file("qemu")) << "#!/bin/sh\necho QEMU emulator version 7.2.22\n";
+    std::filesystem::permissions(folder.file("qemu"), std::filesystem::perms::owner_all);
+    setenv("GLSUM_QEMU", folder.file("qemu").c_str(), 1);
+    Question question = small();
+    question.kernels = {"ring_plain_f32"};
+    MeasuredErrors errors(0.5, choose::make_records(question.conditions, 1));
+    question.max_error = errors.error("ring_plain_f32", 20).error;
+    std::size_t shortest = 1;
+    while (!errors.meets("ring_plain_f32", shortest, question.max_error)) {
+        ++shortest;
+    }
+    for (const char* core : {"", "m7-ideal"}) {
+        question.core = core;
+        const double tap = *core == '\0' ? 10.0 : 20.0;
+        const choose::Answer found = choose::answer(question, pretended.board());
+        ASSERT_TRUE(found.choice.chosen);
+        EXPECT_EQ(found.choice.chosen->taps, shortest);
+        EXPECT_DOUBLE_EQ(found.choice.chosen->cost.value, tap * static_cast<double>(shortest));
+        EXPECT_EQ(found.unit, *core == '\0' ? "instructions" : "model cycles");
+        EXPECT_EQ(found.limited_unit, *core == '\0' ? "instructions" : "model cycles, upper end of the band");
+        ASSERT_EQ(found.notes.size(), 3U);
+        EXPECT_EQ(found.notes[1], *core == '\0' ? "counted on the emulated Cortex-M7; instructions are not cycles"
+                                                : "cycles: modelled for m7-ideal, on the emulated Cortex-M7");
+        EXPECT_NE(found.notes[2].find(" costs measured, 0 taken from the file"), std::string::npos) << found.notes[2];
+        EXPECT_EQ(found.context.at("qemu_version"), "QEMU emulator version 7.2.22");
+        // Of one length alone, whatever the limits.
+        const choose::Answer one = choose::measure_one(question, "ring_plain_f32", 7, pretended.board());
+        ASSERT_TRUE(one.choice.chosen);
+        EXPECT_DOUBLE_EQ(one.choice.chosen->cost.value, 7.0 * tap);
+        EXPECT_DOUBLE_EQ(one.choice.chosen->cost.limited, *core == '\0' ? 70.0 : 168.0);
+        EXPECT_EQ(one.choice.chosen->cost.fault, "");
+        EXPECT_EQ(one.unit, found.unit);
+        EXPECT_EQ(one.limited_unit, found.limited_unit);
+    }
+    unsetenv("GLSUM_QEMU");
+}
+
+// Of a derivative: kernels whose weights change from sample to sample hold no filter, and are said to be left out.
+TEST(Question, OfADerivativeSaysWhichKernelsAreLeftOut) {
+    Question question = small();
+    question.target = choose::Target::host;
+    question.goal = glsum::design::DerivativeGoal{0.5, 0.001, glsum::design::Band{0.5, 80.0}};
+    question.by = choose::FilterDesign::oustaloup;
+    question.max_error = 0.05;
+    question.kernels = {"nested_plain_f32", "mirrorhold_plain_f32", "nested_plain_q31"};
+    const choose::Answer found = choose::answer(question, std::nullopt);
+    EXPECT_FALSE(found.choice.chosen);
+    EXPECT_TRUE(found.choice.kernels.empty());
+    EXPECT_TRUE(found.would_do.empty());
+    const auto says = [&](const std::string& what) {
+        return std::count_if(found.notes.begin(), found.notes.end(),
+                             [&](const std::string& note) { return note.starts_with(what); });
+    };
+    EXPECT_EQ(says("left out, since its blocks' weights change from sample to sample: nested_plain_f32, "
+                   "nested_plain_q31"),
+              1);
+    EXPECT_EQ(says("left out, since the weights of its guessed tail change with the record: mirrorhold_plain_f32"), 1);
+    EXPECT_EQ(says(std::string("errors: of ") + choose::text_of(question.by) + " for each length"), 1);
+    EXPECT_EQ(says("host times: taken in this run alone"), 1);
 }
 
 bench::Json row(const std::string& name, std::initializer_list<std::pair<const char*, double>> fields) {

@@ -14,6 +14,7 @@
 #include "bench/sweep/designs.hpp"
 #include "bench/sweep/signals.hpp"
 #include "bench/target/target_rows.hpp"
+#include "tests/choose/pretend_board.hpp"
 
 namespace {
 
@@ -90,6 +91,49 @@ TEST(OnTarget, OtherBitsAreAFault) {
     ASSERT_EQ(found.size(), 2U);
     EXPECT_EQ(found[0].fault, "");
     EXPECT_EQ(found[1].fault, bench::other_bits);
+}
+
+// Of a pretended board, so everywhere: what is ranked and what is limited, and what has none because it is wrong.
+TEST(OnTarget, CostsAreInstructionsOrTheCyclesOfACoreAndItsBand) {
+    const test::PretendBoard pretended(0.5, 60, 7);
+    pretended.knows(3);
+    pretended.knows(40);
+    for (const char* core : {"", "stm32f746-flash"}) {
+        choose::OnTarget costs(pretended.board(), 0.5, 60, 7, 1, core);
+        const auto found = costs.costs({{"ring_plain_f32", 40}, {"ring_plain_f32", 3}, {"ring_plain_f32", 40}});
+        ASSERT_EQ(found.size(), 3U);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const double taps = i == 1 ? 3.0 : 40.0;
+            EXPECT_EQ(found[i].fault, "");
+            EXPECT_DOUBLE_EQ(found[i].value, taps * (core[0] != '\0' ? 20.0 : 10.0));
+            EXPECT_DOUBLE_EQ(found[i].limited, taps * (core[0] != '\0' ? 24.0 : 10.0));
+            EXPECT_EQ(found[i].bytes, taps * 12.0);
+            EXPECT_EQ(found[i].noise, 0.0);
+        }
+        EXPECT_EQ(costs.measured(), 2U);
+        (void)costs.costs({{"ring_plain_f32", 3}});  // known
+        EXPECT_EQ(costs.measured(), 2U);
+        pretended.knows(5);
+        (void)costs.costs({{"ring_plain_f32", 3}, {"ring_plain_f32", 5}});
+        EXPECT_EQ(costs.measured(), 3U);
+        EXPECT_EQ(costs.remembered(), 0U);
+        EXPECT_TRUE(costs.exact());
+    }
+}
+
+TEST(OnTarget, WhatIsRefusedOrComputesOtherBitsHasAFault) {
+    const test::PretendBoard pretended(0.5, 60, 7);
+    pretended.knows(3);
+    pretended.computes_other_bits(4);
+    pretended.refuses(5, glsum::Status::order_out_of_range);
+    choose::OnTarget costs(pretended.board(), 0.5, 60, 7, 1);
+    const auto found = costs.costs({{"ring_plain_f32", 3}, {"ring_plain_f32", 4}, {"ring_plain_f32", 5}});
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].fault, "");
+    EXPECT_EQ(found[1].fault, "the target's outputs differ from the host's");
+    EXPECT_EQ(found[2].fault, "the order is not in (-2, 2]");
+    EXPECT_EQ(costs.costs({{"ring_plain_f32", 5}}).front().fault, found[2].fault);
+    EXPECT_EQ(costs.measured(), 3U);
 }
 
 }  // namespace

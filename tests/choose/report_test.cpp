@@ -259,6 +259,18 @@ TEST(ChoiceTable, OfTheHostAndOfInstructionsHasTheirWords) {
             " instead of 0.125 (times 1.1): ring_plain_f32 with 50 taps, error 0.138, 400 instructions, 408 bytes\n"),
         std::string::npos)
         << missed;
+    // Of another limit, by the name of its option: whole cycles, instructions or bytes, upwards.
+    const auto misses = [&](const char* limit, const char* unit) {
+        Answer other = answer;
+        other.unit = unit;
+        other.choice.relaxed = {{limit, 400.0, 440.25, candidate("ring_plain_f32", 50, 0.1, 440.25, 440.25, 408.0)}};
+        return choose::nearest_miss(other);
+    };
+    const std::string by = "nothing fits; nearest miss: ring_plain_f32 with 50 taps misses ";
+    EXPECT_EQ(misses("max_cost", "instructions"),
+              by + "--max-instructions by 10.1 %, with --max-instructions 441 it fits");
+    EXPECT_EQ(misses("max_cost", "model cycles"), by + "--max-cycles by 10.1 %, with --max-cycles 441 it fits");
+    EXPECT_EQ(misses("max_bytes", "model cycles"), by + "--max-bytes by 10.1 %, with --max-bytes 441 it fits");
     // A limit that may be typed: three digits, upwards; what has no more stays.
     const auto limit = [&](double to) {
         answer.choice.relaxed.front().to = to;

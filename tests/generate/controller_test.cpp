@@ -1,14 +1,18 @@
 // Generated controllers: what their tables make of sines, and the certificate of a loop with a plant.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/failure.hpp"
+#include "base/scratch.hpp"
 #include "bench/generate/header.hpp"
 #include "bench/steppers/controller/certificate.hpp"
 #include "bench/steppers/controller/controller_header.hpp"
@@ -17,9 +21,13 @@
 #include "bench/steppers/controller/written.hpp"
 #include "bench/steppers/stepper/verify.hpp"
 #include "bench/target/target_rows.hpp"
+#include "bench/verify/target_program.hpp"
 #include "drive/tune/margins.hpp"
 #include "tests/drive/plants.hpp"
 #include "tests/generate/board_here.hpp"
+#include "tests/generate/pretend_compiler.hpp"
+#include "tests/qemu/made_emulator.hpp"
+#include "tests/qemu/made_program.hpp"
 
 namespace {
 
@@ -281,6 +289,129 @@ TEST(ControllerOnTarget, BitsCyclesAndBytes) {
                                                  bench::timing_request(TEST_CORES, {"m7-ideal"}));
     EXPECT_EQ(ideal.at(0).cost.instructions, all[0].cost.instructions);
     EXPECT_NEAR(ideal.at(0).cost.cycles, 0.5 * all[0].cost.instructions, 0.5);
+}
+
+TEST(ControllerSpec, OfWholeOrdersHasTheSameGains) {
+    ControllerSpec spec = spec_of();
+    spec.controller.high = 3.0;
+    const ControllerSpec whole = generate::whole_orders(spec);
+    EXPECT_EQ(whole.controller.gains.integral_order, 1.0);
+    EXPECT_EQ(whole.controller.gains.derivative_order, 1.0);
+    EXPECT_EQ(whole.controller.gains.ki, 0.5);
+    EXPECT_EQ(whole.controller.gains.kd, 0.02);
+    EXPECT_EQ(whole.controller.high, 3.0);
+}
+
+// What the target is to run, compiled and run here: of each stepper what was wrong, its bytes of state and of tables,
+// and the calls that are counted.
+TEST(TargetSource, AnswersThreeNumbersAStepperAndMakesItsCalls) {
+    ASSERT_EQ(generate::answers_a_stepper, 3U);
+    const base::Scratch folder;
+    const ControllerSpec spec = spec_of();
+    const ControllerSpec whole = generate::whole_orders(spec);
+    std::string other = generate::make_controller_header(spec, "other", "none", {});
+    other.replace(other.find("kp = 0.3F"), 9, "kp = 0.4F");
+    const std::vector<generate::WrittenStepper> steppers = {
+        generate::written(spec, "other", other),
+        generate::written(whole, "whole", generate::make_controller_header(whole, "whole", "none", {}))};
+    for (const generate::WrittenStepper& stepper : steppers) {
+        generate::write_file(folder.file((stepper.prefix + ".h").c_str()), stepper.text);
+    }
+    generate::write_file(folder.file("run.c"), generate::target_source(steppers) + R"(#include <stdio.h>
+static unsigned same = 1U;
+void glsum_make_calls(unsigned taps, unsigned software_double, void (*make)(unsigned call))
+{
+    unsigned call;
+    other_f32_instance copy;
+    memcpy(&copy, &line_other, sizeof copy);
+    printf("calls %u %u\n", taps, software_double);
+    for (call = 0U; call < 5000U; ++call) {
+        make(call);
+        (void)other_step_f32(&copy, input0_other[call % 4000U], input1_other[call % 4000U]);
+    }
+    same = same && (make != calls[0] || memcmp(&copy, &line_other, sizeof copy) == 0);
+}
+int main(void)
+{
+    unsigned number;
+    for (number = 0U; number < glsum_verified_count; ++number) {
+        printf("%u %u\n", number, glsum_verify(number));
+    }
+    printf("same %u\n", same);
+    printf("%u %u\n", (unsigned)sizeof(other_f32_instance), (unsigned)sizeof(whole_f32_instance));
+    return 0;
+}
+)");
+    const std::string program = folder.file("run").string();
+    generate::compile("cc -std=c99 -O1 -w '" + folder.file("run.c").string() + "' -lm -o '" + program + "' && '" +
+                          program + "' >'" + folder.file("said").string() + "'",
+                      "cc");
+    std::ifstream said(folder.file("said"));
+    std::string text((std::istreambuf_iterator<char>(said)), {});
+    const std::size_t sizes = text.rfind('\n', text.size() - 2) + 1;
+    const std::size_t space = text.find(' ', sizes);
+    const std::string of_other = text.substr(sizes, space - sizes);
+    const std::string of_whole = text.substr(space + 1, text.size() - space - 2);
+    // Those calls are the header's own steps over the record, again and again. The tables' words are of the orders: the
+    // integral's 15 modes of 31 taps and the derivative's 9, of whole orders one sum's.
+    EXPECT_EQ(text.substr(0, sizes), "calls 32 0\n0 1\n1 " + of_other + "\n2 " + std::to_string(4 * (2 * 15 + 2 * 9)) +
+                                         "\ncalls 32 0\n3 0\n4 " + of_whole + "\n5 4\nsame 1\n");
+}
+
+// From a board and a compiler that are pretended: what each stepper answered, its counts and its cycles.
+TEST(ControllerOnTarget, EachStepperHasItsAnswersCountsAndCycles) {
+    const test::PretendCompiler compiler;
+    compiler.flags("-mcpu=cortex-m7 -O3");
+    test::MadeElf made = test::program();
+    made.symbols.push_back({"count_own", 0x701, 0x60, true});
+    made.symbols.push_back({"count_other", 0x781, 0x1C, true});
+    made.write(compiler.linked());
+    qemu::Board board = compiler.board;
+    board.cores = TEST_CORES;
+    std::string losses;
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        losses += " 0";
+    }
+    // Steady are the 32 steps behind as many others.
+    board.emulator = test::made_emulator(compiler.scratch, fmt::format(R"sh(
+{{ echo "calls 1792 1 100 1 1 1"; echo "calls 1792 32 99 9 9 9"; echo "calls 1792 32 45 5 4 2"
+   echo "calls 1920 1 200 1 1 1"; echo "calls 1920 32 99 9 9 9"; echo "calls 1920 32 380 5 6 2"; echo end; }} >"$(of out)"
+{{ echo "calls 1 1792 100 core 3 2 2 2{0} 0"; echo "calls 34 1792 9 core 3 180 150 190{0} 0"; echo end
+   echo "calls 1 1920 200 core 3 2 2 2{0} 0"; echo "calls 34 1920 9 core 3 1700 1600 1800{0} 0"; echo end; }} >"$(of times)"
+echo row 0 0; echo row 1 196; echo row 2 192; echo row 3 17; echo row 4 48; echo row 5 4
+)sh",
+                                                                       losses));
+    const auto stepper = [](const char* prefix, std::size_t steps) {
+        return generate::WrittenStepper{.prefix = prefix,
+                                        .text = "",
+                                        .format = "f32",
+                                        .inputs = {std::vector<std::uint32_t>(steps)},
+                                        .expected = std::vector<std::uint32_t>(steps),
+                                        .tables = {}};
+    };
+    const auto found = generate::check_on_target({stepper("own", 400), stepper("other", 300)}, board,
+                                                 bench::timing_request(TEST_CORES, {"m7-ideal"}));
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_TRUE(found[0].bits.good());
+    EXPECT_EQ(found[1].bits.first_wrong, 17U);
+    EXPECT_EQ(found[0].bits.steps, 400U);
+    EXPECT_EQ(found[1].bits.steps, 300U);
+    EXPECT_EQ(found[0].bits.where, "on the emulated Cortex-M7");
+    EXPECT_EQ(found[0].cost.where, "emulated Cortex-M7");
+    EXPECT_EQ(found[0].cost.state_bytes, 196U);
+    EXPECT_EQ(found[0].cost.table_bytes, 192U);
+    EXPECT_EQ(found[0].cost.code_bytes, 0x60U);
+    EXPECT_EQ(found[1].cost.state_bytes, 48U);
+    EXPECT_EQ(found[1].cost.table_bytes, 4U);
+    EXPECT_EQ(found[1].cost.code_bytes, 0x1CU);
+    EXPECT_DOUBLE_EQ(found[0].cost.instructions, 45.0);
+    EXPECT_DOUBLE_EQ(found[1].cost.instructions, 380.0);
+    EXPECT_DOUBLE_EQ(found[0].cost.cycles, 90.0);
+    EXPECT_DOUBLE_EQ(found[0].cost.low, 75.0);
+    EXPECT_DOUBLE_EQ(found[0].cost.high, 95.0);
+    EXPECT_DOUBLE_EQ(found[1].cost.cycles, 850.0);
+    // The folder that is compiled has each header; the program counts its own step.
+    EXPECT_NE(compiler.calls().find("counted.c"), std::string::npos);
 }
 
 TEST(ControllerReport, HasTheCost) {

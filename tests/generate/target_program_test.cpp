@@ -4,13 +4,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <functional>
 #include <iterator>
 #include <string>
+#include <vector>
 
 #include "base/failure.hpp"
+#include "tests/generate/pretend_compiler.hpp"
+#include "tests/qemu/made_emulator.hpp"
+#include "tests/qemu/made_program.hpp"
 
 namespace {
 
@@ -20,33 +23,16 @@ using testing::Not;
 
 class TargetProgram : public testing::Test {
 protected:
-    void SetUp() override {
-        path_ = std::getenv("PATH");
-        setenv("PATH", ((scratch_.file("bin")).string() + ":" + path_).c_str(), 1);
-        std::filesystem::create_directories(scratch_.file("bin"));
-        std::filesystem::create_directories(scratch_.file("board"));
-        board_.measure_elf = scratch_.file("board") / "measure.elf";
-        board_.emulator.command = scratch_.file("board") / "emulate";
-        for (const char* compiler : {"arm-none-eabi-gcc", "arm-none-eabi-g++"}) {
-            const std::filesystem::path file = scratch_.file("bin") / compiler;
-            std::ofstream(file) << "#!/bin/sh\necho \"$*\" >>'" << scratch_.file("calls").string() << "'\n";
-            std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-        }
-    }
-    void TearDown() override { setenv("PATH", path_.c_str(), 1); }
-    void flags(const std::string& flags) {
-        std::ofstream(board_.measure_elf.parent_path() / "build_info.json") << "{\"flags\": \"" << flags << "\"}";
-    }
+    void flags(const std::string& flags) const { compiler_.flags(flags); }
     // What both compilers were called with, a line each.
     std::string linked() {
         (void)generate::link_for_target("int x;\n", board_, scratch_);
-        std::ifstream in(scratch_.file("calls"));
-        return {std::istreambuf_iterator<char>(in), {}};
+        return compiler_.calls();
     }
 
-    base::Scratch scratch_;
-    qemu::Board board_;
-    std::string path_;
+    test::PretendCompiler compiler_;
+    qemu::Board& board_ = compiler_.board;
+    base::Scratch& scratch_ = compiler_.scratch;
 };
 
 void expect_failure(const std::function<void()>& act, Exit status, const std::string& words) {
@@ -97,6 +83,67 @@ TEST_F(TargetProgram, ACompilerThatRefusesIsQuoted) {
     EXPECT_NO_THROW(generate::compile("echo it is good", "the compiler"));
     expect_failure([&] { generate::write_file(scratch_.file("none") / "file.c", "x"); }, Exit::bad_input,
                    "cannot write");
+}
+
+// A program with two functions to be watched, and an emulator that says `said`.
+class TargetRun : public testing::Test {
+protected:
+    void SetUp() override {
+        test::MadeElf made = test::program();
+        made.symbols.push_back({"count_k0", 0x701, 0x10, true});
+        made.symbols.push_back({"count_k1", 0x711, 0x10, true});
+        made.write(folder_.file("verify.elf"));
+        timing_.cores = {{"m7-ideal", "", ""}};
+    }
+    generate::TargetRun run(const std::string& said, std::size_t answers = 2) {
+        board_.emulator = test::made_emulator(folder_, R"sh(cp "$(of watch)" seen_watch
+cp "$(of marks)" seen_marks
+cp "$(of timing)" seen_timing
+{ echo "calls 1792 5 10 1 2 3"; echo "calls 1808 7 20 1 1 1"; echo end; } >"$(of out)"
+{ echo "unknown 600 9"; echo end; echo "unknown 700 9"; echo end; } >"$(of times)"
+)sh" + said);
+        return generate::run_on_target(folder_.file("verify.elf"), {"count_k0", "count_k1"}, answers, board_, timing_,
+                                       folder_, [&] { ++done_; });
+    }
+    [[nodiscard]] std::string seen(const char* name) const {
+        std::ifstream in(folder_.file(name));
+        return {std::istreambuf_iterator<char>(in), {}};
+    }
+
+    base::Scratch folder_;
+    qemu::Board board_;
+    timing::TimingRequest timing_;
+    int done_ = 0;
+};
+
+TEST_F(TargetRun, HasTheAnswersCountsAndTimesOfEachFunction) {
+    const generate::TargetRun found = run("echo row 0 7; echo row 1 4294967295; echo end 2\n");
+    EXPECT_EQ(found.answers, (std::vector<std::uint32_t>{7, 0xFFFFFFFF}));
+    EXPECT_EQ(found.entries, (std::vector<std::uint32_t>{0x700, 0x710}));
+    EXPECT_EQ(done_, 2);
+    ASSERT_EQ(found.counts.runs.size(), 2U);
+    EXPECT_EQ(found.counts.runs[1].entry, 0x710U);
+    EXPECT_EQ(found.counts.runs[1].calls, 7U);
+    EXPECT_EQ(found.counts.runs[1].counts.instructions, 20U);
+    ASSERT_EQ(found.timings.size(), 2U);
+    EXPECT_EQ(found.timings[0].unknown.count(600), 1U);
+    EXPECT_EQ(found.timings[1].unknown.count(700), 1U);
+    // What is watched, between which marks, on which core.
+    EXPECT_EQ(seen("seen_watch"), "1792\n1808\n");
+    EXPECT_EQ(seen("seen_marks"), "1536 1552 1568\n");
+    EXPECT_THAT(seen("seen_timing"), HasSubstr("core m7-ideal "));
+}
+
+TEST_F(TargetRun, TakesAnswersInTurnAndNothingElse) {
+    const generate::TargetRun found =
+        run("echo hello; echo row; echo row 1 5; echo row 0; echo row 0 x; echo line 0 3; echo row 0 4; echo row 0 6\n"
+            "echo row 1 8; echo row 2 9\n");
+    EXPECT_EQ(found.answers, (std::vector<std::uint32_t>{4, 8}));
+    EXPECT_EQ(done_, 2);
+    expect_failure([&] { (void)run("echo row 0 4; echo row 2 5\n"); }, Exit::check_failed,
+                   "the firmware gave 1 answers of 2 and stopped");
+    expect_failure([&] { (void)run("echo row 0 4; echo row 1 5\n", 3); }, Exit::check_failed,
+                   "the firmware gave 2 answers of 3 and stopped");
 }
 
 }  // namespace

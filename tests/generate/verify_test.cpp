@@ -8,6 +8,9 @@
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
+#include "bench/target/target_rows.hpp"
+#include "tests/choose/pretend_board.hpp"
+#include "tests/generate/pretend_compiler.hpp"
 
 namespace {
 
@@ -131,6 +134,56 @@ TEST(Verified, AFolderWithoutFlagsIsNamed) {
         EXPECT_EQ(failure.status(), glsum::Exit::missing);
         EXPECT_THAT(failure.what(), HasSubstr("build_info.json: expected the flags of the firmware"));
     }
+}
+
+// From a board and a compiler that are pretended: of each header its own answer, counts and cycles, beside its
+// kernel's.
+TEST(Verified, EachHeaderIsHeldAgainstItsKernel) {
+    const test::PretendCompiler compiler;
+    test::MadeElf made = test::program();
+    made.symbols.push_back({"count_k0", 0x701, 0x10, true});
+    made.symbols.push_back({"count_k1", 0x711, 0x10, true});
+    made.write(compiler.linked());
+    std::string losses;
+    for (std::size_t e = 0; e < timing::effect_count; ++e) {
+        losses += " 0";
+    }
+    // The past of 5 taps and that of 40 fill; of a turn of 32 and of 40, and of two calls before it, the times.
+    const auto said = [&](const base::Machine& machine) {
+        const test::PretendBoard pretended(0.5, 60, 7, 20, 24, machine);
+        pretended.knows(5);
+        pretended.knows(40);
+        pretended.runs(fmt::format(R"sh(
+{{ echo "calls 1792 1 100 1 1 1"; echo "calls 1792 5 99 9 9 9"; echo "calls 1792 32 45 5 4 2"
+   echo "calls 1808 1 200 1 1 1"; echo "calls 1808 40 99 9 9 9"; echo "calls 1808 40 380 5 6 2"; echo end; }} >"$(of out)"
+{{ echo "calls 1 1792 100 core 1 2{0} 0"; echo "calls 34 1792 9 core 1 180{0} 0"; echo end
+   echo "calls 1 1808 200 core 1 2{0} 0"; echo "calls 42 1808 9 core 1 1700{0} 0"; echo end; }} >"$(of times)"
+echo row 0 0; echo row 1 9
+)sh",
+                                   losses));
+        const auto spec = [](std::size_t taps) {
+            return generate::Spec{
+                .kernel = "ring_plain_f32", .order = 0.5, .taps = taps, .step_s = {}, .provenance = {}};
+        };
+        return generate::verify_on_target({spec(5), spec(40)}, pretended.board(),
+                                          bench::timing_request(TEST_CORES, {"m7-ideal"}));
+    };
+    const std::vector<Verified> found = said(base::machines[0]);
+    ASSERT_EQ(found.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(found[i].kernel, "ring_plain_f32");
+        EXPECT_EQ(found[i].taps, i == 0 ? 5U : 40U);
+        EXPECT_EQ(found[i].first_wrong, i == 0 ? 0U : 9U);
+        EXPECT_DOUBLE_EQ(found[i].kernel_instructions, i == 0 ? 50.0 : 400.0);
+        EXPECT_DOUBLE_EQ(found[i].header_instructions, i == 0 ? 45.0 : 380.0);
+        EXPECT_DOUBLE_EQ(found[i].kernel_stores, 1.0);
+        EXPECT_DOUBLE_EQ(found[i].header_stores, i == 0 ? 4.0 : 6.0);
+        EXPECT_DOUBLE_EQ(found[i].kernel_cycles, i == 0 ? 100.0 : 800.0);
+        EXPECT_DOUBLE_EQ(found[i].header_cycles, i == 0 ? 90.0 : 850.0);
+        EXPECT_FALSE(found[i].single_issue);
+    }
+    // One instruction a cycle: where a product waits, a tenth more is none too many.
+    EXPECT_TRUE(said(base::machines[1]).at(1).single_issue);
 }
 
 }  // namespace

@@ -41,9 +41,9 @@ void MadeElf::write(const std::filesystem::path& path) const {
     }
     std::string body;
     std::vector<Elf32_Shdr> headers(1);
-    const auto add = [&](Elf32_Word type, const std::string& bytes) -> Elf32_Shdr& {
+    const auto add = [&](Elf32_Word kind, const std::string& bytes) -> Elf32_Shdr& {
         Elf32_Shdr header{};
-        header.sh_type = type;
+        header.sh_type = kind;
         header.sh_offset = static_cast<Elf32_Off>(sizeof(Elf32_Ehdr) + body.size());
         header.sh_size = static_cast<Elf32_Word>(bytes.size());
         header.sh_addralign = 4;

@@ -24,13 +24,15 @@ inline constexpr std::uint32_t ring = 0x400;
 inline constexpr std::uint32_t block = 0x440;
 inline constexpr std::uint32_t block_answer = 0x480;
 
-// A program with two kernels, one in halves; marks and loops.
-inline MadeElf program() {
-    const std::string names = "ring_plain_f32block_plain_q31";
+// A program with two kernels, one in halves; marks and loops. The first may be another.
+inline MadeElf program(const std::string& first = "ring_plain_f32") {
+    const std::string names = first + "block_plain_q31";
+    const auto length = static_cast<std::uint32_t>(first.size());
     std::vector<std::uint8_t> text(names.begin(), names.end());
     MadeElf made;
-    made.sections = {{0x1000, text},
-                     {0x2000, bytes_of({0x1000, 14, ring + 1, 0, 0x100E, 15, block + 1, block_answer + 1, 2})}};
+    made.sections = {
+        {0x1000, text},
+        {0x2000, bytes_of({0x1000, length, ring + 1, 0, 0x1000 + length, 15, block + 1, block_answer + 1, 2})}};
     made.symbols = {{"glsum_watched", 0x2000, 32},
                     {"glsum_watched_count", 0x2020, 4},
                     {"glsum_mark_row", 0x601, 2, true},
