@@ -168,7 +168,7 @@ TEST(Fit, OfAnEndBeginsAtTheFormsNumbers) {
         record.input.push_back(i / 50);
         record.output.push_back(0.0);
     }
-    const drive::Model plant = drive::make_fopdt(2.0, 1.0, 0.0);
+    const drive::Model plant = drive::make_fopdt(2.0, 1.0, 0.5);
     for (const auto& [name, values] :
          {std::pair<const char*, std::vector<double>>("input_saturation", {2.6}), {"end_stop", {5.2, 0.0}}}) {
         const gap::Effect& end = gap::effect_named(name);
@@ -183,10 +183,12 @@ TEST(Fit, OfAnEndBeginsAtTheFormsNumbers) {
         gap::Candidate astray = gap::fit(study, {}, {}, nullptr, {0, 1, 0});
         astray.base[0].value = -0.4;
         astray.base[1].value = 30.0;
+        astray.base[2].value = 5.6;  // a step late, which looks like an offset
         astray.own[0][1].value = 9.0;
-        const gap::Candidate found = gap::fit(study, {&end}, astray, nullptr);
+        const gap::Candidate found = gap::fit(study, {&end}, astray, nullptr, {4, 1, 9});
         EXPECT_NEAR(found.lasting[0][0].value, values[0], 0.01) << name;
         EXPECT_NEAR(found.base[0].value, 2.0, 0.02) << name;
+        EXPECT_NEAR(found.base[2].value, 0.5, 0.02) << name;
         EXPECT_LT(found.cost, 1e-3) << name;
     }
 }
