@@ -161,14 +161,16 @@ TEST(OwnNumbers, AreFittedInEachRecordAndAfreshWhereItIsJudged) {
     // Fitted anew, it stays where it was found.
     gap::Candidate again = gap::fit(rig.study, {&swinging()}, found, nullptr);
     EXPECT_NEAR(phase_in(again, 1).value, phase_in(found, 1).value, 0.02);
-    const Rig other({logged(3, -2.8)}, true);
-    gap::Candidate carried = gap::carried_over(other.study, found, nullptr);
-    EXPECT_EQ(carried.lasting[0][0].value, depth);
-    EXPECT_LT(off_by(phase_in(carried, 0).value, depth, -2.8), 0.1);
-    // It is fitted wherever it is judged, and pays for it as an event's numbers do.
-    EXPECT_EQ(carried.event_parameters(), 1U);
+    for (const double phase_rad : {-2.8, 0.3, 0.5, 2.0}) {
+        const Rig other({logged(3, phase_rad)}, true);
+        gap::Candidate carried = gap::carried_over(other.study, found, nullptr);
+        EXPECT_EQ(carried.lasting[0][0].value, depth);
+        EXPECT_LT(off_by(phase_in(carried, 0).value, depth, phase_rad), 0.1) << phase_rad;
+        // It is fitted wherever it is judged, and pays for it as an event's numbers do.
+        EXPECT_EQ(carried.event_parameters(), 1U);
+    }
     EXPECT_EQ(found.effect_parameters(), 3U);
-    EXPECT_FALSE(carried.has_events());
+    EXPECT_FALSE(found.has_events());
 }
 
 }  // namespace
