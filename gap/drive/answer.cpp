@@ -110,6 +110,7 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     }
     answer.leaves_noise =
         over_noise(validation, answer.chosen().gap_after * output_deviation(validation)) < Evidence::usual_ratio;
+    answer.place_wanted = !answer.leaves_noise && speed_hides_effects(question, study.scales);
     answer.base = answer.model_of(answer.none().trained);
     answer.where = where_of(validation, answer.none(), answer.records);
     say("looking for the next experiment");

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <boost/math/statistics/linear_regression.hpp>
 #include <cmath>
+#include <utility>
 
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/clipped.hpp"
 #include "gap/drive/ends.hpp"
+#include "gap/drive/white_noise.hpp"
 
 namespace gap {
 namespace {
@@ -119,8 +121,7 @@ double held_share_of(const std::vector<Record>& records, double quantum) {
     return held > 0.002 * count ? held / count : 0.0;
 }
 
-// From differences of an order, scaled to the deviation of white noise; of normal noise the median of their sizes is
-// 0.6745 times their deviation, whose square is binomial(2 order, order) times the noise's.
+// From differences of an order.
 double noise_of_differences(const std::vector<Record>& records, double quantum, std::size_t order) {
     std::vector<double> sizes;
     for (const Record& record : records) {
@@ -139,16 +140,7 @@ double noise_of_differences(const std::vector<Record>& records, double quantum, 
             }
         }
     }
-    if (sizes.empty()) {
-        return 0.0;
-    }
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    double binomial = 1.0;
-    for (std::size_t k = 1; k <= order; ++k) {
-        binomial *= static_cast<double>(order + k) / static_cast<double>(k);
-    }
-    return *middle / (0.6745 * std::sqrt(binomial));
+    return noise_by_differences(std::move(sizes), order);
 }
 
 // Of a drive that is sampled some ten times a period, second differences are the swing's: 0.19 of it at nine samples.

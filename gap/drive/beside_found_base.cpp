@@ -124,10 +124,13 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
         Answer answer = answer_to(question, say);
         const bool settled = is_settled(answer.decision);
         const double price = price_of(answer, base->numbers, floor);
-        if (const Described* richer = answer.lag_wanted ? with_one_lag_more(found, *base) : nullptr;
-            richer != nullptr && std::find(asked.begin(), asked.end(), richer) == asked.end()) {
-            asked.push_back(richer);
-        }
+        const auto ask = [&](const Described* other) {
+            if (other != nullptr && std::find(asked.begin(), asked.end(), other) == asked.end()) {
+                asked.push_back(other);
+            }
+        };
+        ask(answer.lag_wanted ? with_one_lag_more(found, *base) : nullptr);
+        ask(answer.place_wanted ? with_a_place(found) : nullptr);
         tried.push_back({base->name, std::move(answer), price});
         if (settled && tried.size() == 1) {
             break;

@@ -9,8 +9,9 @@
 namespace gap {
 
 /// By sample: whether it is one of a stretch that stays at the record's highest or lowest reading while the input goes
-/// further that way, by a twentieth of its range or more. A linear plant would follow; its dead time, a thirtieth of
-/// the record, is no such stretch. None where noise is a tenth of the swing.
+/// further that way, by a twentieth of its range or more. It stays within a fiftieth of the readings' swing, or eight
+/// times their noise if that is more. A linear plant would follow; its dead time, a thirtieth of the record, is no such
+/// stretch. None where eight times the noise reach a tenth of the swing.
 [[nodiscard]] std::vector<char> readings_at_an_end(const Record& record);
 
 /// What counts, less what is clipped or at an end; of a record that would be left without fifty samples all that

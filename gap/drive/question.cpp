@@ -146,6 +146,12 @@ Candidate start_of(const Study& study) {
 
 }  // namespace
 
+bool speed_hides_effects(const Question& question, Scales scales) {
+    const std::size_t listed = list_of(question, scales).size();
+    scales.maybe_speed = false;
+    return list_of(question, scales).size() > listed;
+}
+
 Ground prepare(const Question& question) {
     const std::vector<Record>& train = question.train;
     const bool split = question.validate.empty();

@@ -48,4 +48,8 @@ struct Ground {
 /// The question must outlive the ground, which looks at its records.
 [[nodiscard]] Ground prepare(const Question& question);
 
+/// Whether effects are off the list only because the base is one lag, whose output may be a speed: a speed has no place
+/// where a spring or a weight would pull.
+[[nodiscard]] bool speed_hides_effects(const Question& question, Scales scales);
+
 }  // namespace gap

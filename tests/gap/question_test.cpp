@@ -50,6 +50,26 @@ std::vector<std::string> names_of(const std::vector<const gap::Effect*>& list) {
     return names;
 }
 
+// A spring and a weight pull at a place, which the output of one driven lag need not be.
+TEST(Prepared, ASpeedHidesSpringsWhereThereMayBeOne) {
+    const auto hidden = [](const gap::Question& question) {
+        return gap::speed_hides_effects(question, gap::prepare(question).study.scales);
+    };
+    gap::Question question = question_of(true);
+    EXPECT_TRUE(hidden(question));
+    question.domain = gap::Domain::electric;
+    EXPECT_TRUE(hidden(question));
+    question.domain = gap::Domain::thermal;
+    EXPECT_FALSE(hidden(question));
+    question.domain = gap::Domain::mechanical;
+    EXPECT_TRUE(hidden(question));
+    question.without = {"cubic_stiffness", "gravity_nonlinearity"};
+    EXPECT_FALSE(hidden(question));
+    question.without.clear();
+    question.form = gap::form_of(drive::make_sopdt(2.0, 0.5, 0.0));
+    EXPECT_FALSE(hidden(question));
+}
+
 // A validation in other units would judge a gap of units.
 TEST(Prepared, RefusesRecordsOfOtherUnitsWhicheverTheyAre) {
     for (const bool trained : {true, false}) {

@@ -65,4 +65,17 @@ TEST(WorthAsking, OneLagMoreIsOneNumberMore) {
     EXPECT_THAT(gap::with_one_lag_more(found, found[1]), IsNull());
 }
 
+// One lag of any order may be a speed's; a third one is not what a mass on a spring has.
+TEST(WorthAsking, APlaceHasWhoHasTwoLags) {
+    const std::vector<gap::Described> found = {description("first_order", 0.1, 0.1, 2),
+                                               description("fractional_lag", 0.1, 0.1, 3),
+                                               description("third_order", 0.1, 0.1, 4),
+                                               description("fractional_second_order", 0.2, 0.2, 5),
+                                               description("second_order", 0.3, 0.3, 3)};
+    EXPECT_EQ(gap::with_a_place(found), &found[3]);  // the better of the two
+    const std::vector<gap::Described> without_fractional = {found[0], found[4]};
+    EXPECT_EQ(gap::with_a_place(without_fractional)->name, "second_order");
+    EXPECT_THAT(gap::with_a_place(std::vector(found.begin(), found.begin() + 3)), IsNull());
+}
+
 }  // namespace

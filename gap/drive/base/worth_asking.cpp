@@ -48,4 +48,11 @@ const Described* with_one_lag_more(const std::vector<Described>& found, const De
     return richer == found.end() ? nullptr : &*richer;
 }
 
+const Described* with_a_place(const std::vector<Described>& found) {
+    const auto two_lags = std::find_if(found.begin(), found.end(), [](const Described& one) {
+        return one.name == "second_order" || one.name == "fractional_second_order";
+    });
+    return two_lags == found.end() ? nullptr : &*two_lags;
+}
+
 }  // namespace gap

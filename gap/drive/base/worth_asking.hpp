@@ -15,4 +15,8 @@ namespace gap {
 /// Null: none was found.
 [[nodiscard]] const Described* with_one_lag_more(const std::vector<Described>& found, const Described& than);
 
+/// Of a spring's or a weight's plant, whose mass may be too small to tell its lag from the records: the best of two lags,
+/// whole or fractional, whose output is no speed. Null: there is none.
+[[nodiscard]] const Described* with_a_place(const std::vector<Described>& found);
+
 }  // namespace gap

@@ -2,10 +2,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/failure.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/simulate.hpp"
+#include "gap/drive/white_noise.hpp"
 
 namespace gap {
 
@@ -37,17 +39,12 @@ void add(Scenario& scenario, std::span<const double> values) {
     });
 }
 
-// What differs from sample to sample, as the deviation of one: the median's, which jumps leave alone.
 double noise_of(std::span<const double> residuals) {
     std::vector<double> steps;
     for (std::size_t i = 1; i < residuals.size(); ++i) {
         steps.push_back(std::fabs(residuals[i] - residuals[i - 1]));
     }
-    if (steps.empty()) {
-        return 0.0;
-    }
-    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
-    return 1.4826 / std::sqrt(2.0) * steps[steps.size() / 2];
+    return noise_by_differences(std::move(steps), 1);
 }
 
 // A count is missed at once, so that a jump shows between neighbours: half of its size at least, by the means of as
