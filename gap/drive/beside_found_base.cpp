@@ -135,8 +135,12 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
         if (settled && tried.size() == 1) {
             break;
         }
+        if (i + 1 == asked.size() &&
+            std::ranges::min_element(tried, {}, &Tried::price)->answer.decision.outcome == Outcome::unknown) {
+            ask(simplest_like(found, found.front()));
+        }
     }
-    std::stable_sort(tried.begin(), tried.end(), [](const Tried& a, const Tried& b) { return a.price < b.price; });
+    std::ranges::stable_sort(tried, {}, &Tried::price);
     Answer answer = std::move(tried.front().answer);
     answer.base_name = tried.front().name;
     const std::vector<const Effect*> causes = causes_of(answer);

@@ -78,4 +78,14 @@ TEST(WorthAsking, APlaceHasWhoHasTwoLags) {
     EXPECT_THAT(gap::with_a_place(std::vector(found.begin(), found.begin() + 3)), IsNull());
 }
 
+TEST(WorthAsking, TheSimplestOneIntegratesAsOften) {
+    const std::vector<gap::Described> found = {description("third_order", 0.1, 0.1, 4),
+                                               description("pure_integrator", 0.1, 0.1, 1, 1),
+                                               description("first_order", 9.0, 9.0, 2),
+                                               description("second_order", 0.1, 0.1, 3)};
+    EXPECT_EQ(gap::simplest_like(found, found[0]), &found[2]);
+    EXPECT_EQ(gap::simplest_like(found, found[2]), &found[2]);
+    EXPECT_EQ(gap::simplest_like(found, found[1]), &found[1]);
+}
+
 }  // namespace

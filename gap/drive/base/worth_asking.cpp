@@ -55,4 +55,14 @@ const Described* with_a_place(const std::vector<Described>& found) {
     return two_lags == found.end() ? nullptr : &*two_lags;
 }
 
+const Described* simplest_like(const std::vector<Described>& found, const Described& of) {
+    const Described* simplest = &of;
+    for (const Described& one : found) {
+        if (one.integrators == of.integrators && one.numbers < simplest->numbers) {
+            simplest = &one;
+        }
+    }
+    return simplest;
+}
+
 }  // namespace gap

@@ -15,8 +15,12 @@ namespace gap {
 /// Null: none was found.
 [[nodiscard]] const Described* with_one_lag_more(const std::vector<Described>& found, const Described& than);
 
-/// Of a spring's or a weight's plant, whose mass may be too small to tell its lag from the records: the best of two lags,
-/// whole or fractional, whose output is no speed. Null: there is none.
+/// Of a spring's or a weight's plant, whose mass may be too small to tell its lag from the records: the best of two
+/// lags, whole or fractional, whose output is no speed. Null: there is none.
 [[nodiscard]] const Described* with_a_place(const std::vector<Described>& found);
+
+/// The one of fewest numbers that integrates as often: a richer one has bent to what an effect does, so that the effect
+/// beside it explains less. It may be the same one. \param of  one of them
+[[nodiscard]] const Described* simplest_like(const std::vector<Described>& found, const Described& of);
 
 }  // namespace gap
