@@ -108,9 +108,10 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
         add_intervals(study, answer.ranking[i].trained, fits_by);
         add_intervals(validation, answer.ranking[i].candidate, fits_by);
     }
-    answer.leaves_noise =
-        over_noise(validation, answer.chosen().gap_after * output_deviation(validation)) < Evidence::usual_ratio;
-    answer.place_wanted = !answer.leaves_noise && speed_hides_effects(question, study.scales);
+    constexpr double least_left = 1.5;
+    const double left = over_noise(validation, answer.chosen().gap_after * output_deviation(validation));
+    answer.leaves_noise = left < Evidence::usual_ratio;
+    answer.place_wanted = left > least_left && speed_hides_effects(question, study.scales);
     answer.base = answer.model_of(answer.none().trained);
     answer.where = where_of(validation, answer.none(), answer.records);
     say("looking for the next experiment");

@@ -38,7 +38,7 @@ struct Answer {
     double linear_share = 0.0;            ///< of the validation output's variance, by the best linear description
     std::vector<Described> descriptions;  ///< of a base that was looked for, the best first
     bool lag_wanted = false;              ///< what helps most is linear, beside a fitted base: a richer one has it
-    bool place_wanted = false;            ///< more than noise is left, and `speed_hides_effects`
+    bool place_wanted = false;            ///< half more than the noise is left, and `speed_hides_effects`
     bool leaves_noise = false;            ///< alone: no other base leaves less
 };
 

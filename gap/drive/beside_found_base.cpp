@@ -112,10 +112,12 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
     const double floor = 1e-4;
     std::vector<Tried> tried;
     std::vector<const Described*> asked = worth_asking(found);
+    const Described* place = nullptr;  // where a spring may pull, once it is wanted
     for (std::size_t i = 0; i < asked.size(); ++i) {
         const Described* base = asked[i];
-        // A simpler base may do with less; where noise alone is left, no other one can say more.
-        if (!tried.empty() && tried.front().answer.leaves_noise && base->numbers >= asked.front()->numbers) {
+        // A simpler base may do with less; where noise alone is left, no other one can say more but of a place.
+        if (!tried.empty() && tried.front().answer.leaves_noise && base->numbers >= asked.front()->numbers &&
+            base != place) {
             continue;
         }
         say(fmt::format("the base: {} ({})", base->name, base->meaning));
@@ -130,7 +132,8 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
             }
         };
         ask(answer.lag_wanted ? with_one_lag_more(found, *base) : nullptr);
-        ask(answer.place_wanted ? with_a_place(found) : nullptr);
+        place = answer.place_wanted ? with_a_place(found) : place;
+        ask(place);
         tried.push_back({base->name, std::move(answer), price});
         if (settled && tried.size() == 1) {
             break;

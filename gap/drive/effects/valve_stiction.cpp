@@ -58,7 +58,7 @@ void add(Scenario& scenario, std::span<const double> values) {
 std::vector<double> start(const Clue& clue) {
     std::vector<std::vector<double>> candidates;
     for (double band = 0.01; band <= 1.0; band *= 1.25) {
-        for (const double jump : {0.0, 0.2, 0.4, 0.6, 0.8}) {
+        for (const double jump : {0.0, 0.2, 0.4, 0.6, 0.8, 1.0}) {
             const double range = range_of(clue.scales);
             candidates.push_back({band * range, jump * band * range, softness_of(clue.scales)});
         }
