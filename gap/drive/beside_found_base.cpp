@@ -13,20 +13,6 @@
 namespace gap {
 namespace {
 
-// A base with what was found beside it, and what that is worth: the logarithm of the gap, and a price for each number,
-// of an event in each record that judges.
-struct Tried {
-    std::string name;
-    Answer answer;
-    double price;
-};
-
-double price_of(const Answer& answer, int base_numbers, double floor) {
-    constexpr double each = 0.08;
-    return std::log(std::max(answer.chosen().gap_after, floor)) +
-           each * (base_numbers + static_cast<double>(answer.chosen().candidate.effect_parameters_in_all()));
-}
-
 std::vector<const Effect*> causes_of(const Answer& answer) {
     std::vector<const Effect*> causes;
     for (const std::size_t i : answer.decision.effects) {
@@ -58,12 +44,36 @@ std::string names_of(const std::vector<const Effect*>& causes) {
     return names;
 }
 
-// What the best base does as well when it sees the validation, too, is none of the drive's effects. Of a form that was
-// asked for it may be the form's own misfit, as well in one record as in two.
-void ask_jointly(Answer& answer, const Question& question) {
-    if (answer.decision.outcome == Outcome::no_gap) {
-        return;
+}  // namespace
+
+bool is_settled(const Decision& decision) { return decision.outcome == Outcome::no_gap && !decision.disturbed; }
+
+double price_of(const Answer& answer, int base_numbers) {
+    constexpr double each = 0.08;
+    constexpr double floor = 1e-4;
+    return std::log(std::max(answer.chosen().gap_after, floor)) +
+           each * (base_numbers + static_cast<double>(answer.chosen().candidate.effect_parameters_in_all()));
+}
+
+Answer cheapest_of(std::vector<BesideABase> tried) {
+    std::stable_sort(tried.begin(), tried.end(),
+                     [](const BesideABase& a, const BesideABase& b) { return a.price < b.price; });
+    Answer answer = std::move(tried.front().answer);
+    answer.base_name = tried.front().name;
+    const std::vector<const Effect*> causes = causes_of(answer);
+    for (std::size_t i = 1; i < tried.size() && !causes.empty(); ++i) {
+        constexpr double near = 0.2;
+        const std::vector<const Effect*> theirs = causes_of(tried[i].answer);
+        if (tried[i].price < tried.front().price + near && !theirs.empty() && !are_same(causes, theirs)) {
+            answer.decision.confidence = std::min(answer.decision.confidence, 0.6);
+            answer.notes.push_back(
+                fmt::format("beside the base {} {} goes about as far", tried[i].name, names_of(theirs)));
+        }
     }
+    return answer;
+}
+
+void judge_jointly(Answer& answer, double jointly) {
     constexpr double as_well = 1.15;
     // More than that left, and something is missing; a plant that was only seen on its way up may come down otherwise.
     constexpr double nearly_all = 0.1;
@@ -71,7 +81,6 @@ void ask_jointly(Answer& answer, const Question& question) {
     const bool one_way = std::any_of(answer.extrapolated.begin(), answer.extrapolated.end(), [](const auto& what) {
         return what == "falling output" || what == "rising output";
     });
-    const double jointly = joint_gap(question);
     if (jointly > as_well * answer.chosen().gap_after ||
         jointly > (one_way ? most : nearly_all) * answer.none().gap_after) {
         return;
@@ -92,10 +101,6 @@ void ask_jointly(Answer& answer, const Question& question) {
         jointly));
 }
 
-}  // namespace
-
-bool is_settled(const Decision& decision) { return decision.outcome == Outcome::no_gap && !decision.disturbed; }
-
 Answer answer_beside_found_base(Question question, const std::function<void(const std::string&)>& say) {
     std::vector<Described> found = find_base(question, say);
     question.refit = true;
@@ -109,8 +114,7 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
             found = std::move(better);
         }
     }
-    const double floor = 1e-4;
-    std::vector<Tried> tried;
+    std::vector<BesideABase> tried;
     std::vector<const Described*> asked = worth_asking(found);
     const Described* place = nullptr;  // where a spring may pull, once it is wanted
     for (std::size_t i = 0; i < asked.size(); ++i) {
@@ -125,7 +129,7 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
         question.from_no_input = base->from_no_input;
         Answer answer = answer_to(question, say);
         const bool settled = is_settled(answer.decision);
-        const double price = price_of(answer, base->numbers, floor);
+        const double price = price_of(answer, base->numbers);
         const auto ask = [&](const Described* other) {
             if (other != nullptr && std::find(asked.begin(), asked.end(), other) == asked.end()) {
                 asked.push_back(other);
@@ -139,23 +143,11 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
             break;
         }
         if (i + 1 == asked.size() &&
-            std::ranges::min_element(tried, {}, &Tried::price)->answer.decision.outcome == Outcome::unknown) {
+            std::ranges::min_element(tried, {}, &BesideABase::price)->answer.decision.outcome == Outcome::unknown) {
             ask(simplest_like(found, found.front()));
         }
     }
-    std::ranges::stable_sort(tried, {}, &Tried::price);
-    Answer answer = std::move(tried.front().answer);
-    answer.base_name = tried.front().name;
-    const std::vector<const Effect*> causes = causes_of(answer);
-    for (std::size_t i = 1; i < tried.size() && !causes.empty(); ++i) {
-        constexpr double near = 0.2;
-        const std::vector<const Effect*> theirs = causes_of(tried[i].answer);
-        if (tried[i].price < tried.front().price + near && !theirs.empty() && !are_same(causes, theirs)) {
-            answer.decision.confidence = std::min(answer.decision.confidence, 0.6);
-            answer.notes.push_back(
-                fmt::format("beside the base {} {} goes about as far", tried[i].name, names_of(theirs)));
-        }
-    }
+    Answer answer = cheapest_of(std::move(tried));
     for (const Described& one : found) {
         if (one.name == answer.base_name) {
             question.form = one.form;
@@ -165,7 +157,9 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
     for (const Described& one : found) {
         answer.linear_share = std::max(answer.linear_share, linear_share_of(one.validation));
     }
-    ask_jointly(answer, question);
+    if (answer.decision.outcome != Outcome::no_gap) {
+        judge_jointly(answer, joint_gap(question));
+    }
     answer.descriptions = std::move(found);
     return answer;
 }

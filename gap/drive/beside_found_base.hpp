@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "gap/drive/answer.hpp"
 
@@ -14,5 +15,24 @@ namespace gap {
 
 /// Whether no further base is asked: nothing is missing. Of a disturbance another base may still know what it is.
 [[nodiscard]] bool is_settled(const Decision& decision);
+
+/// A base with what was found beside it, and what that is worth.
+struct BesideABase {
+    std::string name;
+    Answer answer;
+    double price;
+};
+
+/// The logarithm of the gap that stays, and a price for each number, of an event in each record that judges.
+[[nodiscard]] double price_of(const Answer& answer, int base_numbers);
+
+/// The one that costs least, less sure where another one with other causes costs about as little.
+/// \pre not empty
+[[nodiscard]] Answer cheapest_of(std::vector<BesideABase> tried);
+
+/// What the best base does as well when it sees the validation, too, is none of the drive's effects: no gap. Of a form
+/// that was asked for it may be the form's own misfit, as well in one record as in two.
+/// \param jointly  the gap of the base that is fitted to all records
+void judge_jointly(Answer& answer, double jointly);
 
 }  // namespace gap

@@ -7,6 +7,8 @@
 #include "drive/model_file.hpp"
 #include "gap/drive/start.hpp"
 #include "gap/drive/verdict.hpp"
+#include "gap/exam/ask.hpp"
+#include "gap/exam/score.hpp"
 
 namespace {
 
@@ -219,6 +221,16 @@ TEST_F(OfAnAnswer, TheImprovedModelHasWhatLasts) {
     model = json::parse(gap::improved_model(answer_));
     EXPECT_FALSE(model.contains("operating_output"));
     EXPECT_EQ(drive::parse_model(model.dump(), "m").gain, 2.0);  // the given one's, whatever was fitted
+}
+
+// What is written as JSON can be read by people, too: two columns a level, and a line that ends.
+TEST_F(OfAnAnswer, ItsFilesAreIndentedByTwo) {
+    gap::exam::Asked asked;
+    asked.name = "rig";
+    for (const std::string& text : {gap::to_json(answer_), gap::improved_model(answer_),
+                                    gap::exam::to_answer(asked, answer_), gap::exam::to_json({})}) {
+        EXPECT_EQ(text, nlohmann::ordered_json::parse(text).dump(2) + "\n");
+    }
 }
 
 TEST(LinearShare, IsOfTheVariance) {

@@ -220,7 +220,9 @@ TEST(CyclesBlind, OtherRulesAreRightByAllButANameForWhatTheyDoNotTouch) {
 TEST(CyclesBlind, TheSealedTruthHasAllThatWasDone) {
     gap::cycles::Secret cost{.kind = "cost", .effects = {"clock_ratio"}};
     cost.ratio = 1.25;
-    const auto truth = nlohmann::json::parse(gap::cycles::seal({{.kind = "nothing"}, cost}));
+    const std::string text = gap::cycles::seal({{.kind = "nothing"}, cost});
+    EXPECT_EQ(text, nlohmann::ordered_json::parse(text).dump(2) + "\n");
+    const auto truth = nlohmann::json::parse(text);
     ASSERT_EQ(truth.size(), 2U);
     EXPECT_EQ(truth[0]["case"], "case-001");
     EXPECT_EQ(truth[0]["kind"], "nothing");

@@ -6,13 +6,12 @@
 #include <cmath>
 #include <iterator>
 #include <optional>
-#include <set>
 
 #include "base/failure.hpp"
 #include "base/parallel.hpp"
 #include "gap/drive/base/filtered.hpp"
+#include "gap/drive/base/in_order.hpp"
 #include "gap/drive/base/leftover.hpp"
-#include "gap/drive/base/modes.hpp"
 #include "gap/drive/base/part.hpp"
 #include "gap/drive/base/refined.hpp"
 #include "gap/drive/base/structure.hpp"
@@ -21,10 +20,6 @@
 namespace gap {
 namespace {
 
-// A further number takes so much of what is left where it was not fitted, or it follows something else than lags.
-constexpr double worth_a_number = 0.08;
-// A record that has not settled looks like an integrator's: it must be clearly better.
-constexpr double worth_an_integrator = 0.3;
 // How long ago what was read is no longer quick, over a record's length.
 constexpr double quick_share = 0.03;
 // One that leaves so much of what is quick in the other's stead is looked at, too.
@@ -135,26 +130,6 @@ Described described(const Structure& structure, const Question& alone, Question 
             alone.from_no_input};
 }
 
-// Lags and dead time stay within so many times what they are.
-drive::Form held_near(drive::Form form, double times) {
-    double lags_s = 0.0;
-    for (const drive::Parameter& parameter : form.parameters()) {
-        lags_s = parameter.name == "a1" ? parameter.value : lags_s;
-    }
-    for (drive::Parameter& parameter : form.parameters()) {
-        const bool number = !parameter.fixed && parameter.name != "gain";
-        if (number && parameter.name == "delay_s") {
-            const double more_s = (times - 1.0) * (parameter.value + lags_s);
-            parameter.lower = std::max(0.0, parameter.value - more_s);
-            parameter.upper = parameter.value + more_s;
-        } else if (number && parameter.value > 0.0) {
-            parameter.lower = parameter.value / times;
-            parameter.upper = parameter.value * times;
-        }
-    }
-    return form;
-}
-
 // As fitted to what is quick, and kept near it: whole residuals would make it slow again. Beside a drag it is the slope
 // at rest, some five times as slow as at speed, and has to get there.
 drive::Form quick_form(Question alone, double quick_s) {
@@ -167,19 +142,6 @@ drive::Form quick_form(Question alone, double quick_s) {
     differences.deviation = std::max(part.study.noise, part.study.least_deviation);
     differences.stationary_deviation = output_deviation(part.study);
     return held_near(with_values(alone.form, fit(part.study, {}, part.base, &differences)), near);
-}
-
-// Whether its lags, whose sum is the lowest power's coefficient, outlast every record: beside a zero that nearly
-// cancels it such a lag is a drift, which is none of the plant's, and alone it is an integrator.
-bool outlasts(const Described& one, const std::vector<Record>& records) {
-    constexpr double times = 1.5;
-    double coefficient = 0.0;
-    double order = 1.0;
-    for (const drive::Parameter& parameter : one.form.parameters()) {
-        coefficient = parameter.name == "a1" && !parameter.fixed ? parameter.value : coefficient;
-        order = parameter.name == "alpha1" && !parameter.fixed ? parameter.value : order;
-    }
-    return std::pow(std::max(coefficient, 0.0), 1.0 / order) > times * longest_s(records);
 }
 
 bool starts_in_motion(const std::vector<Record>& records) {
@@ -332,10 +294,7 @@ std::vector<Described> find_base(const Question& question, const std::function<v
     for (std::vector<Described>& of_structure : found) {
         std::move(of_structure.begin(), of_structure.end(), std::back_inserter(all));
     }
-    if (!std::all_of(all.begin(), all.end(), [&](const Described& one) { return outlasts(one, question.train); })) {
-        std::erase_if(all, [&](const Described& one) { return outlasts(one, question.train); });
-    }
-    keep_own_modes(all, longest_s(question.train));
+    keep_in_order(all, longest_s(question.train), above_noise * audit(alone.train).noise / deviation_of(alone.train));
     if (all.empty()) {
         throw glsum::Failure(
             glsum::Exit::bad_input,
@@ -343,17 +302,6 @@ std::vector<Described> find_base(const Question& question, const std::function<v
                         "together?",
                         question.train.front().name));
     }
-    const double floor = above_noise * audit(alone.train).noise / deviation_of(alone.train);
-    const auto size_of = [&](double gap) { return std::log(std::max({gap, floor, 1e-6})); };
-    const auto price = [&](const Described& one) {
-        return 0.5 * (size_of(one.aside) + size_of(one.validation)) + worth_a_number * one.numbers +
-               (one.integrators > 0 ? worth_an_integrator : 0.0);
-    };
-    std::stable_sort(all.begin(), all.end(),
-                     [&](const Described& a, const Described& b) { return price(a) < price(b); });
-    // Of each structure the better one.
-    std::set<std::string> seen;
-    std::erase_if(all, [&](const Described& one) { return !seen.insert(one.name).second; });
     return all;
 }
 

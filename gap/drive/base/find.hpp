@@ -38,8 +38,7 @@ struct Starts {
 /// \throws glsum::Failure (bad input): nothing explains anything
 [[nodiscard]] Starts starts_of(const Structure& structure, const std::vector<Record>& records);
 
-/// All structures that can be fitted, by how far they go, the base first: the one of fewest numbers that no richer one
-/// beats by more than `worth_a_number` for each number more, where neither was fitted.
+/// All structures that can be fitted, by how far they go where they were not, the base first (`keep_in_order`).
 /// \param question  without a form \throws glsum::Failure (bad input): nothing explains anything
 [[nodiscard]] std::vector<Described> find_base(const Question& question,
                                                const std::function<void(const std::string&)>& say);
