@@ -243,6 +243,24 @@ TEST(Memory, PlacesDecideWhatAnAccessCosts) {
     EXPECT_EQ(art.fetch(0x100).cycles, 0);
 }
 
+// Of a line the eight bytes that are asked for come first: as many beats as these take on the bus, one at least, and
+// the bus' overhead, each of as many clocks as the bus is slower.
+TEST(Memory, ALineOfSramTakesTheBeatsOfEightBytes) {
+    timing::Figures figures = probe::core("stm32f746-flash").figures;
+    figures.cache_data_bytes = 0;
+    for (const auto& [bytes, beats] :
+         {std::pair(1, 8), std::pair(2, 4), std::pair(4, 2), std::pair(8, 1), std::pair(16, 1)}) {
+        for (const std::int64_t clocks : {1, 2}) {
+            figures.memory_sram_beat_bytes = bytes;
+            figures.memory_bus_clocks = clocks;
+            figures.memory_bus_overhead = 5;
+            timing::Memory memory(figures, {timing::CodePlace::itcm, timing::DataPlace::axi});
+            EXPECT_EQ(memory.load(0x20000000).cycles, (5 + beats) * clocks) << bytes;
+            EXPECT_EQ(memory.store(0x20000000).cycles, (5 + beats) * clocks) << bytes;
+        }
+    }
+}
+
 // The flash holds the line that it read last for fetches, and another one for loads: neither saves the other a read,
 // whether caches ask or the core itself. A second access by the same side takes the bus alone.
 TEST(Memory, FetchesAndLoadsEachHaveALineOfTheFlashOpen) {

@@ -167,6 +167,24 @@ TEST(PackedEvent, TellsEventsApart) {
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[8] = 9; }))) << "beyond the eighth";
 }
 
+// Which of a block's instructions an event is of takes the ten bits above it: of more than 1023 a block has no key.
+TEST(PackedEvent, ABlockThatIsTooLongHasNoKey) {
+    timing::BlockEvents met;
+    const auto key_of = [&](std::size_t accesses) {
+        timing::Event load;
+        load.accesses = 1;
+        met.events.assign(met.events.size(), {});
+        met.events[accesses] = load;
+        met.make_key();
+        return std::vector<std::uint64_t>(met.key().begin(), met.key().end());
+    };
+    met.events.resize(1023);
+    EXPECT_FALSE(key_of(1022).empty());
+    EXPECT_NE(key_of(1021), key_of(1020));
+    met.events.resize(1024);
+    EXPECT_TRUE(key_of(1022).empty());
+}
+
 // From the first state, at the first site, with nothing to be said of it: no step is known for it.
 TEST(Replay, ComputesTheFirstStepOfAll) {
     const listing::Line line = listing::assemble("nop.w\n").front();
