@@ -94,8 +94,6 @@ void approach(const Study& study, Candidate& candidate, const Whitener* whitener
     }
 }
 
-bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
-
 // Events where the residuals of what is there without them say that they were.
 void guess_events(const Study& study, Candidate& attempt) {
     if (std::none_of(attempt.effects.begin(), attempt.effects.end(),
@@ -261,7 +259,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
         attempts.push_back(std::move(attempt));
     }
     if (in_stages) {
-        std::stable_sort(attempts.begin(), attempts.end(), by_cost);
+        std::ranges::stable_sort(attempts, {}, &Candidate::cost);
         attempts.resize(std::min(effort.keep, attempts.size()));
         const double worst = std::min(effort.hopeless, 2.0 * attempts.front().cost);
         for (Candidate& attempt : attempts) {
@@ -270,7 +268,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             }
         }
     }
-    Candidate& best = *std::min_element(attempts.begin(), attempts.end(), by_cost);
+    Candidate& best = *std::ranges::min_element(attempts, {}, &Candidate::cost);
     take_first_records(best);
     if (study.base.refit && !effects.empty() && start.own.size() == study.courses.size()) {
         // Any effect may be absent: then it goes as far as what it was begun from.

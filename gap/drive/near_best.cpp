@@ -15,8 +15,6 @@ using Effects = std::vector<const Effect*>;
 
 constexpr std::size_t most_rivals = 3;
 
-bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
-
 bool is_known(const Found& found, const Effects& effects) {
     return std::any_of(found.ranking.begin(), found.ranking.end(), [&](const Ranked& ranked) {
         return std::ranges::is_permutation(ranked.trained.effects, effects);
@@ -114,7 +112,7 @@ std::vector<Candidate> rivals(const Neighbourhood& near) {
     base::parallel_for(all.size(), near.of.jobs, [&](std::size_t i) {
         close[i] = fit(near.of.ground.sketch, all[i], best, near.fits_by, quick);
     });
-    std::stable_sort(close.begin(), close.end(), by_cost);
+    std::ranges::stable_sort(close, {}, &Candidate::cost);
     close.resize(std::min(close.size(), most_rivals));
     // Twice: from where the first look ended, and from the best one's base, whose numbers training may leave open.
     const std::size_t apart = close.size();

@@ -453,7 +453,8 @@ TEST_F(ToldStart, OfAStickingValveIsItsBandAndJump) {
     for (const bool two_signs : {false, true}) {
         scales_.two_signs = two_signs;
         const double range = two_signs ? 2.0 * u : u;
-        for (const auto& [power, share] : {std::pair(4, 0.6), std::pair(9, 1.0), std::pair(11, 0.2), std::pair(14, 0.4)}) {
+        for (const auto& [power, share] :
+             {std::pair(4, 0.6), std::pair(9, 1.0), std::pair(11, 0.2), std::pair(14, 0.4)}) {
             const double band = 0.01 * std::pow(1.25, power) * range;
             const Values found = start_of("valve_stiction", {band, share * band, 0.004 * u});
             EXPECT_NEAR(found.at(0), band, 1e-9) << power;

@@ -67,11 +67,10 @@ TEST(WorthAsking, OneLagMoreIsOneNumberMore) {
 
 // One lag of any order may be a speed's; a third one is not what a mass on a spring has.
 TEST(WorthAsking, APlaceHasWhoHasTwoLags) {
-    const std::vector<gap::Described> found = {description("first_order", 0.1, 0.1, 2),
-                                               description("fractional_lag", 0.1, 0.1, 3),
-                                               description("third_order", 0.1, 0.1, 4),
-                                               description("fractional_second_order", 0.2, 0.2, 5),
-                                               description("second_order", 0.3, 0.3, 3)};
+    const std::vector<gap::Described> found = {
+        description("first_order", 0.1, 0.1, 2), description("fractional_lag", 0.1, 0.1, 3),
+        description("third_order", 0.1, 0.1, 4), description("fractional_second_order", 0.2, 0.2, 5),
+        description("second_order", 0.3, 0.3, 3)};
     EXPECT_EQ(gap::with_a_place(found), &found[3]);  // the better of the two
     const std::vector<gap::Described> without_fractional = {found[0], found[4]};
     EXPECT_EQ(gap::with_a_place(without_fractional)->name, "second_order");
@@ -79,10 +78,9 @@ TEST(WorthAsking, APlaceHasWhoHasTwoLags) {
 }
 
 TEST(WorthAsking, TheSimplestOneIntegratesAsOften) {
-    const std::vector<gap::Described> found = {description("third_order", 0.1, 0.1, 4),
-                                               description("pure_integrator", 0.1, 0.1, 1, 1),
-                                               description("first_order", 9.0, 9.0, 2),
-                                               description("second_order", 0.1, 0.1, 3)};
+    const std::vector<gap::Described> found = {
+        description("third_order", 0.1, 0.1, 4), description("pure_integrator", 0.1, 0.1, 1, 1),
+        description("first_order", 9.0, 9.0, 2), description("second_order", 0.1, 0.1, 3)};
     EXPECT_EQ(gap::simplest_like(found, found[0]), &found[2]);
     EXPECT_EQ(gap::simplest_like(found, found[2]), &found[2]);
     EXPECT_EQ(gap::simplest_like(found, found[1]), &found[1]);
