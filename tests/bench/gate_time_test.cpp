@@ -35,6 +35,18 @@ TEST(GateTime, IsTheChangeOfTheRatio) {
     EXPECT_NEAR(change.high, 0.1, 1e-12);
 }
 
+// Of 300 repetitions the three fastest count, their mean being twice the least here; of fewer than 300 the two fastest.
+TEST(GateTime, TheFastestHundredthCounts) {
+    const auto change_of = [](std::size_t repetitions) {
+        const std::vector<double> anchor(repetitions, 20.0);
+        Timing fast{std::vector<double>(repetitions, 400.0), anchor};
+        fast.kernel[7] = fast.kernel[70] = 100.0;
+        return bench::gate::time_change({std::vector<double>(repetitions, 100.0), anchor}, fast, 0.99).estimate;
+    };
+    EXPECT_NEAR(change_of(300), 1.0, 1e-12);  // 100, 100 and 400
+    EXPECT_NEAR(change_of(299), 0.0, 1e-12);
+}
+
 TEST(GateTime, SameFilesSameVerdict) {
     const auto first = bench::gate::time_change(run(1, 50, 0.5), run(2, 50, 0.5), 0.99);
     const auto second = bench::gate::time_change(run(1, 50, 0.5), run(2, 50, 0.5), 0.99);

@@ -124,6 +124,24 @@ TEST(Derivative, NoPointExceedsTheCertificate) {
     }
 }
 
+// Where the error is largest at an end of the band, the certificate says so: a difference errs most at the highest
+// frequency, a constant for a derivative at the lowest.
+TEST(Derivative, TheCertificateNamesTheEndOfTheBand) {
+    const DerivativeGoal goal{1.0, 0.01, Band{1.0, 20.0}, {}};
+    const std::complex<double> i(0.0, 1.0);
+    const double angle = 2.0 * std::numbers::pi * 20.0 * 0.01;
+    const double of_difference = std::abs((1.0 - std::exp(-i * angle)) / (i * angle) - 1.0);
+    const double of_constant = std::abs(50.0 / (i * 2.0 * std::numbers::pi) - 1.0);
+    const DerivativeError difference = certified_error({{100.0, -100.0}, {}}, goal);
+    EXPECT_EQ(difference.band_hz, 20.0);
+    EXPECT_GE(difference.band, of_difference * (1.0 - 1e-12));
+    EXPECT_LE(difference.band, of_difference * 1.006);
+    const DerivativeError constant = certified_error({{50.0}, {}}, goal);
+    EXPECT_EQ(constant.band_hz, 1.0);
+    EXPECT_GE(constant.band, of_constant * (1.0 - 1e-12));
+    EXPECT_LE(constant.band, of_constant * 1.006);
+}
+
 TEST(Derivative, NoPointOfAModeThatSwingsExceedsTheCertificate) {
     for (const double decay : {1.2, 1.6, 1.9}) {
         // Up to half the sample's rate, where its answer is largest.

@@ -36,7 +36,7 @@ TEST(Elf, RefusesWhatIsNoArmExecutable) {
 
 // An ELF without any bytes of its own: `sections` sections that are the same `bytes` zeros of a sparse file.
 void write_sparse_elf(const std::filesystem::path& path, std::uint16_t sections, std::uint32_t bytes,
-                      std::uint32_t type = SHT_PROGBITS) {
+                      std::uint32_t type = SHT_PROGBITS, std::uint32_t entry_bytes = sizeof(Elf32_Sym)) {
     Elf32_Ehdr header{};
     std::memcpy(header.e_ident, ELFMAG, SELFMAG);
     header.e_ident[EI_CLASS] = ELFCLASS32;
@@ -55,7 +55,7 @@ void write_sparse_elf(const std::filesystem::path& path, std::uint16_t sections,
     out.write(reinterpret_cast<const char*>(&section), sizeof section);
     section.sh_type = type;
     section.sh_flags = SHF_ALLOC;
-    section.sh_entsize = sizeof(Elf32_Sym);
+    section.sh_entsize = entry_bytes;
     section.sh_offset = 1 << 16;
     section.sh_size = bytes;
     for (std::uint16_t i = 0; i < sections; ++i) {
@@ -98,6 +98,18 @@ TEST(Elf, ReadsWhatIsAtItsBounds) {
     expect_refused(path, "more than 1000000 symbols");
 }
 
+// A file that ends before its sections do, and a table of more symbols than its bytes hold.
+TEST(Elf, RefusesWhatIsCutShort) {
+    const base::Scratch folder;
+    const auto path = folder.file("a.elf");
+    write_sparse_elf(path, 1, 1024);
+    expect_refused(path, "without symbols");
+    std::filesystem::resize_file(path, (1 << 16) + 1023);
+    expect_refused(path, "a damaged section");
+    write_sparse_elf(path, 1, 1024, SHT_SYMTAB, sizeof(Elf32_Sym) / 2);
+    expect_refused(path, "a damaged symbol table");
+}
+
 TEST(Elf, FindsSymbolsFunctionsAndWords) {
     if (!std::filesystem::exists(measure_elf)) {
         GTEST_SKIP() << "no firmware was built";
@@ -114,16 +126,16 @@ TEST(Elf, FindsSymbolsFunctionsAndWords) {
     EXPECT_THROW((void)elf.word(0xF0000000), glsum::Failure);
 }
 
-// At every even address of what is executed, and nowhere else.
+// At every even address of what is executed, the last one too, and nowhere else.
 TEST(Elf, FindsHalfwordsInItsCode) {
     const base::Scratch folder;
     test::MadeElf made;
-    made.sections = {{0x100, test::bytes_of({0xBF0046D2, 0x46D2BF00, 0xD200BF46}), true},
+    made.sections = {{0x100, test::bytes_of({0xBF0046D2, 0x46D2BF00, 0xD200BF46, 0x46D2BF46}), true},
                      {0x200, test::bytes_of({0x46D246D2})}};
-    made.symbols = {{"f", 0x101, 12, true}};
+    made.symbols = {{"f", 0x101, 16, true}};
     made.write(folder.file("a.elf"));
     const qemu::Elf elf(folder.file("a.elf"));
-    EXPECT_EQ(elf.halfwords_in_code(0x46D2), (std::set<std::uint32_t>{0x100, 0x106}));
+    EXPECT_EQ(elf.halfwords_in_code(0x46D2), (std::set<std::uint32_t>{0x100, 0x106, 0x10E}));
     EXPECT_TRUE(elf.halfwords_in_code(0x1234).empty());
 }
 

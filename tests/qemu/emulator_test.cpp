@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <sys/time.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -174,6 +175,7 @@ TEST(Emulate, AnEmulatorThatIsGivenGraceMayFinish) {
             qemu::emulate({script.path(), std::chrono::seconds(1), grace}, "a.elf", {}, "", [](const std::string&) {}),
             glsum::Failure);
         EXPECT_EQ(std::filesystem::exists(mark), grace.count() > 0);
+        EXPECT_EQ(waitpid(-1, nullptr, WNOHANG), -1) << "no process is left, nor what the system keeps of one";
     }
     std::filesystem::remove(mark);
     const qemu::Emulator usual{};

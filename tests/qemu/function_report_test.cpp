@@ -164,7 +164,9 @@ TEST(FunctionReport, NamesTheFunctionThatAHotAddressIsIn) {
     test::MadeElf made{{{0x100, test::bytes_of({0xbf00bf00, 0xbf00bf00})}}, {{"leaf", 0x101, 8, true}}};
     made.write(folder.file("a.elf"));
     qemu::FunctionTime time;
-    time.hot = {{0x104, {9, timing::Effect::unaligned_access, 5}}, {0x100, {8}}, {0x200, {7}}};
+    time.hot = {{0x104, {9, timing::Effect::unaligned_access, 5}},
+                {0x100, {8}},
+                {0x200, {7, timing::Effect::load_use, 1}}};  // half a cycle is a loss, too
     const auto hot = qemu::hot_instructions(time, qemu::Elf(folder.file("a.elf")), 2);
     ASSERT_EQ(hot.size(), 2U);
     EXPECT_EQ(hot[0].address, 0x104U);
@@ -174,7 +176,10 @@ TEST(FunctionReport, NamesTheFunctionThatAHotAddressIsIn) {
     EXPECT_EQ(hot[0].lost, 2.5);
     EXPECT_EQ(hot[1].cycles, 4.0);
     EXPECT_EQ(hot[1].reason, "");
-    EXPECT_EQ(qemu::hot_instructions(time, qemu::Elf(folder.file("a.elf")), 9).back().symbol, "");
+    const qemu::HotInstruction last = qemu::hot_instructions(time, qemu::Elf(folder.file("a.elf")), 9).back();
+    EXPECT_EQ(last.symbol, "");
+    EXPECT_EQ(last.reason, "load_use");
+    EXPECT_EQ(last.lost, 0.5);
 }
 
 }  // namespace

@@ -63,6 +63,44 @@ TEST(Pipeline, ASerialUnitOverlapsNothing) {
     EXPECT_DOUBLE_EQ(probe::steady_cycles(integer, setting), 1.0);
 }
 
+// What the data of an FP store costs the next load of its bank: a cycle, as long as it comes within the window behind
+// it, and once. In half cycles, of loads behind so many instructions that issue two a cycle.
+TEST(Pipeline, AnFpStoreIsLateForTheNextLoadOfItsBank) {
+    probe::Setting setting = probe::core("stm32f746-itcm");
+    const auto lost_behind = [&](int nops, const std::string& loads) {
+        std::string text = "vstr s0,[r0]\n";
+        for (int i = 0; i < nops; ++i) {
+            text += "nop.w\n";
+        }
+        return probe::run(text + loads, setting).losses[timing::index(timing::Effect::load_bank_conflict)];
+    };
+    EXPECT_EQ(setting.figures.store_late_fp_window, 8);
+    for (const int window : {1, 8}) {
+        setting.figures.store_late_fp_window = window;
+        for (const int nops : {1, 2, 3, 4, 14, 15, 16, 17}) {
+            const int place = nops + 1;  // half cycles behind the store
+            const int waits = place / 2 <= window ? 2 - place % 2 : 0;
+            EXPECT_EQ(lost_behind(nops, "ldr.w r2,[r1]\n"), waits) << window << ' ' << nops;
+            EXPECT_EQ(lost_behind(nops, "ldr.w r2,[r1]\nnop.w\nldr.w r3,[r1]\n"), waits) << window << ' ' << nops;
+            EXPECT_EQ(lost_behind(nops, "ldr.w r2,[r1,#4]\n"), 0) << window << ' ' << nops;
+        }
+    }
+}
+
+// However long a store keeps its word, a load looks back at eight of them.
+TEST(Pipeline, ALoadMeetsAnyOfTheLastEightStores) {
+    probe::Setting setting = probe::core("stm32f746-itcm");
+    setting.figures.store_to_load = 40;
+    for (int others = 0; others < 12; ++others) {
+        std::string text = "str.w r0,[r1]\n";
+        for (int i = 0; i < others; ++i) {
+            text += "str.w r0,[r2]\n";
+        }
+        const auto positions = probe::run(text + "ldr.w r3,[r1]\n", setting).positions;
+        EXPECT_EQ(positions.back() / 2 - positions.front() / 2, others < 8 ? 40 : others) << others;
+    }
+}
+
 // While the core waits, fetching goes on until the queue is full; how many words then follow at once tells its length.
 TEST(Pipeline, FetchesAQueueOfWordsAheadOfTheirUse) {
     timing::CoreFile core = timing::read_core(TEST_CORES, "stm32f746-itcm");

@@ -72,9 +72,12 @@ TEST(RowsFit, RowsThatErrAlikeKeepTheirOrder) {
 
 TEST(RowsFit, ARowIsMissedByCyclesOfACallNotOfItsParts) {
     const qemu::RowsFit fit =
-        qemu::fit_of({measured("a", 10, 1000), measured("b", 10)}, {predicted(11, 9, 12), predicted(17.9, 9, 18)});
+        qemu::fit_of({measured("a", 10, 1000), measured("b", 10), measured("c", 10, 1000), measured("d", 10, 10)},
+                     {predicted(11, 9, 12), predicted(17.9, 9, 18), predicted(10.4, 9, 12), predicted(10.7, 9, 12)});
     EXPECT_TRUE(fit.rows[0].missed);   // 1000 cycles
     EXPECT_FALSE(fit.rows[1].missed);  // 7.9 cycles
+    EXPECT_FALSE(fit.rows[2].missed);  // 400 cycles, of 10000
+    EXPECT_FALSE(fit.rows[3].missed);  // 7 cycles, of 100
 }
 
 TEST(RowsFit, ALineThroughCallsOfDifferentLength) {
