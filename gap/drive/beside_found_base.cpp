@@ -48,6 +48,18 @@ std::string names_of(const std::vector<const Effect*>& causes) {
 
 bool is_settled(const Decision& decision) { return decision.outcome == Outcome::no_gap && !decision.disturbed; }
 
+bool leaves_most(const Described& base) { return base.validation > 0.5; }
+bool leaves_half_of(const Described& with_signs, const Described& base) {
+    return with_signs.validation < 0.5 * base.validation;
+}
+
+double best_linear_share(double of_base, const std::vector<Described>& found) {
+    for (const Described& one : found) {
+        of_base = std::max(of_base, linear_share_of(one.validation));
+    }
+    return of_base;
+}
+
 double price_of(const Answer& answer, int base_numbers) {
     constexpr double each = 0.08;
     constexpr double floor = 1e-4;
@@ -106,11 +118,10 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
     question.refit = true;
     // No linear description turns its output's sign: where readings may have lost theirs, one is looked for that
     // follows them with it, and the loss is an effect like others.
-    constexpr double poor = 0.5;
-    if (found.front().validation > poor && may_have_lost_signs(question.train)) {
+    if (leaves_most(found.front()) && may_have_lost_signs(question.train)) {
         say("looking for signs that the sensor may have lost");
         std::vector<Described> better = find_base(with_signs_of_a_base(question), say);
-        if (better.front().validation < 0.5 * found.front().validation) {
+        if (leaves_half_of(better.front(), found.front())) {
             found = std::move(better);
         }
     }
@@ -154,9 +165,7 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
             question.from_no_input = one.from_no_input;
         }
     }
-    for (const Described& one : found) {
-        answer.linear_share = std::max(answer.linear_share, linear_share_of(one.validation));
-    }
+    answer.linear_share = best_linear_share(answer.linear_share, found);
     if (answer.decision.outcome != Outcome::no_gap) {
         judge_jointly(answer, joint_gap(question));
     }

@@ -16,6 +16,14 @@ namespace gap {
 /// Whether no further base is asked: nothing is missing. Of a disturbance another base may still know what it is.
 [[nodiscard]] bool is_settled(const Decision& decision);
 
+/// Whether the best base leaves more than half of the output: the sensor may have lost its sign.
+[[nodiscard]] bool leaves_most(const Described& base);
+/// Whether one that is found with signs is believed, since it leaves less than half as much.
+[[nodiscard]] bool leaves_half_of(const Described& with_signs, const Described& base);
+
+/// Answer::linear_share, where the base that was asked beside has its own.
+[[nodiscard]] double best_linear_share(double of_base, const std::vector<Described>& found);
+
 /// A base with what was found beside it, and what that is worth.
 struct BesideABase {
     std::string name;

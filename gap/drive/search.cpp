@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <set>
 
 #include "base/parallel.hpp"
 #include "gap/drive/jitter.hpp"
 #include "gap/drive/near_best.hpp"
 #include "gap/drive/settle.hpp"
+#include "gap/drive/shortlist.hpp"
 
 namespace gap {
 namespace {
@@ -18,13 +18,8 @@ namespace {
 using Effects = std::vector<const Effect*>;
 
 constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
-constexpr std::size_t leads = 2;         // by validation, and as many by training: what partners are tried with
-constexpr std::size_t more_leads = 5;    // where none of them leaves noise alone
-constexpr std::size_t finalists_of_a_lead_beside_a_form = 2;
-constexpr std::size_t eventful_finalists_beside_a_form = 2;
 constexpr double hopeless_beside_a_form = 0.97;
-constexpr double too_far = 4.0;       // from the best single's cost
-constexpr std::size_t finalists = 8;  // pairs, and triples, that are fitted to the end
+constexpr double too_far = 4.0;  // from the best single's cost
 // Real rigs have several causes at once; beside a model that is given more than three are an expansion of something
 // else.
 constexpr std::size_t most_beside_a_form = 4;
@@ -122,21 +117,6 @@ private:
         return of_.ground.study.base.refit ? Effort{4, 1, 9, hopeless_beside_a_form * without}
                                            : Effort{6, 2, 25, hopeless * without};
     }
-    // Beside a form the best ones of each lead: what follows any misfit (a delay that swings, and events, which are
-    // located in each record) would fill the list. \param sets  the best first, each a lead's effects and one more
-    void keep_finalists(std::vector<Candidate>& sets) const {
-        if (!of_.ground.study.base.refit) {
-            sets.resize(std::min(sets.size(), finalists));
-            return;
-        }
-        std::map<Effects, std::size_t> lasting;
-        std::size_t eventful = 0;
-        std::erase_if(sets, [&](const Candidate& set) {
-            const Effects lead(set.effects.begin(), set.effects.end() - 1);
-            return set.has_events() ? ++eventful > eventful_finalists_beside_a_form
-                                    : ++lasting[lead] > finalists_of_a_lead_beside_a_form;
-        });
-    }
 
     // A refitted base is to simulate well: it takes its numbers from the residuals as they are. Where they are coloured
     // because something is missing, whitened ones would tell little of what is slow.
@@ -162,7 +142,8 @@ private:
     // The best candidates of some size with one effect more.
     std::vector<Candidate> widened(std::size_t size, const std::string& what) const {
         std::vector<const Candidate*> first;
-        for (const Ranked* lead : leads_of(size)) {
+        const bool more = size == 1 && worth_more(found_.ranking.front());
+        for (const Ranked* lead : leads_of(found_.ranking, size, more, quantum_shows())) {
             first.push_back(&lead->trained);
         }
         return with_one_more(first, what);
@@ -216,7 +197,7 @@ private:
         of_.say(fmt::format("fitting {} {}", all.size(), what));
         std::vector<Candidate> wide = fitted(all, starts, fits_by(), quick);
         std::stable_sort(wide.begin(), wide.end(), by_cost);
-        keep_finalists(wide);
+        keep_finalists(wide, of_.ground.study.base.refit);
         base::parallel_for(wide.size(), of_.jobs, [&](std::size_t i) {
             wide[i] = fit(of_.ground.study, wide[i].effects, wide[i], fits_by());
         });
@@ -227,30 +208,6 @@ private:
     [[nodiscard]] bool quantum_shows() const {
         const double rounding = of_.ground.study.scales.quantum / std::sqrt(12.0);
         return rounding > 0.1 * ranked_of({}).gap_after * output_deviation(of_.ground.validation);
-    }
-
-    // The best by what was not fitted, and those by what was.
-    [[nodiscard]] std::vector<const Ranked*> leads_of(std::size_t size) const {
-        std::vector<const Ranked*> sized;
-        const bool steps_count = quantum_shows();
-        for (const Ranked& ranked : found_.ranking) {
-            if (ranked.trained.effects.size() == size && (steps_count || !ranked.trained.any(&Effect::rounds))) {
-                sized.push_back(&ranked);
-            }
-        }
-        std::vector<const Ranked*> by_training = sized;
-        std::stable_sort(by_training.begin(), by_training.end(),
-                         [](const Ranked* a, const Ranked* b) { return a->trained.cost < b->trained.cost; });
-        const std::size_t wanted = size == 1 && worth_more(found_.ranking.front()) ? more_leads : leads;
-        std::vector<const Ranked*> first;
-        for (const auto* list : {&sized, &by_training}) {
-            for (std::size_t i = 0; i < std::min(wanted, list->size()); ++i) {
-                if (std::find(first.begin(), first.end(), (*list)[i]) == first.end()) {
-                    first.push_back((*list)[i]);
-                }
-            }
-        }
-        return first;
     }
 
     // What was deployed is a simulation of the model that is given: beside an effect that makes it another one its

@@ -35,4 +35,17 @@ TEST(FitOrders, AreHeldToTwoWhereNothingElseIsFree) {
     EXPECT_THAT(free.warnings, testing::Not(testing::Contains(testing::HasSubstr("orders beyond 2"))));
 }
 
+// What a model is stepped by is no number to be fitted: it goes with it, whatever its form.
+TEST(FitForms, KeepTheSampleTime) {
+    drive::Model start = plants::sopdt();
+    start.sample_time_s = 0.25;
+    for (const drive::Kind kind : {drive::Kind::fopdt, drive::Kind::sopdt, drive::Kind::niopdt, drive::Kind::fotf}) {
+        const drive::Form form(kind, start);
+        EXPECT_EQ(form.to_model(form.values()).sample_time_s, 0.25);
+    }
+    start.sample_time_s.reset();
+    const drive::Form form(drive::Kind::fopdt, start);
+    EXPECT_FALSE(form.to_model(form.values()).sample_time_s);
+}
+
 }  // namespace

@@ -8,9 +8,11 @@
 #include "drive/fit_report.hpp"
 #include "drive/model_file.hpp"
 #include "drive/simulation_report.hpp"
+#include "drive/stand/blind/cases.hpp"
 #include "drive/stand/blind/facts.hpp"
 #include "drive/stand/blind/judge.hpp"
 #include "drive/stand/blind/score.hpp"
+#include "drive/stand/blind/without_model.hpp"
 
 namespace {
 
@@ -31,6 +33,18 @@ TEST(WrittenJson, IsIndentedByTwo) {
     };
     for (const std::string& text : texts) {
         EXPECT_EQ(text, nlohmann::ordered_json::parse(text).dump(2) + "\n");
+    }
+}
+
+// Hundreds of cases, which nobody reads but to look one up: a column a level.
+TEST(WrittenJson, OfSealedCasesIsIndentedByOne) {
+    stand::blind::Truth truth;
+    truth.parameters = {{{"gap", 0.5}}};
+    truth.plan.effects = {"backlash"};
+    truth.plan.sizes = {stand::blind::EffectSize::clear};
+    for (const std::string& text :
+         {stand::blind::seal(3, {truth}), stand::blind::seal_open(3, {stand::blind::OpenTruth{}})}) {
+        EXPECT_EQ(text, nlohmann::ordered_json::parse(text).dump(1) + "\n");
     }
 }
 

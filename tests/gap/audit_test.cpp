@@ -135,6 +135,28 @@ TEST(AuditHeld, AreReadingsThatRepeatWhileTheOutputMoves) {
     EXPECT_NEAR(gap::audit({record_of(once)}).held_share, 0.003, 1e-9);
 }
 
+// Four readings before and behind differ each from the next, eight and more away from the record's ends.
+TEST(AuditHeld, AreReadingsBesideOthersThatMove) {
+    // How many are held where some, of 400, repeat the one before.
+    const auto held = [](const std::vector<std::size_t>& repeats) {
+        std::vector<double> values = noisy(400, 13);
+        for (const std::size_t i : repeats) {
+            values[i] = values[i - 1];
+        }
+        return std::lround(400.0 * gap::audit({record_of(values)}).held_share);
+    };
+    EXPECT_EQ(held({9}), 1);
+    EXPECT_EQ(held({8}), 0);
+    EXPECT_EQ(held({391}), 1);
+    EXPECT_EQ(held({392}), 0);
+    EXPECT_EQ(held({200, 201, 202}), 3);
+    // Of two that repeat neither is held beside the other; farther away each is.
+    EXPECT_EQ(held({200, 202}), 0);
+    EXPECT_EQ(held({200, 203}), 0);
+    EXPECT_EQ(held({200, 204}), 1);
+    EXPECT_EQ(held({200, 205}), 2);
+}
+
 TEST(AuditLevels, AreTheInputsToAFiftieth) {
     gap::Record record = record_of(noisy(400, 9));
     const auto levels = [&](const std::vector<double>& of) {

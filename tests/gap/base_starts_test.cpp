@@ -326,7 +326,10 @@ TEST(NamedForms, OfAGivenModelKeepWholeOrders) {
     EXPECT_FALSE(form.parameter("alpha2").fixed);
     EXPECT_TRUE(form.parameter("alpha1").fixed);
     EXPECT_FALSE(form.parameter("beta1").fixed);
-    EXPECT_FALSE(form.parameter("a1").fixed);
+    // Coefficients are free, whole ones too.
+    for (const char* name : {"a2", "a1", "a0", "b1", "b0", "delay_s"}) {
+        EXPECT_FALSE(form.parameter(name).fixed) << name;
+    }
 }
 
 }  // namespace

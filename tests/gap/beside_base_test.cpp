@@ -31,6 +31,23 @@ TEST(BesideFoundBase, IsSettledWhereNothingIsMissing) {
     }
 }
 
+gap::Described description(double validation) { return {"", "", gap::form_to_find(), 0.0, validation, 2, 0}; }
+
+// Half of the output, and half of that which is left without signs.
+TEST(BesideFoundBase, AsksForLostSignsWhereMostIsLeft) {
+    EXPECT_FALSE(gap::leaves_most(description(0.5)));
+    EXPECT_TRUE(gap::leaves_most(description(0.501)));
+    EXPECT_TRUE(gap::leaves_half_of(description(0.299), description(0.6)));
+    EXPECT_FALSE(gap::leaves_half_of(description(0.3), description(0.6)));
+}
+
+// 1 less the gap's square.
+TEST(BesideFoundBase, IsLinearAsFarAsTheBestDescriptionGoes) {
+    const std::vector<gap::Described> found{description(0.5), description(0.25), description(0.75)};
+    EXPECT_DOUBLE_EQ(gap::best_linear_share(0.125, found), 0.9375);
+    EXPECT_DOUBLE_EQ(gap::best_linear_share(0.96875, found), 0.96875);
+}
+
 // Nothing leaves 1; each list of causes, an alternative of the answer, leaves `gap_after`.
 gap::Answer answer_of(const std::vector<Names>& alternatives, double gap_after) {
     gap::Answer answer{};

@@ -159,6 +159,40 @@ TEST(CyclesLimits, ClocksAreNearEachOtherOrAtWholeRatios) {
     EXPECT_EQ(outcome(2.965), Outcome::unknown);
 }
 
+// A clock that explains as much as one more effect does is none; as much as two more, it is the simpler cause.
+TEST(CyclesLimits, OneClockGoesBeforeTwoEffectsThatLookLikeIt) {
+    Asked asked;
+    // Without single issue loads are three hundredths of either kernel, and stores two. All other effects are there.
+    asked.kernels = {
+        {"ring_plain_q31",
+         400.0,
+         {{Effect::single_issue, 100.0}, {Effect::load_use, 9.0}, {Effect::store_buffer, 6.0}}},
+        {"ring_fir_q31", 500.0, {{Effect::single_issue, 60.0}, {Effect::load_use, 13.2}, {Effect::store_buffer, 8.8}}}};
+    for (std::size_t i = 0; i < timing::effect_count; ++i) {
+        const auto effect = static_cast<Effect>(i);
+        if (effect != Effect::single_issue && effect != Effect::load_use && effect != Effect::store_buffer) {
+            asked.kernels[i % 2].lost_a_tap.emplace_back(effect, 5.0 + static_cast<double>(i));
+        }
+    }
+    const auto named = [&](bool stores) {
+        const Explanation found = asked.answer([&](const qemu::MeasuredCycles& row, double cycles) {
+            double lost = 0.0;
+            for (const auto& [effect, a_tap] : asked.kernels[row.kernel == "ring_plain_q31" ? 0 : 1].lost_a_tap) {
+                const bool is_away = effect == Effect::single_issue || effect == Effect::load_use ||
+                                     (stores && effect == Effect::store_buffer);
+                lost += is_away ? a_tap : 0.0;
+            }
+            return cycles - lost * row.taps;
+        });
+        EXPECT_EQ(found.outcome, Outcome::attributed);
+        std::vector<std::string> names = effects_of(found.steps);
+        std::ranges::sort(names);
+        return names;
+    };
+    EXPECT_THAT(named(false), ElementsAre("load_use", "single_issue"));
+    EXPECT_THAT(named(true), ElementsAre("clock_ratio", "single_issue"));
+}
+
 // Of a core that pays nothing half a cycle of a call is a step; of one that pays all, four.
 TEST(CyclesLimits, ACallsCostIsAStepBeyondHalfACycleOrFour) {
     const auto has_cost = [](const std::string& base, double cost) {
@@ -188,7 +222,7 @@ TEST(CyclesLimits, APublishedRuleIsOffByAFifthOfACycleATap) {
     const auto parted = [&](double lost_a_tap) {
         asked.kernels = {{"far", 2.0 + 12.0, {{Effect::fpu_latency, 12.0}}},
                          {"near", 2.0 + lost_a_tap, {{Effect::fpu_latency, lost_a_tap}}},
-                         {"whole", 3.0, {}}};
+                         {"whole", 31.0, {{Effect::single_issue, 1.0}}}};
         asked.rows = rows_of(asked.kernels);
         const Explanation found = asked.answer([](const auto&, double cycles) { return cycles; });
         EXPECT_EQ(found.outcome, Outcome::ambiguous);

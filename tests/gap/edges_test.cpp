@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "gap/drive/coverage.hpp"
+#include "gap/drive/decide/rule.hpp"
 #include "gap/drive/effect.hpp"
 #include "gap/drive/outside.hpp"
 #include "gap/drive/residuals/locate.hpp"
@@ -133,11 +134,11 @@ TEST(LocateEdges, LevelsAreFewOrFifths) {
 // Over a fiftieth of the record the output moves by a hundredth of its range, or it is still.
 TEST(LocateEdges, StillIsAHundredthOfTheRange) {
     // 1000 samples: ten to either side. Up by 1, then by `slope` per sample.
-    const auto where = [](double slope) {
+    const auto where = [](double slope, double level = 0.0) {
         const gap::Record record = record_of(
             1000, 1.0, [](double) { return 0.0; },
             [=](double t) {
-                return t < 200.0 ? t / 200.0 : t < 700.0 ? 1.0 - slope * (t - 200.0) : 1.0 - slope * 500.0;
+                return level + (t < 200.0 ? t / 200.0 : t < 700.0 ? 1.0 - slope * (t - 200.0) : 1.0 - slope * 500.0);
             });
         return gap::locate({record}, {std::vector<double>(record.size(), 1.0)});
     };
@@ -145,8 +146,20 @@ TEST(LocateEdges, StillIsAHundredthOfTheRange) {
     EXPECT_NEAR(falls.rising, 0.2, 0.02);
     EXPECT_NEAR(falls.falling, 0.5, 0.02);
     EXPECT_NEAR(falls.still, 0.3, 0.03);
+    EXPECT_NEAR(where(0.000505, 5.0).falling, 0.5, 0.02);  // wherever it lies
     EXPECT_NEAR(where(0.000495).falling, 0.0, 1e-12);
     EXPECT_NEAR(where(0.000495).still, 0.8, 0.03);
+}
+
+// --- What is left.
+
+// A fifth of the squared gap that can be closed is a rest; what is less is minor.
+TEST(RemainderEdges, AFifthIsNotMinor) {
+    gap::Foreseeable rest;
+    rest.of_closable = 0.2;
+    EXPECT_FALSE(rest.is_minor());
+    rest.of_closable = 0.1999;
+    EXPECT_TRUE(rest.is_minor());
 }
 
 // --- What training lacks.

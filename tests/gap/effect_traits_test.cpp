@@ -1,6 +1,8 @@
 // What the search has to know of an effect follows from its law.
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "gap/drive/effect.hpp"
 #include "gap/drive/scenario.hpp"
 
@@ -42,6 +44,17 @@ TEST(EffectTraits, LawsThatLetNoSmallLevelPassLeadTheBase) {
         leading += dead ? 1 : 0;
     }
     EXPECT_EQ(leading, 2U);
+}
+
+// A motor starts beyond its threshold, not at it; where it has no width, at once.
+TEST(EffectTraits, AtItsThresholdAMotorStands) {
+    for (const double stops_below : {0.0, 1.0}) {
+        gap::Scenario scenario;
+        gap::effect_named("start_up_threshold").add_to(scenario, std::vector{0.5, stops_below, 0.0});
+        std::vector<double> levels{0.5, -0.5, 0.5001, 0.5};
+        scenario.levels.at(0)(levels);
+        EXPECT_EQ(levels, (std::vector{0.0, 0.0, 0.5001, stops_below > 0.0 ? 0.0 : 0.5}));
+    }
 }
 
 }  // namespace

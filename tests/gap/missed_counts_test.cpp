@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -86,6 +87,28 @@ TEST(MissedCounts, AreAskedOfFortySamplesAtMost) {
     const double at = (2.0 * noise * std::sqrt(128.0 / 40.0) - 1.0) * count;
     ASSERT_LT(at, count / 3.0);  // before the place that takes most, where nothing is refused
     EXPECT_NEAR(guess_of(count, grown).at(0), before(at), 8.0 * gap_test::h);
+}
+
+// Noise is the median step from sample to sample. As above, of steps of many sizes.
+TEST(MissedCounts, AreAskedByTheMedianOfTheSteps) {
+    constexpr std::size_t count = 4001;
+    constexpr double slope = 1.0 / count;
+    Values residuals(count);
+    Values steps;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double turn = 0.618034 * static_cast<double>(i);
+        const double size = 0.1 + 0.12 * (turn - std::floor(turn));
+        residuals[i] = slope * static_cast<double>(i) + (i % 2 == 0 ? size : -size);
+        if (i > 0) {
+            steps.push_back(std::fabs(residuals[i] - residuals[i - 1]));
+        }
+    }
+    std::ranges::sort(steps);
+    const double noise = 1.4826 / std::sqrt(2.0) * steps[steps.size() / 2];
+    const double at = (2.0 * noise * std::sqrt(128.0 / 40.0) - 1.0) * count;
+    ASSERT_GT(at, count / 20.0);
+    ASSERT_LT(at, count / 3.0);
+    EXPECT_NEAR(guess_of(count, [&](std::size_t i) { return residuals[i]; }).at(0), before(at), 40.0 * gap_test::h);
 }
 
 }  // namespace

@@ -17,12 +17,12 @@ using testing::Contains;
 using testing::Not;
 
 // 40 s at 10 Hz of a lag of 1 s, between 0 and about 2.
-gap::Record record_of(double from = 0.0) {
+gap::Record record_of(double from = 0.0, int last = 400) {
     gap::Record record;
     record.name = "lag";
     record.usual_interval_s = 0.1;
     double y = 0.0;
-    for (int i = 0; i <= 400; ++i) {
+    for (int i = 0; i <= last; ++i) {
         record.time_s.push_back(0.1 * i);
         record.input.push_back((i / 50) % 2 == 0 ? from : 1.0);
         record.output.push_back(y + 1e-3 * std::sin(37.0 * i * i));
@@ -178,7 +178,6 @@ TEST(Prepared, JudgesByTheValidationOrByWhatIsKeptAside) {
     EXPECT_EQ(ground.validation.counts, gap::part_counts(question.train, 25.0, true));
 }
 
-// A fiftieth of the record ahead, or as it is asked; one sample at least.
 // While a base is looked for, what a sensor's end holds counts for nothing.
 TEST(Prepared, LooksPastClippedReadings) {
     gap::Question question = question_of(true);
@@ -193,6 +192,7 @@ TEST(Prepared, LooksPastClippedReadings) {
     EXPECT_EQ(counted(), 376);
 }
 
+// A fiftieth of the record ahead, or as it is asked; one sample at least.
 TEST(Prepared, PredictsSoFarAhead) {
     gap::Question question = question_of();
     question.metric = gap::Metric::prediction;
@@ -202,6 +202,9 @@ TEST(Prepared, PredictsSoFarAhead) {
     EXPECT_EQ(gap::prepare(question).validation.horizon, 25U);
     question.horizon_s = 0.01;
     EXPECT_EQ(gap::prepare(question).study.horizon, 1U);
+    question.horizon_s.reset();
+    question.train[0] = record_of(0.0, 5025);  // 502.5 s
+    EXPECT_EQ(gap::prepare(question).study.horizon, 100U);
 }
 
 TEST(Prepared, OfSteppedReadingsIsNoFinerThanTheStep) {
@@ -245,6 +248,28 @@ TEST(Prepared, SketchesOnAThinnerGrid) {
         EXPECT_NEAR(fine[i], coarse[i], 1e-9) << i;
     }
     EXPECT_EQ(ground.sketch.counts, ground.study.counts);
+}
+
+// Beside a form each first look has 1200 samples of a record, or ten to the form's time constant where those are fewer,
+// and predicts as far ahead.
+TEST(Prepared, SketchesAFormByFewerSamples) {
+    const auto sketched = [](int samples, double time_constant_s) {
+        gap::Question question = question_of(true);
+        question.form = gap::form_of(drive::make_fopdt(2.0, time_constant_s, 0.0));
+        question.train[0] = record_of(0.0, samples - 1);
+        question.metric = gap::Metric::prediction;
+        question.horizon_s = 2.55;
+        const gap::Ground ground = gap::prepare(question);
+        const std::size_t size = ground.sketch.courses[0].record().size();
+        EXPECT_EQ(ground.sketch.horizon, size == static_cast<std::size_t>(samples) ? 25U : 12U);
+        question.horizon_s = 0.1;
+        EXPECT_EQ(gap::prepare(question).sketch.horizon, 1U);
+        return size;
+    };
+    EXPECT_EQ(sketched(2399, 3.0), 2399U);
+    EXPECT_EQ(sketched(2400, 3.0), 1200U);
+    EXPECT_EQ(sketched(6000, 2.005), 3000U);
+    EXPECT_EQ(sketched(6000, 1.995), 6000U);
 }
 
 }  // namespace

@@ -187,6 +187,22 @@ TEST(BootstrapSum, HasTheSpreadOfIndependentBlocks) {
     EXPECT_LT(torn.high - torn.low, 0.5 * (blocks.high - blocks.low));
 }
 
+// The bounds leave as many sums below as above: of the opposite values they change sides.
+TEST(BootstrapSum, OfTheOppositeIsTheOpposite) {
+    const Values values = noise(300, 11);
+    Values opposite;
+    for (const double value : values) {
+        opposite.push_back(-value);
+    }
+    for (const std::size_t block : {std::size_t{1}, std::size_t{7}}) {
+        const gap::Interval one = gap::bootstrap_sum(values, block);
+        const gap::Interval other = gap::bootstrap_sum(opposite, block);
+        EXPECT_NEAR(other.low, -one.high, 1e-9) << block;
+        EXPECT_NEAR(other.high, -one.low, 1e-9) << block;
+        EXPECT_NEAR(other.mean, -one.mean, 1e-9) << block;
+    }
+}
+
 // Of powers of ten each sum tells which were drawn, and how often.
 TEST(BootstrapSum, DrawsBlocksOfAQuarterOfTheValuesAtMost) {
     const auto powers = [](std::size_t count) {
