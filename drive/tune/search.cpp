@@ -75,6 +75,12 @@ Search::Trouble Search::trouble_of(const Wish& wish, const drive::Gains& gains, 
     return {0.0, excess};
 }
 
+bool meets(const Wish& wish, const Margins& margins) {
+    const bool margin = !wish.margin_rad || (std::fabs(margins.phase_deg * pi / 180.0 - *wish.margin_rad) < 0.01 &&
+                                             std::fabs(margins.crossover / *wish.crossover - 1.0) < 1e-3);
+    return margins.stable() && margin && margins.sensitivity < 1.0005 * wish.sensitivity;
+}
+
 double Search::score(const Space& space, const double* x) const {
     const std::optional<drive::Gains> gains = gains_at(space, x);
     if (!gains) {

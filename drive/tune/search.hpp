@@ -7,6 +7,7 @@
 #include "drive/tune/flat_phase.hpp"
 #include "drive/tune/grid.hpp"
 #include "drive/tune/load_error.hpp"
+#include "drive/tune/margins.hpp"
 
 namespace tune {
 
@@ -17,6 +18,10 @@ struct Wish {
     double sensitivity;                ///< largest |S|
     bool flat = true;                  ///< a flat phase, where one can be had
 };
+
+/// Whether the sweep, which has the last word, finds what was wished: the margin within 0.01 rad at the crossover
+/// within a thousandth, and |S| to half a thousandth.
+[[nodiscard]] bool meets(const Wish& wish, const Margins& margins);
 
 enum class Orders { integer, fractional };
 
@@ -42,16 +47,18 @@ public:
     /// Whether a coarse search finds any controller for the wish. \pre it has a crossover
     [[nodiscard]] bool reachable(const Wish& wish, Orders orders) const;
 
+    struct Trouble {
+        double size;    ///< 0: none; else a thousand and more, of instability more, of a sign that is wrong the most
+        double excess;  ///< of |S| over the wish, as a part of it
+    };
+    /// What keeps gains from being an answer. An integral is needed. A little is none: descents go through it.
+    /// \param w  rad/s, where gains are weighed against each other
+    [[nodiscard]] Trouble trouble_of(const Wish& wish, const drive::Gains& gains, double w) const;
+
 private:
     struct Space;
     [[nodiscard]] std::optional<drive::Gains> gains_at(const Space& space, const double* x) const;
     [[nodiscard]] double score(const Space& space, const double* x) const;
-    // What keeps gains from being an answer: 0, or how bad that is; and how far |S| is above the wish, as a part of it.
-    struct Trouble {
-        double size;
-        double excess;
-    };
-    [[nodiscard]] Trouble trouble_of(const Wish& wish, const drive::Gains& gains, double w) const;
     [[nodiscard]] std::optional<Found> explore(const Space& space, const std::optional<Found>& beside) const;
 
     const SampledPlant& plant_;

@@ -87,13 +87,6 @@ Design judge(const SampledPlant& plant, const Request& request, const Trial& tri
     return design;
 }
 
-// The sweep has the last word.
-bool meets(const Wish& wish, const Margins& margins) {
-    const bool margin = !wish.margin_rad || (std::fabs(margins.phase_deg * pi / 180.0 - *wish.margin_rad) < 0.01 &&
-                                             std::fabs(margins.crossover / *wish.crossover - 1.0) < 1e-3);
-    return margins.stable() && margin && margins.sensitivity < 1.0005 * wish.sensitivity;
-}
-
 // The grid that the search asks is coarser than the sweep: what is a little above is looked for a little below.
 std::optional<Found> find(const Search& search, const SampledPlant& plant, const Wish& wish, Orders orders,
                           const std::optional<Found>& beside) {

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "base/failure.hpp"
+#include "drive/tune/search.hpp"
 #include "drive/tune/tune.hpp"
 #include "drive/tune/tune_picture.hpp"
 #include "drive/tune/tune_report.hpp"
@@ -168,6 +169,111 @@ TEST(Tune, DrawsAndWritesWhatWasFound) {
     }
     EXPECT_NE(to_json(tuned, "m.json").find("\"schema\": \"glsum-tune-1\""), std::string::npos);
     EXPECT_TRUE(tuned.integer->course.limited);
+}
+
+// What keeps gains from being an answer, the worst the highest: a sign that is not the plant's, poles that are
+// unstable, a margin short by more than 0.02 rad or an |S| a fifth too high. What is less goes through.
+TEST(Search, RanksWhatKeepsGainsFromBeingAnAnswer) {
+    for (const double sign : {1.0, -1.0}) {
+        drive::Model model = plants::fopdt();
+        model.gain = sign;
+        const tune::SampledPlant plant(model, 0.01, "plant");
+        const tune::Search search(plant, 0.05, 20.0);
+        const drive::Gains gains{.kp = 0.2 * sign, .ki = 0.3 * sign, .filter_s = 0.05};
+        const auto answer = tune::Grid(plant)(gains);
+        ASSERT_EQ(answer.unstable_poles, 0);
+        const auto trouble = [&](double margin_rad, double sensitivity, drive::Gains of) {
+            return search.trouble_of({.crossover = 1.0, .margin_rad = margin_rad, .sensitivity = sensitivity}, of, 1.0);
+        };
+        const auto size = [&](const drive::Gains& of) { return trouble(0.0, 100.0, of).size; };
+        EXPECT_EQ(size(gains), 0.0);
+        EXPECT_NEAR(trouble(0.0, answer.sensitivity / 1.5, gains).excess, 0.5, 1e-12);
+        // A margin that is short, |S| that is high, or both.
+        const double s = answer.sensitivity;
+        EXPECT_EQ(trouble(answer.phase_rad + 0.0199, s / 1.199, gains).size, 0.0);
+        EXPECT_NEAR(trouble(answer.phase_rad + 0.0201, s / 0.5, gains).size, 1e3 * 1.0201, 1e-6);
+        EXPECT_NEAR(trouble(answer.phase_rad - 1.0, s / 1.201, gains).size, 1e3 * 1.201, 1e-6);
+        EXPECT_NEAR(trouble(answer.phase_rad + 0.5, s / 1.3, gains).size, 1e3 * 1.8, 1e-6);
+        EXPECT_NEAR(search.trouble_of({{}, {}, s / 1.1}, gains, 1.0).excess, 0.1, 1e-12);
+        // Unstable by a pair, or by two.
+        drive::Gains strong = gains;
+        strong.kp = 3.0 * sign;
+        const int poles = tune::Grid(plant)(strong).unstable_poles;
+        ASSERT_GT(poles, 0);
+        EXPECT_EQ(size(strong), 1e4 * (1.0 + poles));
+        // Gains of the other sign by their share of all three; none of an integral is one.
+        drive::Gains wrong = gains;
+        wrong.kp = -0.1 * sign;
+        EXPECT_NEAR(size(wrong), 1e5 * (1.0 + 0.1 / 0.4), 1.0);
+        wrong = gains;
+        wrong.kd = -0.5 * sign;
+        EXPECT_NEAR(size(wrong), 1e5 * (1.0 + 0.5 / 1.0), 200.0);  // through its filter
+        wrong = gains;
+        wrong.ki = 0.0;
+        EXPECT_NEAR(size(wrong), 1e5 * (1.0 + 1e-6), 1e-3);
+        wrong.ki = 0.9e-6 * wrong.kp;
+        EXPECT_GT(size(wrong), 1e5);
+        wrong.ki = 1.1e-6 * wrong.kp;
+        EXPECT_LT(size(wrong), 1e5);
+        // Rounding is no sign.
+        wrong = gains;
+        wrong.kd = -0.4e-9 * sign;
+        EXPECT_LT(size(wrong), 1e5);
+        wrong.kd = -0.6e-9 * sign;
+        EXPECT_GT(size(wrong), 1e5);
+    }
+}
+
+TEST(Search, TheSweepHasTheLastWord) {
+    const tune::Wish wish{.crossover = 2.0, .margin_rad = 1.0, .sensitivity = 1.6};
+    tune::Margins margins;
+    const auto is_met = [&](double margin_rad, double crossover, double sensitivity) {
+        margins.phase_deg = margin_rad * 180.0 / tune::pi;
+        margins.crossover = crossover;
+        margins.sensitivity = sensitivity;
+        return tune::meets(wish, margins);
+    };
+    EXPECT_TRUE(is_met(1.0, 2.0, 1.6));
+    for (const double side : {-1.0, 1.0}) {
+        EXPECT_TRUE(is_met(1.0 + side * 0.00995, 2.0, 1.6));
+        EXPECT_FALSE(is_met(1.0 + side * 0.01005, 2.0, 1.6));
+        EXPECT_TRUE(is_met(1.0, 2.0 * (1.0 + side * 0.000995), 1.6));
+        EXPECT_FALSE(is_met(1.0, 2.0 * (1.0 + side * 0.001005), 1.6));
+    }
+    EXPECT_TRUE(is_met(1.0, 2.0, 1.6 * 1.000499));
+    EXPECT_FALSE(is_met(1.0, 2.0, 1.6 * 1.000501));
+    // Without a margin whatever the loop has.
+    margins.phase_deg = 10.0;
+    margins.crossover = 77.0;
+    margins.sensitivity = 1.6;
+    EXPECT_TRUE(tune::meets({{}, {}, 1.6}, margins));
+    for (const int poles : {-1, 2}) {
+        margins.unstable_poles = poles;
+        EXPECT_FALSE(tune::meets({{}, {}, 1.6}, margins));
+        EXPECT_FALSE(is_met(1.0, 2.0, 1.0));
+    }
+}
+
+// Gains that are known are the answer where none are found, or none that leave less, with a phase as flat.
+TEST(Search, IsNeverWorseThanWhatItIsToldOf) {
+    const tune::SampledPlant plant(motor(), 0.01, "plant");
+    const tune::Search search(plant, 0.02, 20.0);
+    const tune::Wish wish{.crossover = 2.0, .margin_rad = 1.05, .sensitivity = 2.0};
+    const auto alone = search.best(wish, tune::Orders::integer);
+    ASSERT_TRUE(alone && alone->flat);
+    const auto beside = [&](double iae, bool flat, const tune::Wish& of) {
+        return search.best(of, tune::Orders::integer, tune::Found{{.kp = 77.0}, flat, iae, 0});
+    };
+    EXPECT_EQ(beside(1.001 * alone->iae, true, wish)->gains.kp, alone->gains.kp);
+    const auto better = beside(0.999 * alone->iae, true, wish);
+    EXPECT_EQ(better->gains.kp, 77.0);
+    EXPECT_EQ(better->iae, 0.999 * alone->iae);
+    EXPECT_TRUE(better->flat);
+    EXPECT_EQ(better->tries, alone->tries);
+    EXPECT_EQ(beside(0.5 * alone->iae, false, wish)->gains.kp, alone->gains.kp);
+    tune::Wish none = wish;
+    none.sensitivity = 0.5;
+    EXPECT_EQ(beside(1e6, true, none)->gains.kp, 77.0);
 }
 
 }  // namespace
