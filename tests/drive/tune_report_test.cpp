@@ -179,7 +179,9 @@ TEST(TuneReport, ItsFileHasEachNumberUnderItsName) {
         EXPECT_EQ(json["met_a_limit"], by == 1.0);
         EXPECT_EQ(json["tries"], 700 + static_cast<int>(by));
     };
-    const auto file = nlohmann::json::parse(to_json(tuned, "m.json"));
+    const std::string text = to_json(tuned, "m.json");
+    EXPECT_EQ(text, nlohmann::ordered_json::parse(text).dump(2) + "\n");
+    const auto file = nlohmann::json::parse(text);
     EXPECT_EQ(file["schema"], "glsum-tune-1");
     EXPECT_EQ(file["model"], "m.json");
     EXPECT_EQ(file["sample_time_s"], 0.125);
