@@ -265,6 +265,41 @@ TEST(Gate, JudgesTimesOnlyAgainstTheAnchor) {
     EXPECT_THAT(find(verdict, Level::note)->what, HasSubstr("fewer than 20 repetitions"));
 }
 
+// What became faster is an improvement, by how much and how surely; what may have become slower or may not, a note.
+TEST(Gate, SaysWhichTimesGotBetterAndWhichCannotBeTold) {
+    Results current = run();
+    scale(current, time_row, "cpu_time", 0.8);
+    Verdict verdict = judge(run(), current, rules());
+    EXPECT_EQ(verdict.status, Exit::good);
+    EXPECT_EQ(verdict.count(Layer::host_time).compared, 2u);
+    ASSERT_EQ(verdict.findings.size(), 1u);
+    const Finding& better = verdict.findings.front();
+    EXPECT_EQ(better.level, Level::improvement);
+    EXPECT_EQ(better.layer, Layer::host_time);
+    EXPECT_EQ(better.row, time_row);
+    EXPECT_EQ(better.counter, "cpu_time");
+    EXPECT_EQ(better.reason, "ratio");
+    EXPECT_NEAR(better.change.value(), -0.2, 1e-3);
+    EXPECT_LE(better.change_low.value(), better.change.value());
+    EXPECT_GE(better.change_high.value(), better.change.value());
+    EXPECT_THAT(better.what, testing::StartsWith("-20.0 % ("));
+    EXPECT_THAT(better.what, testing::EndsWith(" %) of the time of peer_std_f32"));
+    // One repetition as fast as before, and all others a tenth slower: the fastest may be either.
+    current = run();
+    for (Json& row : current.rows) {
+        if (row["name"] == time_row && row["repetition_index"] != 0) {
+            row["cpu_time"] = 1.1 * row["cpu_time"].get<double>();
+        }
+    }
+    verdict = judge(run(), current, rules());
+    EXPECT_EQ(verdict.status, Exit::good);
+    ASSERT_EQ(verdict.findings.size(), 1u);
+    EXPECT_EQ(verdict.findings.front().level, Level::note);
+    EXPECT_EQ(verdict.findings.front().row, time_row);
+    EXPECT_THAT(verdict.findings.front().what,
+                testing::EndsWith("; whether it is beyond 5 % cannot be told; more --repetitions can"));
+}
+
 // A neighbour on the same core slows what fills it and leaves the rest: code that is not ours tells so.
 TEST(Gate, DoesNotJudgeTimesWhereAWitnessMoved) {
     Rules with_witness = rules();

@@ -2,7 +2,9 @@
 // figures in qemu/cores/_cortex-m4.toml that decide them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
+#include <utility>
 
 #include "probe.hpp"
 #include "qemu/timing/cortex_m4/pipeline.hpp"
@@ -201,6 +203,21 @@ TEST(CortexM4, TheFirstWordsOfATargetComeWithTheRefill) {
     }
 }
 
+// Of several words each is asked for as soon as there is a place for it, without a restart: so many of them are under
+// way in the time that one takes, and no more than one a cycle.
+TEST(CortexM4, AsManyWordsAreUnderWayAsTheBufferHolds) {
+    probe::Setting setting = probe::core("cortex-m4-zerowait");
+    setting.figures.prefetch_restart = 4;
+    for (const auto& [words, text] : {std::pair(2, "add.w r0,r1,r2; add.w r3,r4,r5"),
+                                      std::pair(3, "add.w r0,r1,r2; add.w r3,r4,r5; add.w r6,r7,r8")}) {
+        setting.figures.fetch_queue = words;
+        for (const int latency : {1, 2, 3, 4, 7}) {
+            setting.figures.prefetch_latency = latency;
+            EXPECT_EQ(cycles_of({"", text, 0}, setting), std::max(words, latency)) << words;
+        }
+    }
+}
+
 // Of one word a buffer asks for the next when it is used up, and has to begin anew: latency and restart for each. An
 // instruction across two words does not keep the first from leaving, else the second never came.
 TEST(CortexM4, ABufferOfOneWordAsksForEachByItself) {
@@ -211,6 +228,18 @@ TEST(CortexM4, ABufferOfOneWordAsksForEachByItself) {
     EXPECT_EQ(cycles_of({"", "add.w r0,r1,r2; add.w r3,r4,r5", 0}, setting), 2 * (3 + 4));
     // The second word was asked for a cycle behind the first, and two instructions go on from it.
     EXPECT_EQ(cycles_of({"", "nop; add.w r0,r1,r2; nop", 0}, setting), 3 + 4 + 2);
+}
+
+// The registers of an LDM come a cycle one behind the other: each is an address as many cycles later, where nothing
+// else keeps the next instruction from issuing at once.
+TEST(CortexM4, RegistersOfALoadOfSeveralComeOneACycle) {
+    probe::Setting setting = probe::core("cortex-m4-zerowait");
+    setting.figures.takes_multiple_first = -3;
+    for (int nth = 0; nth < 4; ++nth) {
+        const std::string text = "ldm r0,{r1,r2,r3,r4}; ldr.w r5,[r" + std::to_string(1 + nth) + "]";
+        const auto positions = probe::run(lines_of(text.c_str()), setting).positions;
+        EXPECT_EQ(positions.at(1) / 2 - positions.at(0) / 2, 3 + nth);  // as LDR's own at least
+    }
 }
 
 // Nothing was stored, nothing computed and nothing held before a program's first instruction: it waits for its word

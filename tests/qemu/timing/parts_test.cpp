@@ -261,6 +261,27 @@ TEST(Memory, ALineOfSramTakesTheBeatsOfEightBytes) {
     }
 }
 
+// The DTCM's words lie in two banks, and the data cache's; what comes past both from a bus or through the accelerator
+// has none, nor has the ITCM.
+TEST(Memory, HasBanksInTheDtcmAndInTheDataCache) {
+    timing::Figures figures = probe::core("stm32f746-flash").figures;
+    const auto banks_at = [&](timing::CodePlace code, timing::DataPlace data, std::uint32_t address) {
+        return timing::Memory(figures, {code, data}).has_banks(address);
+    };
+    constexpr auto flash = timing::CodePlace::flash;
+    constexpr auto axi = timing::DataPlace::axi;
+    for (const std::int64_t bytes : {4096, 0}) {
+        figures.cache_data_bytes = bytes;
+        EXPECT_TRUE(banks_at(timing::CodePlace::itcm, timing::DataPlace::dtcm, 0x20000000));
+        EXPECT_FALSE(banks_at(timing::CodePlace::itcm, timing::DataPlace::dtcm, 0x100));
+        EXPECT_EQ(banks_at(flash, axi, 0x20000000), bytes > 0);
+        EXPECT_EQ(banks_at(flash, axi, 0x100), bytes > 0);
+    }
+    figures.cache_data_bytes = 4096;
+    figures.memory_art_lines = 64;
+    EXPECT_FALSE(banks_at(flash, axi, 0x100));
+}
+
 // The flash holds the line that it read last for fetches, and another one for loads: neither saves the other a read,
 // whether caches ask or the core itself. A second access by the same side takes the bus alone.
 TEST(Memory, FetchesAndLoadsEachHaveALineOfTheFlashOpen) {

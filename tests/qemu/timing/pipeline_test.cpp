@@ -101,6 +101,22 @@ TEST(Pipeline, ALoadMeetsAnyOfTheLastEightStores) {
     }
 }
 
+// A MAC is barred for so many cycles behind the last cycle of a transfer, which moves two registers a cycle.
+TEST(Pipeline, AMacIsBarredBehindTheLastRegisterOfATransfer) {
+    for (const int barred : {1, 2}) {
+        probe::Setting setting = probe::core("stm32f746-itcm");
+        setting.figures.fp_mac_bar_after_load = setting.figures.fp_mac_bar_after_store = barred;
+        for (const int registers : {2, 3, 4, 5, 8}) {
+            const std::string list = "r0,{s0-s" + std::to_string(registers - 1) + "}\nvfma.f32 s20,s21,s22\n";
+            for (const char* transfer : {"vldm ", "vstm "}) {
+                const auto positions = probe::run(transfer + list, setting).positions;
+                EXPECT_EQ(positions.at(1) / 2 - positions.at(0) / 2, (registers - 1) / 2 + barred + 1)
+                    << transfer << registers;
+            }
+        }
+    }
+}
+
 // While the core waits, fetching goes on until the queue is full; how many words then follow at once tells its length.
 TEST(Pipeline, FetchesAQueueOfWordsAheadOfTheirUse) {
     timing::CoreFile core = timing::read_core(TEST_CORES, "stm32f746-itcm");
