@@ -7,7 +7,7 @@
 #   --check      plants none and builds nothing: says which cannot be planted in today's sources
 #   --alone      with --bugs, for a first look: what its tests miss of a file that is compiled alone is missed
 # The copy stays in build/planted; a second run starts faster. GLSUM_PLANT_LIMIT_S: seconds that a test program may take on
-# a busy machine, 240 otherwise.
+# a busy machine, 240 otherwise. GLSUM_PLANT_FLAGS: the compiler's, -D_GLIBCXX_ASSERTIONS otherwise; none as the project is built.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 source=$(cd "$here/../.." && pwd)
@@ -118,7 +118,8 @@ fi
 
 # The copy: what git tracks, as it is in the working tree; unchanged files keep their times, so that ninja keeps its objects.
 # Its build folder lies as the project's own does, so that a compiler cache, where one is in use, knows its objects again.
-# The standard library checks indices there: what is read beyond an end fails, whatever lies behind it.
+# The standard library checks indices there: what is read beyond an end fails, whatever lies behind it. Without that every object
+# is one that the project's own build has made, which saves CI a second build of everything.
 copy=$source/build/planted/source
 build=$copy/build/host
 mkdir -p "$copy" "$build"
@@ -209,7 +210,7 @@ done >"$source/build/planted/bugs"
 all_tests=$(while IFS='|' read -r name file symbol change; do tests_of "$file"; done <"$source/build/planted/bugs" | tr ' ' '\n' | sort -u)
 # A run that was killed left a bug in objects whose source looks older: none of them can be trusted.
 [ ! -e "$build/marker" ] || find "$build" -name '*.o' -delete
-(cd "$copy" && cmake --preset host -D CMAKE_CXX_FLAGS=-D_GLIBCXX_ASSERTIONS -D GLSUM_FIRMWARE_BUILD="$firmware") >"$source/build/planted/configure.log" 2>&1 ||
+(cd "$copy" && cmake --preset host -D CMAKE_CXX_FLAGS="${GLSUM_PLANT_FLAGS--D_GLIBCXX_ASSERTIONS}" -D GLSUM_FIRMWARE_BUILD="$firmware") >"$source/build/planted/configure.log" 2>&1 ||
     { tail -n 20 "$source/build/planted/configure.log" >&2; exit 3; }
 compile $all_tests || { tail -n 20 "$source/build/planted/build.log" >&2; echo "plant.sh: the project does not build without a bug" >&2; exit 1; }
 run_tests $all_tests || { tail -n 20 "$source/build/planted/tests.log" >&2; echo "plant.sh: the tests fail without a bug" >&2; exit 1; }
