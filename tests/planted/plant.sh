@@ -158,7 +158,7 @@ run_tests() {
             timing_tests) only_these='-Objdump.*' ;;
             *) only_these='*' ;;
         esac
-        status=0
+        ended=0
         limit=${GLSUM_PLANT_LIMIT_S:-240}
         ! of_firmware "$file" || limit=$((4 * limit))
         [ "$test" != gap_tests ] || limit=$((4 * limit))  # whole diagnoses
@@ -167,7 +167,7 @@ run_tests() {
             # Headers of every kernel, compiled and run here.
             make_headers)
                 timeout "$limit" env -u GLSUM_REQUIRE_FIRMWARE sh "$copy/tests/generate/compilers.sh" "${program:-$build/tests/make_headers}" "$copy" none >"$log" 2>&1 ||
-                    { status=$?; echo '[  FAILED  ] generate.compilers' >>"$log"; }
+                    { ended=$?; echo '[  FAILED  ] generate.compilers' >>"$log"; }
                 ;;
             *)
                 # What takes long comes last: most bugs are caught before.
@@ -179,12 +179,12 @@ run_tests() {
                     *) long= ;;
                 esac
                 for part in "${long:+$only_these-$long}" "${long:-$only_these}"; do
-                    [ -n "$part" ] && [ "$status" -eq 0 ] || continue
-                    timeout "$limit" "${program:-$build/tests/$test}" --gtest_brief=1 --gtest_fail_fast --gtest_filter="$part" >"$log" 2>&1 || status=$?
+                    [ -n "$part" ] && [ "$ended" -eq 0 ] || continue
+                    timeout "$limit" "${program:-$build/tests/$test}" --gtest_brief=1 --gtest_fail_fast --gtest_filter="$part" >"$log" 2>&1 || ended=$?
                 done
                 ;;
         esac
-        [ "$status" -eq 0 ] || [ "$status" -eq 77 ] || return "$status"  # 77: no browser is here
+        [ "$ended" -eq 0 ] || [ "$ended" -eq 77 ] || return "$ended"  # 77: no browser is here
     done
 }
 wanted() {
@@ -244,14 +244,12 @@ caught_alone() {  # FILE TEST...
     compile_alone "$1" || return 1
     shift
     # What an earlier bug was built into in whole is built again without it; this one's file is as it was meanwhile.
-    if [ "$spoilt" = yes ]; then
-        cp -p "$copy/$file" "$build/changed"
-        cp -p "$build/original" "$copy/$file"
-        compile $all_tests
-        cp -p "$build/changed" "$copy/$file"
-        touch "$copy/$file"
-        spoilt=no
-    fi
+    cp -p "$copy/$file" "$build/changed"
+    cp -p "$build/original" "$copy/$file"
+    compile "$@"
+    touch "$build/marker"
+    cp -p "$build/changed" "$copy/$file"
+    touch "$copy/$file"
     for test in "$@"; do
         link_alone "$test" || return 1
         status=0
@@ -264,7 +262,6 @@ caught_alone() {  # FILE TEST...
     return 1
 }
 
-spoilt=no
 judged=no
 caught=0
 missed=''
@@ -278,17 +275,17 @@ while IFS= read -r line <&3; do
     touch "$build/marker"
     how=missed
     stale=$(perl "$here/plant.pl" "$copy/$file" "$symbol" "$change" 2>&1) || how="stale: in $file: $stale"
+    status=0
     case $how$name in
         stale*) ;;
         missed!*)
             judged=no
-            if caught_alone "$file" $tests; then
-                how=
-            elif [ "$alone_only$judged" = yesyes ]; then
-                how=missed
-            else
-                spoilt=yes
-                compile $tests || how='caught (does not compile)'
+            if ! caught_alone "$file" $tests && [ "$alone_only$judged" != yesyes ]; then
+                # One after the other: what the first test catches is not built into the others.
+                for test in $tests; do
+                    compile "$test" || how='caught (does not compile)'
+                    [ "$how" = missed ] && run_tests "$test" || { status=$?; break; }
+                done
             fi
             ;;
         *)
@@ -296,17 +293,11 @@ while IFS= read -r line <&3; do
             compile "$(library_of "$file")" || how='caught (does not compile)'
             cp -p "$build/original" "$copy/$file"
             [ "$how" != missed ] || compile $tests || how='caught (does not link)'
+            [ "$how" != missed ] || run_tests $tests || status=$?
             ;;
     esac
-    case $how$judged$alone_only in
-        missedyesyes) status=0 ;;
-        missed*)
-            status=0
-            run_tests $tests || status=$?
-            ;;
-    esac
-    if [ "$how" = missed ] || [ -z "$how" ]; then
-        [ "$status" -eq 0 ] || how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$source/build/planted/tests.log" | sed '1q;d')"
+    if [ "$how" = missed ] && [ "$status" -ne 0 ]; then
+        how="caught by $(sed -n 's/^\[  FAILED  \] \([^ ,]*\).*/\1/p' "$source/build/planted/tests.log" | sed '1q;d')"
         [ "$how" != "caught by " ] || how='caught by a crash'
         [ "$status" -ne 124 ] || how=hangs
     fi
