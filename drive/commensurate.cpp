@@ -66,9 +66,10 @@ std::optional<double> common_base_order(const Model& model) {
         return 1.0;
     }
     common = std::gcd(common, std::int64_t{1'000'000}) == 1'000'000 ? 1'000'000 : common;
-    const double base_order = static_cast<double>(common) * unit;
-    if (base_order >= 2.0 || highest_order(model.denominator) / base_order > static_cast<double>(highest_degree)) {
-        return base_order >= 2.0 ? std::optional(1.0) : std::nullopt;
+    // Of 2 and above the largest part that is below: of a lone 2.5 the half.
+    const double base_order = static_cast<double>(common) * unit / static_cast<double>(common / 2'000'000 + 1);
+    if (highest_order(model.denominator) / base_order > static_cast<double>(highest_degree)) {
+        return std::nullopt;
     }
     return base_order;
 }

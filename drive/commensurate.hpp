@@ -24,7 +24,7 @@ struct Commensurate {
 inline constexpr std::size_t highest_degree = 600;
 [[nodiscard]] Commensurate to_commensurate(const Model& model, double base_order);
 
-/// The largest q of which all orders are multiples, orders taken as decimals of at most 6 places; 1 for whole orders.
+/// The largest q below 2 of which all orders are multiples, orders taken as decimals of at most 6 places; 1 for whole orders.
 /// None where the degree would be above `highest_degree`: then there is no commensurate form to work with.
 [[nodiscard]] std::optional<double> common_base_order(const Model& model);
 

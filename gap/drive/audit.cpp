@@ -20,12 +20,14 @@ double span_of(const std::vector<double>& values) {
     return *high - *low;
 }
 
-// The power of ten whose multiples all readings are; 0 where they have more digits than six.
+// The power of ten whose multiples all readings are, to the seven digits of single precision; 0 where they have more
+// than six behind the point.
 double last_digit_of(const std::vector<Record>& records) {
     for (const double digit : {1.0, 0.1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
         const bool all = std::all_of(records.begin(), records.end(), [&](const Record& record) {
             return std::all_of(record.output.begin(), record.output.end(), [&](double value) {
-                return std::fabs(value / digit - std::round(value / digit)) < 1e-6 * (1.0 + std::fabs(value / digit));
+                const double number = value / digit;
+                return std::fabs(number - std::round(number)) < std::min(1e-6 * (1.0 + std::fabs(number)), 0.01);
             });
         });
         if (all) {

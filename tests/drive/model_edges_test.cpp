@@ -216,6 +216,9 @@ TEST(CommensurateEdges, TheCommonOrderIsFoundToAMillionth) {
     EXPECT_NEAR(common(1.5, 0.75).value(), 0.75, 1e-12);
     EXPECT_EQ(common(3.0, 2.0).value(), 1.0);
     EXPECT_EQ(common(4.0, 2.0).value(), 1.0);  // below 2 it must be
+    EXPECT_NEAR(common(2.5, 5.0).value(), 1.25, 1e-12);
+    EXPECT_NEAR(common(4.5, 4.5).value(), 1.5, 1e-12);
+    EXPECT_NEAR(common(1.999999, 1.999999).value(), 1.999999, 1e-12);
     EXPECT_FALSE(common(1.2345678, 0.5).has_value());
     EXPECT_FALSE(common(1.0, 0.001).has_value());           // of degree 1000
     EXPECT_NEAR(common(0.6, 0.001).value(), 0.001, 1e-12);  // of 600

@@ -63,7 +63,6 @@ TEST(AuditQuantum, IsTheLatticeWhereverItBegins) {
     EXPECT_EQ(quantum_of(std::vector<double>(50, 2.0)), 0.0);
 }
 
-// A logger's last digit rounds a sensor's steps: 0.3223 is 0.32 or 0.33.
 // Readings that go up and down by a step of 0.05, and far above them once some that lie a fifth of a step beside.
 TEST(AuditQuantum, OfOneLevelInAHundredMayLieBeside) {
     const auto with_beside = [](int levels, int beside) {
@@ -84,12 +83,26 @@ TEST(AuditQuantum, OfOneLevelInAHundredMayLieBeside) {
     EXPECT_EQ(with_beside(99, 1), 0.0);
 }
 
+// A logger's last digit rounds a sensor's steps: 0.3223 is 0.32 or 0.33.
 TEST(AuditQuantum, IsSeenThroughALoggersDigits) {
     std::vector<double> values = noisy(400, 3);
     for (double& value : values) {
         value = std::round(0.3223 * std::round(4.0 * value) * 100.0) / 100.0;
     }
     EXPECT_NEAR(quantum_of(values), 0.3223, 2e-3);
+}
+
+// Readings with a digit behind the point are no whole numbers, however large they are: steps of 20 and 20.9 are none.
+TEST(AuditQuantum, HasTheDigitsOfLargeReadings) {
+    std::vector<double> values;
+    for (int i = 0; i < 200; ++i) {
+        values.push_back(2e6 + (i % 4 == 0 ? 0.0 : i % 4 == 2 ? 40.9 : 20.0));
+    }
+    EXPECT_EQ(quantum_of(values), 0.0);
+    for (double& value : values) {
+        value = std::round(value);  // logged without the digit
+    }
+    EXPECT_NEAR(quantum_of(values), 20.5, 0.2);
 }
 
 // Of white noise the median of |z - 2 z' + z''| is 0.6745 sqrt 6 deviations.
