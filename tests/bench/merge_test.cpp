@@ -190,6 +190,7 @@ TEST(Merge, RefusesWhatIsNotAllOfOneSweep) {
     using glsum::Exit;
     expect_refused([](Shards& s) { s.clear(); }, Exit::bad_input, "at least one shard");
     expect_refused([](Shards& s) { s.pop_back(); }, Exit::bad_input, "missing: shard 2/2");
+    expect_refused([](Shards& s) { s.erase(s.begin()); }, Exit::bad_input, "missing: shard 1/2");
     expect_refused([](Shards& s) { s.push_back(s[0]); }, Exit::bad_input,
                    "shard 1/2 is there twice: first.json and first.json");
     expect_refused([](Shards& s) { s[1].results.context.erase("shard"); }, Exit::bad_input,
