@@ -80,7 +80,7 @@ tests_of() {
         kernels/glsum/design/*) echo modes_tests ;;
         kernels/glsum/model/pid*) echo controller_tests ;;
         kernels/glsum/model/*) echo drive_tests ;;
-        kernels/*) echo kernel_tests bench_tests ;;
+        kernels/*) echo kernel_tests modes_tests bench_tests ;;
         base/*) echo base_tests bench_tests ;;
         bench/choose/*) echo choose_tests ;;
         bench/steppers/*) echo controller_tests ;;
