@@ -45,6 +45,21 @@ double unevenness(const std::vector<double>& time_s) {
     return worst / mean_s;
 }
 
+// A sample that was written twice is one: of what was measured the mean, of every input the last.
+TEST(Bursts, FurtherInputsAreOrderedLikeTheFirst) {
+    Log log = log_of({{0, 1}, {1, 2}, {2, 3}, {2, 5}, {1, 9}, {3, 6}, {4, 6}, {5, 6}, {6, 6}, {7, 6}});
+    log.input = {0, 1, 2, 3, 9, 5, 5, 5, 5, 5};
+    log.more_inputs = {{10, 11, 12, 13, 19, 15, 15, 15, 15, 15}, {20, 21, 22, 23, 29, 25, 25, 25, 25, 25}};
+    log.simulated = {1, 2, 3, 7, 9, 6, 6, 6, 6, 6};
+    (void)drive::order_stamps(log);
+    EXPECT_THAT(log.time_s, ElementsAre(0, 1, 2, 3, 4, 5, 6, 7));
+    EXPECT_THAT(log.input, ElementsAre(0, 1, 3, 5, 5, 5, 5, 5));
+    EXPECT_THAT(log.more_inputs, ElementsAre(ElementsAre(10, 11, 13, 15, 15, 15, 15, 15),  //
+                                             ElementsAre(20, 21, 23, 25, 25, 25, 25, 25)));
+    EXPECT_THAT(log.output, ElementsAre(1, 2, 4, 6, 6, 6, 6, 6));
+    EXPECT_THAT(log.simulated, ElementsAre(1, 2, 5, 6, 6, 6, 6, 6));
+}
+
 TEST(Bursts, AreSpreadEvenlyToTheNextStamp) {
     Log log =
         log_of({{0, 1}, {0, 2}, {0, 3}, {0, 4}, {1, 5}, {1, 6}, {1, 7}, {1, 8}, {2, 9}, {2, 10}, {2, 11}, {2, 12}});

@@ -28,6 +28,8 @@ TEST(FunctionTime, CountsEachCallOfARun) {
     timing::TimingLog log;
     log.runs = {run_of(1, 10, {30, 28, 34}, 7, 4), run_of(2, 12, {20, 18, 26}, 3, 2),
                 run_of(1, 11, {90, 80, 100}, 5, 6)};
+    log.runs[0].call.stack_bytes = 24;
+    log.runs[1].call.stack_bytes = 40;
     log.hot = {{{0x104, {10, timing::Effect::load_use, 4}}, {0x100, {10}}, {0x108, {40}}}};
     log.unknown = {{0x10c, 3}};
     log.recursive = true;
@@ -47,6 +49,7 @@ TEST(FunctionTime, CountsEachCallOfARun) {
     EXPECT_EQ(time.in_double.min, 2);
     EXPECT_EQ(time.in_double.median, 2);
     EXPECT_EQ(time.in_double.max, 6);
+    EXPECT_EQ(time.stack_bytes, 40U);
     // The costliest first, of equals the one that comes first.
     EXPECT_THAT(time.hot, ElementsAre(std::pair(0x108U, timing::HotSpot{40}), std::pair(0x100U, timing::HotSpot{10}),
                                       std::pair(0x104U, timing::HotSpot{10, timing::Effect::load_use, 4})));

@@ -234,12 +234,6 @@ void lag(std::vector<double>& z, double up_s, double down_s, double step_s) {
 
 }  // namespace
 
-bool Unlisted::any() const {
-    return cogging_force != 0.0 || hum_force != 0.0 || near_gain != 0.0 || stiffening != 0.0 ||
-           delay_at_rest_s != 0.0 || hysteresis != 0.0 || damping_growth != 0.0 || input_step != 0.0 ||
-           falling_gain != 0.0 || slip_per_unit != 0.0;
-}
-
 Stand no_effects() {
     Stand stand;
     for (const std::string& effect : effects()) {

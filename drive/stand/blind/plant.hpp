@@ -44,7 +44,6 @@ struct Unlisted {
     double input_step = 0.0;       ///< the input is rounded to multiples
     double falling_gain = 0.0;     ///< share by which a falling input works less
     double slip_per_unit = 0.0;    ///< the reading loses a share of the way where the plant is driven hard
-    [[nodiscard]] bool any() const;
 };
 
 /// What the plant is given, at rising stamps, and held.
