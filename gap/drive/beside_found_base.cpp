@@ -147,7 +147,7 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
             }
         };
         ask(answer.lag_wanted ? with_one_lag_more(found, *base) : nullptr);
-        place = answer.place_wanted ? with_a_place(found) : place;
+        place = answer.place_wanted ? with_a_place(found, asked) : place;
         ask(place);
         tried.push_back({base->name, std::move(answer), price});
         if (settled && tried.size() == 1) {

@@ -71,10 +71,21 @@ TEST(WorthAsking, APlaceHasWhoHasTwoLags) {
         description("first_order", 0.1, 0.1, 2), description("fractional_lag", 0.1, 0.1, 3),
         description("third_order", 0.1, 0.1, 4), description("fractional_second_order", 0.2, 0.2, 5),
         description("second_order", 0.3, 0.3, 3)};
-    EXPECT_EQ(gap::with_a_place(found), &found[3]);  // the better of the two
+    EXPECT_EQ(gap::with_a_place(found, {&found[0]}), &found[3]);  // the better of the two
     const std::vector<gap::Described> without_fractional = {found[0], found[4]};
-    EXPECT_EQ(gap::with_a_place(without_fractional)->name, "second_order");
-    EXPECT_THAT(gap::with_a_place(std::vector(found.begin(), found.begin() + 3)), IsNull());
+    EXPECT_EQ(gap::with_a_place(without_fractional, {})->name, "second_order");
+    EXPECT_THAT(gap::with_a_place(std::vector(found.begin(), found.begin() + 3), {}), IsNull());
+}
+
+// A fractional order bends to friction, and then leaves a curve to explain; a whole one cannot.
+TEST(WorthAsking, APlaceHasTheWholeOneOnceTheFractionalOneWasAsked) {
+    const std::vector<gap::Described> found = {description("fractional_second_order", 0.1, 0.1, 5),
+                                               description("first_order", 0.2, 0.2, 2),
+                                               description("second_order", 0.3, 0.3, 3)};
+    EXPECT_EQ(gap::with_a_place(found, {&found[0], &found[1]}), &found[2]);
+    EXPECT_EQ(gap::with_a_place(found, {&found[0], &found[1], &found[2]}), &found[2]);  // it is in its list already
+    const std::vector<gap::Described> whole_first = {found[2], found[0]};
+    EXPECT_EQ(gap::with_a_place(whole_first, {&whole_first[0]}), &whole_first[0]);
 }
 
 TEST(WorthAsking, TheSimplestOneIntegratesAsOften) {

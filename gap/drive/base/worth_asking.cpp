@@ -3,14 +3,20 @@
 #include <algorithm>
 
 namespace gap {
+namespace {
+
+bool contains(const std::vector<const Described*>& asked, const Described& one) {
+    return std::find(asked.begin(), asked.end(), &one) != asked.end();
+}
+
+}  // namespace
 
 std::vector<const Described*> worth_asking(const std::vector<Described>& found) {
     const Described& front = found.front();
     std::vector<const Described*> asked = {&front};
     const auto add_first = [&](auto suits) {
         for (const Described& one : found) {  // the best first
-            const bool known = std::find(asked.begin(), asked.end(), &one) != asked.end();
-            if (!known && suits(one)) {
+            if (!contains(asked, one) && suits(one)) {
                 asked.push_back(&one);
                 return;
             }
@@ -48,9 +54,9 @@ const Described* with_one_lag_more(const std::vector<Described>& found, const De
     return richer == found.end() ? nullptr : &*richer;
 }
 
-const Described* with_a_place(const std::vector<Described>& found) {
-    const auto two_lags = std::find_if(found.begin(), found.end(), [](const Described& one) {
-        return one.name == "second_order" || one.name == "fractional_second_order";
+const Described* with_a_place(const std::vector<Described>& found, const std::vector<const Described*>& asked) {
+    const auto two_lags = std::find_if(found.begin(), found.end(), [&](const Described& one) {
+        return one.name == "second_order" || (one.name == "fractional_second_order" && !contains(asked, one));
     });
     return two_lags == found.end() ? nullptr : &*two_lags;
 }

@@ -16,8 +16,10 @@ namespace gap {
 [[nodiscard]] const Described* with_one_lag_more(const std::vector<Described>& found, const Described& than);
 
 /// Of a spring's or a weight's plant, whose mass may be too small to tell its lag from the records: the best of two
-/// lags, whole or fractional, whose output is no speed. Null: there is none.
-[[nodiscard]] const Described* with_a_place(const std::vector<Described>& found);
+/// lags, whole or fractional, whose output is no speed. A fractional one that has been asked has bent to what pulls, as
+/// a whole one cannot: then the whole one. Null: there is none.
+[[nodiscard]] const Described* with_a_place(const std::vector<Described>& found,
+                                            const std::vector<const Described*>& asked);
 
 /// The one of fewest numbers that integrates as often: a richer one has bent to what an effect does, so that the effect
 /// beside it explains less. It may be the same one. \param of  one of them
