@@ -19,12 +19,7 @@ using Effects = std::vector<const Effect*>;
 
 constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
 constexpr double hopeless_beside_a_form = 0.97;
-constexpr double too_far = 4.0;  // from the best single's cost
-// Real rigs have several causes at once; beside a model that is given more than three are an expansion of something
-// else.
-constexpr std::size_t most_beside_a_form = 4;
-constexpr std::size_t most_beside_a_model = 3;
-std::size_t most_effects_of(const Study& study) { return study.base.refit ? most_beside_a_form : most_beside_a_model; }
+constexpr double too_far = 4.0;      // from the best single's cost
 constexpr double hopeless = 0.9995;  // of the cost without an effect: a unit of likelihood of 4000 samples
 
 bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
@@ -82,9 +77,9 @@ public:
                 renew_whitener();
             }
             // One more as long as the best of all has as many as were tried, each without each of its own.
-            for (std::size_t size = 2;
-                 size < most_effects_of(of_.ground.study) && found_.ranking.front().candidate.effects.size() == size &&
-                 advantage(found_.ranking.front(), found_.best_of(size - 1)).mean > 8.0;
+            for (std::size_t size = 2; size < most_effects_beside(of_.ground.study.base) &&
+                                       found_.ranking.front().candidate.effects.size() == size &&
+                                       advantage(found_.ranking.front(), found_.best_of(size - 1)).mean > 8.0;
                  ++size) {
                 take(widened(size, fmt::format("sets of {}", size + 1)));
                 renew_whitener();

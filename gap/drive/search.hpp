@@ -24,4 +24,8 @@ struct Found {
 
 [[nodiscard]] Found search(const Search& of);
 
+/// Of one candidate. Real rigs have several causes at once: four beside a form that is fitted. Beside a model that is
+/// given more than three are an expansion of something else.
+[[nodiscard]] constexpr std::size_t most_effects_beside(const Base& base) { return base.refit ? 4 : 3; }
+
 }  // namespace gap

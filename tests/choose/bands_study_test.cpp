@@ -196,6 +196,7 @@ TEST_F(BandPlot, ShowsWhatNoOtherOfItsSeriesBetters) {
     EXPECT_THAT(script, HasSubstr("set title \"order 0.5, 8 to 80 Hz\""));
     EXPECT_THAT(script, HasSubstr("set title \"order 0.9, 8 to 80 Hz\""));
     EXPECT_THAT(script, HasSubstr("set multiplot layout 2,1 "));
+    EXPECT_THAT(script, HasSubstr(" size 410,590 "));  // panels of 290 by 220 pixels
     EXPECT_THAT(script, HasSubstr("set xrange [0:42]"));
     double low = 0.0;
     double high = 0.0;

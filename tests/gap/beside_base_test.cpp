@@ -137,8 +137,9 @@ TEST(BesideFoundBase, IsLessSureBesideAnotherCauseThatGoesAsFar) {
 // A base that sees the validation, too, leaves within 15 % of what the effect does, and a tenth of the gap at most. Of
 // training that goes one way only, where validation does not, it is a quarter.
 TEST(BesideFoundBase, NeedsNoCauseWhereTheBaseDoesAsWellOnAll) {
-    const auto is_none = [](double after, double jointly, const Names& extrapolated = {}) {
+    const auto is_none = [](double after, double jointly, const Names& extrapolated = {}, double before = 1.0) {
         gap::Answer answer = answer_of({{"backlash"}}, after);
+        answer.ranking.back().gap_after = before;
         answer.extrapolated = extrapolated;
         gap::judge_jointly(answer, jointly);
         return answer.decision.outcome == Outcome::no_gap;
@@ -148,6 +149,8 @@ TEST(BesideFoundBase, NeedsNoCauseWhereTheBaseDoesAsWellOnAll) {
     EXPECT_TRUE(is_none(0.5, 0.0999));
     EXPECT_FALSE(is_none(0.5, 0.1001));
     EXPECT_FALSE(is_none(0.5, 0.1001, {"input above 1", "output above 2"}));
+    EXPECT_TRUE(is_none(0.2, 0.0499, {}, 0.5));
+    EXPECT_FALSE(is_none(0.2, 0.0501, {}, 0.5));
     for (const char* way : {"falling output", "rising output"}) {
         EXPECT_TRUE(is_none(0.5, 0.2499, {"input above 1", way})) << way;
         EXPECT_FALSE(is_none(0.5, 0.2501, {way})) << way;

@@ -8,6 +8,7 @@
 
 #include "gap/cycles/blind.hpp"
 #include "gap/cycles/evidence.hpp"
+#include "gap/cycles/intervals.hpp"
 #include "gap/cycles/lines.hpp"
 #include "gap/cycles/locate.hpp"
 #include "gap/cycles/search.hpp"
@@ -251,6 +252,26 @@ TEST(CyclesEvidence, TakesCostsBesideTheCallForMedians) {
     EXPECT_EQ(state.overhead, 47.5);
     EXPECT_EQ(state.maintenance, 9.5);
     EXPECT_NEAR(gap, (42.5 + 42.5) / (105.0 + 390.0 + 157.0), 1e-12);
+}
+
+// The median counts each row by its cycles: a few rows that are far off, or many short ones, move none that is drawn.
+TEST(CyclesIntervals, AreOfTheMediansOfRowsDrawnAgain) {
+    const auto interval = [](std::vector<qemu::MeasuredCycles> rows) {
+        Made made(std::move(rows));
+        Evidence evidence(made.question, made.by);
+        std::vector<gap::cycles::Step> steps{{"clock_ratio", {{"ratio", 2.0}}, {}, 0.5, 0.1, 0.9}};
+        gap::cycles::add_intervals(evidence, State{.core = "core", .ratio = 2.0}, steps);
+        return steps[0].interval.at("ratio");
+    };
+    std::vector<qemu::MeasuredCycles> few(20, row("a_f32", 10, 200.0));
+    few[3].cycles = few[11].cycles = 300.0;
+    // Half a cycle to each side, of 100 for one clock.
+    EXPECT_NEAR(interval(few).low, 1.995, 1e-12);
+    EXPECT_NEAR(interval(few).high, 2.005, 1e-12);
+    std::vector<qemu::MeasuredCycles> many(18, row("a_f32", 100, 2000.0));
+    std::fill_n(many.begin(), 10, row("b_f32", 1, 30.0));
+    EXPECT_NEAR(interval(many).low, 1.95, 1e-12);
+    EXPECT_NEAR(interval(many).high, 2.05, 1e-12);
 }
 
 TEST(CyclesLocate, SharesOutTheGapOfWhatJudges) {

@@ -61,6 +61,14 @@ TEST(Disturbance, IsMeasuredWhereItCounts) {
     EXPECT_NEAR(found.times_anew, 0.5 * samples / apart, 0.25 * samples / apart);
 }
 
+TEST(Disturbance, OfNothingIsNone) {
+    const gap::Record record = record_of();
+    const gap::Remainder left{&record, std::vector<double>(samples, 0.0), {}, std::vector<char>(samples, 1)};
+    const gap::Disturbance found = gap::disturbance_of({left}, 1e-6);
+    EXPECT_EQ(found.rms, 0.0);
+    EXPECT_FALSE(gap::are_one_disturbance(found, found));
+}
+
 TEST(Disturbance, IsTheSameFromRecordToRecord) {
     const gap::Record record = record_of();
     int same = 0;

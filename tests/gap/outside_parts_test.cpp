@@ -99,10 +99,10 @@ TEST_F(DoubtOfEvents, IsOfForcesThatAreFelt) {
 // Forces that begin near a move, a dead time later, in one record after the other.
 TEST_F(DoubtOfEvents, MeetsTheInputTooOftenForChance) {
     const auto after = [&](double late_s) { return doubt({5.2 + late_s, 7.0}, {12.2 + late_s, 15.0}); };
-    // Of two moves 4 t of 20 s lie as near; Fisher's joint chance p^2 (1 - ln p^2) is 0.006 where p = 0.0268.
+    // Of two moves 4 t of 20 s lie as near; Fisher's joint chance p^2 (1 - ln p^2) is 0.006 where p = 0.02701.
     EXPECT_THAT(after(0.13), HasSubstr("begins with a move of the input in every record, by chance once in 1.8e+02"));
-    EXPECT_NE(after(0.134), "");
-    EXPECT_EQ(after(0.1365), "");
+    EXPECT_NE(after(0.1349), "");
+    EXPECT_EQ(after(0.1352), "");
 }
 
 TEST_F(DoubtOfEvents, IsOfEventsAlone) {

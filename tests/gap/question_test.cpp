@@ -178,6 +178,38 @@ TEST(Prepared, JudgesByTheValidationOrByWhatIsKeptAside) {
     EXPECT_EQ(ground.validation.counts, gap::part_counts(question.train, 25.0, true));
 }
 
+// Beside what differs from sample to sample three tenths of it are not seen.
+TEST(Prepared, HasStepsAsCoarseAsThreeTenthsOfTheNoise) {
+    const gap::Question question = question_of();
+    gap::Scenario plain;
+    plain.model = gap::model_of(question.form);
+    const auto nodes = [&](double allowed) { return gap::make_course(question.train[0], plain, allowed).grid().count; };
+    double fine = 1e-9;
+    double coarse = 1.0;
+    ASSERT_GT(nodes(fine), nodes(coarse));
+    while (coarse > 1.0001 * fine) {  // to where steps begin to do
+        const double middle = std::sqrt(fine * coarse);
+        (nodes(middle) > nodes(coarse) ? fine : coarse) = middle;
+    }
+    const auto made = [&](double times, std::size_t* count) {
+        gap::Question noisy = question;
+        for (auto* records : {&noisy.train, &noisy.validate}) {
+            for (double& z : records->front().output) {
+                z *= times;
+            }
+        }
+        const gap::Ground ground = gap::prepare(noisy);
+        *count = ground.study.courses[0].grid().count;
+        return std::max(ground.study.noise, ground.study.least_deviation);
+    };
+    std::size_t count = 0;
+    const double once = made(1.0, &count);
+    for (const double allowed : {1.005 * coarse, 0.995 * fine}) {
+        EXPECT_NEAR(0.3 * made(allowed / (0.3 * once), &count), allowed, 1e-6 * allowed);
+        EXPECT_EQ(count, nodes(allowed)) << allowed << " of " << coarse;
+    }
+}
+
 // While a base is looked for, what a sensor's end holds counts for nothing.
 TEST(Prepared, LooksPastClippedReadings) {
     gap::Question question = question_of(true);

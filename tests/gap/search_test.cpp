@@ -234,4 +234,12 @@ TEST(Search, OfThreeCausesTriesSetsOfThree) {
     EXPECT_EQ(tried.sized(4).size(), 0U);
 }
 
+// As many as are asked for at once on real rigs; beside a model that is given more are an expansion.
+TEST(Search, TriesThreeEffectsBesideAModelAndFourBesideAForm) {
+    gap::Base base{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0))};
+    EXPECT_EQ(gap::most_effects_beside(base), 3U);
+    base.refit = true;
+    EXPECT_EQ(gap::most_effects_beside(base), 4U);
+}
+
 }  // namespace

@@ -11,7 +11,6 @@
 namespace gap {
 namespace {
 
-constexpr std::size_t most_effects = 4;
 // Of the gap's rms: less is too little to be anyone's trouble.
 constexpr double first_share = 0.03;
 // Beside a fitted form a first effect takes so much: less is another form's share.
@@ -142,6 +141,10 @@ void choose(const Evidence& evidence, Decision& decision) {
         }
     }
     const double closable = decision.base_gap - decision.noise_floor;
+    std::size_t most_effects = 0;
+    for (const Ranked& ranked : evidence.ranking) {
+        most_effects = std::max(most_effects, ranked.trained.effects.size());
+    }
     for (std::size_t size = 1; size <= most_effects; ++size) {
         const auto wider = evidence.best_of(size);
         // The best with one effect less may have been too small a step to be taken; it must be beaten all the same.

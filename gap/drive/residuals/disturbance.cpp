@@ -44,7 +44,7 @@ double lowest_correlation(const std::vector<std::vector<double>>& records, doubl
     for (std::size_t lag = step; static_cast<double>(lag) <= 4.0 * apart; lag += step) {
         lowest = std::min(lowest, covariance(lag));
     }
-    return whole > 0.0 ? lowest / whole : 1.0;
+    return lowest / whole;  // of nothing at all no number, which is above none
 }
 
 }  // namespace

@@ -270,6 +270,9 @@ constexpr Row rows[] = {
     {"subs r7, r6, r5", Kind::add, "=r7 =nzcv or6 or5"},
     {"subs r7, r6, #7", Kind::add, "=r7 =nzcv or6"},
     {"asrs r7, r6, #31", Kind::shift, "=r7 =nzcv or6"},
+    {"asrs r7, r6, #32", Kind::shift, "=r7 =nzcv or6"},  // coded as one of 0
+    {"lsrs r7, r6, #32", Kind::shift, "=r7 =nzcv or6"},
+    {"movs r7, r6", Kind::add, "=r7 =nzcv or6"},
     {"rors r7, r6", Kind::shift, "=r7 =nzcv or7 or6"},
     {"rsbs r7, r6, #0", Kind::logic, "=r7 =nzcv or6"},
     {"tst r7, r6", Kind::logic, "=nzcv or7 or6"},
