@@ -76,6 +76,12 @@ TEST_F(Rules, ClearAdvantageOfAFurtherEffectIsOverOneFewer) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
     ranking_[both].gap_after = 0.0751;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
+    // A five-hundredth of what can be closed at least.
+    ranking_[drag].gap_after = 0.004;
+    ranking_[both].gap_after = 0.004 - 0.0021;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[both].gap_after = 0.004 - 0.0019;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
 }
 
 // Two that do nothing alone cancel each other together: of causes one at least goes a tenth of the way alone.

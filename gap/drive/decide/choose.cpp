@@ -11,6 +11,7 @@
 namespace gap {
 namespace {
 
+constexpr std::size_t most_effects = 4;  // with rounded or uneven readings; a search without them may end before
 // Of the gap's rms: less is too little to be anyone's trouble.
 constexpr double first_share = 0.03;
 // Beside a fitted form a first effect takes so much: less is another form's share.
@@ -19,6 +20,9 @@ constexpr double first_share_beside_a_form = 0.25;
 // large as the output itself it may be small and still take most.
 constexpr double further_share = 0.04;
 constexpr double second_share = 0.25;
+// But for a five-hundredth of what can be closed nobody looks: in readings without noise whatever repeats by itself, as
+// a play's do, is as clear as a law.
+constexpr double least_share = 0.002;
 // Events, which are located where they are judged, follow any form's misfit: a further one takes half of what is left.
 constexpr double further_share_of_an_event = 0.5;
 // A cause is a law of a few numbers, and the drive's own is a little different: so much of the gap's rms, a fortieth of
@@ -98,9 +102,8 @@ bool is_better(const Evidence& evidence, std::size_t wider, std::size_t chosen, 
     const double taken = before - evidence.gap(wider);
     const std::size_t so_far = evidence.ranking[chosen].trained.effects.size();
     const double of_first = evidence.beside_form() ? first_share_beside_a_form : first_share;
-    const double material = so_far == 0   ? of_first * before
-                            : so_far == 1 ? std::min(further_share * closable, second_share * before)
-                                          : further_share * closable;
+    const double of_second = std::clamp(second_share * before, least_share * closable, further_share * closable);
+    const double material = so_far == 0 ? of_first * before : so_far == 1 ? of_second : further_share * closable;
     // And where the form may leave as much itself there is nothing for it to explain, but for readings that jump from
     // one to the next, as no plant does: those show by themselves.
     const Candidate& wide = evidence.ranking[wider].trained;
@@ -141,10 +144,6 @@ void choose(const Evidence& evidence, Decision& decision) {
         }
     }
     const double closable = decision.base_gap - decision.noise_floor;
-    std::size_t most_effects = 0;
-    for (const Ranked& ranked : evidence.ranking) {
-        most_effects = std::max(most_effects, ranked.trained.effects.size());
-    }
     for (std::size_t size = 1; size <= most_effects; ++size) {
         const auto wider = evidence.best_of(size);
         // The best with one effect less may have been too small a step to be taken; it must be beaten all the same.
