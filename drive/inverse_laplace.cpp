@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -19,6 +20,8 @@ constexpr int fewest_terms = 12;
 constexpr int most_terms = 1024;
 constexpr double accepted = 2e-10;  // relative to the function's size: between two runs, and of the last coefficients
 constexpr std::size_t most_pieces = 128;
+// Of an image, relative: near a pole its divisor is a small difference of terms.
+constexpr double image_rounding = 16.0 * std::numeric_limits<double>::epsilon();
 
 [[noreturn]] void refuse(double t) {
     throw glsum::Failure(glsum::Exit::check_failed,
@@ -78,7 +81,8 @@ const InverseLaplace::Octave& InverseLaplace::octave(int exponent) {
     return found != octaves_.end() ? found->second : octaves_.emplace(exponent, make_octave(exponent)).first->second;
 }
 
-// `sizes`: what each function would be if it were about constant.
+// `sizes`: what each function would be if it were about constant, or of what rounding leaves, if that is more: where
+// the image of a swing is large that has long decayed, no more terms and no shorter pieces tell more digits.
 void InverseLaplace::euler_sum(double abscissa, double t, int terms, std::span<double> values,
                                std::span<double> sizes) const {
     const double real = abscissa + line / (2.0 * t);
@@ -91,11 +95,14 @@ void InverseLaplace::euler_sum(double abscissa, double t, int terms, std::span<d
         values[f] = 0.0;
     }
     double sign = -1.0;
-    double binomial = std::exp(real * t) / t * std::exp2(-averaged_terms);
+    const double magnified = std::exp(real * t) / t;
+    const double rounded = image_rounding * magnified / accepted;
+    double binomial = magnified * std::exp2(-averaged_terms);
     for (int k = 1; k <= terms + averaged_terms; ++k) {
         image_({real, std::numbers::pi * k / t}, at);
         for (std::size_t f = 0; f < count_; ++f) {
             sum[f] += sign * at[f].real();
+            sizes[f] = std::max(sizes[f], rounded * (std::fabs(at[f].real()) + std::fabs(at[f].imag())));
         }
         sign = -sign;
         if (const int j = k - terms; j >= 0) {

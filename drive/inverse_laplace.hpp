@@ -32,9 +32,10 @@ public:
     /// \param swings  the lightly damped poles; growing ones too, as long as they do not grow beyond 10^3
     InverseLaplace(std::size_t count, Image image, std::vector<Swing> swings);
 
-    /// f(t) of each; 0 for t <= 0. The errors are about 1e-9 of the functions' sizes around t.
-    /// \throws glsum::Failure (check failed) where it does not converge: some hundred swings lie before t, or it grows.
-    /// Not safe to call from several threads: it fills its tables.
+    /// f(t) of each; 0 for t <= 0. The errors are about 1e-9 of the functions' sizes around t, or of what rounding
+    /// leaves of their transforms near a pole, if that is more: after a swing has decayed. \throws glsum::Failure
+    /// (check failed) where it does not converge: some hundred swings lie before t, or it grows. Not safe to call from
+    /// several threads: it fills its tables.
     void at(double t, std::span<double> values);
     /// The first.
     double operator()(double t) {

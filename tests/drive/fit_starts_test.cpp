@@ -143,4 +143,24 @@ TEST(FitStarts, AreMoreWhereTheFirstHasNotEndedAfterFiftyIterations) {
     EXPECT_EQ(starts_to_reach(51), 2U);
 }
 
+// Ten seconds of a swing that has decayed after two: what the response owes to each parameter is small by then, and
+// no less known.
+TEST(FitStarts, ASwingThatHasDecayedCanBeBegunAt) {
+    Model truth;
+    truth.denominator = {{0.0354235, 1.84434}, {0.0138941, 0.933182}, {1.0, 0.0}};
+    truth.delay_s = 0.214017;
+    Record record;
+    record.name = "pulse";
+    record.changes = {{0.0, 1.0}, {5.0, -1.0}};
+    for (int k = 0; k < 1000; ++k) {
+        record.time_s.push_back(0.01 * k);
+    }
+    record.output = drive::respond(truth, record.changes, record.time_s);
+    Model near = truth;
+    near.denominator[0].coefficient *= 1.01;
+    const drive::Fit fit = drive::fit(Form(Kind::niopdt, near), {record}, {});
+    EXPECT_LT(fit.sum_of_squares, 1e-10);
+    EXPECT_NEAR(fit.model.denominator[1].order, truth.denominator[1].order, 1e-6);
+}
+
 }  // namespace

@@ -160,6 +160,23 @@ TEST(InverseLaplace, OfSeveralTransformsIsEachOnesFunction) {
     EXPECT_EQ(now, (std::array<double, 3>{}));
 }
 
+// What is left of a swing's square by then is below what rounding leaves of its image, which is large there.
+TEST(InverseLaplace, OfASwingThatHasDecayedIsAsExactAsRoundingLetsIt) {
+    constexpr double w = 6.0;
+    for (const double decay : {0.3, 0.6, 0.9, 1.2}) {
+        drive::InverseLaplace found(1,
+                                    [=](std::complex<double> s, std::span<std::complex<double>> values) {
+                                        const std::complex<double> about = (s + decay) * (s + decay) + w * w;
+                                        values[0] = 2.0 * w * (s + decay) / (about * about);
+                                    },
+                                    {{w, decay}});
+        const double largest = 1.0 / (decay * std::numbers::e);
+        for (double t = 0.7; t < 60.0; t *= 1.3) {
+            EXPECT_NEAR(found(t), t * std::exp(-decay * t) * std::sin(w * t), 2e-9 * largest) << decay << ' ' << t;
+        }
+    }
+}
+
 TEST(Respond, SuperposesHeldSteps) {
     const Model model = drive::make_fopdt(2.0, 0.5, 0.3);
     const std::vector<double> times{0.0, 1.0, 2.0, 3.0};
