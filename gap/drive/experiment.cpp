@@ -114,7 +114,7 @@ std::vector<Trial> trials_of(const Study& study) {
 Candidate begun(const Study& study, const Candidate& fitted, const Trial& trial) {
     Candidate candidate = resting(study, fitted, trial.record);
     for (FreeParameter& parameter : candidate.own[0]) {
-        if (trial.released_at > 0.0 && parameter.name == "initial_output") {
+        if (parameter.name == "initial_output") {
             const double up = study.scales.output_high - parameter.value;
             const double down = study.scales.output_low - parameter.value;
             parameter.value += trial.released_at * (up > -down ? up : down);

@@ -121,6 +121,7 @@ TEST_F(Rules, EventsFromOutsideDoNotLastThroughout) {
     decision = after("events_from_outside", both);
     EXPECT_EQ(decision.outcome, Outcome::attributed);
     EXPECT_THAT(decision.effects, ElementsAre(drag));
+    EXPECT_EQ(decision.chosen, drag);
     EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("an event from outside does not")));
 }
 
