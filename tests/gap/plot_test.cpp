@@ -80,6 +80,17 @@ TEST(PlotTicks, ReachTheEndToABillionthOfAStep) {
     EXPECT_FALSE(has_one(1.005));
 }
 
+// Six steps, two below 150 px.
+TEST(PlotTicks, AreFewerWhereItIsLow) {
+    const auto on_screen = [](double height) {
+        const std::string svg = gap::to_svg({"left", height, {{"line", at_both_ends()}}}, times_from(0.0));
+        return svg.substr(0, svg.find("phone"));
+    };
+    EXPECT_THAT(on_screen(150.0), testing::HasSubstr(">0.8</text>"));
+    EXPECT_THAT(on_screen(149.9), testing::Not(testing::HasSubstr(">0.8</text>")));
+    EXPECT_THAT(on_screen(149.9), testing::HasSubstr(">0.5</text>"));
+}
+
 // As high as asked for 1100 px across; on a phone 400 across and three fifths as high, 110 at least.
 TEST(PlotSizes, AreThoseOfAScreenAndOfAPhone) {
     const auto boxes = [](double height) {
