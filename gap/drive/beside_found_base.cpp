@@ -93,8 +93,9 @@ void judge_jointly(Answer& answer, double jointly) {
     const bool one_way = std::any_of(answer.extrapolated.begin(), answer.extrapolated.end(), [](const auto& what) {
         return what == "falling output" || what == "rising output";
     });
-    if (jointly > as_well * answer.chosen().gap_after ||
-        jointly > (one_way ? most : nearly_all) * answer.none().gap_after) {
+    // Of a base that runs away: of the output.
+    const double without = std::min(1.0, answer.none().gap_after);
+    if (jointly > as_well * answer.chosen().gap_after || jointly > (one_way ? most : nearly_all) * without) {
         return;
     }
     answer.decision.outcome = Outcome::no_gap;

@@ -151,6 +151,9 @@ TEST(BesideFoundBase, NeedsNoCauseWhereTheBaseDoesAsWellOnAll) {
     EXPECT_FALSE(is_none(0.5, 0.1001, {"input above 1", "output above 2"}));
     EXPECT_TRUE(is_none(0.2, 0.0499, {}, 0.5));
     EXPECT_FALSE(is_none(0.2, 0.0501, {}, 0.5));
+    // What leaves most of the output explains nothing, however far the base has run away.
+    EXPECT_TRUE(is_none(12.0, 0.0999, {}, 12.0));
+    EXPECT_FALSE(is_none(12.0, 0.1001, {}, 12.0));
     for (const char* way : {"falling output", "rising output"}) {
         EXPECT_TRUE(is_none(0.5, 0.2499, {"input above 1", way})) << way;
         EXPECT_FALSE(is_none(0.5, 0.2501, {way})) << way;

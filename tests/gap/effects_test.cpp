@@ -293,10 +293,16 @@ TEST(EffectReadings, AreAllThatIsChanged) {
 TEST(EffectReadings, AreHeldWhereTheLogRepeatsItself) {
     gap::Record record;
     record.time_s = {0.0, 0.1, 0.2, 0.3, 0.4, 0.5};
-    record.output = {1.0, 1.0, 2.0, 2.0, 2.0, 3.0};
+    record.output = {1.5, 1.5, 2.0, 2.0, 2.0, 3.0};
     Values reading{10.0, 20.0, 30.0, 40.0, 50.0, 60.0};
-    with("dropped_samples", {0.07}).logger.at(0)(reading, record);
-    expect_near(reading, {10.0, 10.0, 30.0, 30.0, 30.0, 60.0});
+    const auto held = [&] {
+        Values logged = reading;
+        with("dropped_samples", {0.07}).logger.at(0)(logged, record);
+        return logged;
+    };
+    expect_near(held(), {10.0, 20.0, 30.0, 30.0, 30.0, 60.0});  // the lowest: an end may hold it
+    record.output[5] = 1.0;
+    expect_near(held(), {10.0, 10.0, 30.0, 40.0, 50.0, 60.0});  // now 2 is the highest
 }
 
 TEST(EffectReadings, AreWithinATurn) {

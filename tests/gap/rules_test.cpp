@@ -318,18 +318,18 @@ TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatGoesAsFar) {
     const std::size_t curve = add({"input_curve"}, 0.35, 500.0);
     add({"supply_sag"}, 0.37, 500.0);
     const auto named = [&] { return after("what_cannot_be_parted", attributed(cubic)).effects; };
-    set_noise(0.30 / 7.03);
+    set_noise(0.30 / 4.03);
     EXPECT_THAT(named(), ElementsAre(cubic));
     beside_a_form();
     EXPECT_THAT(named(), ElementsAre(cubic, curve));
-    set_noise(0.30 / 6.97);  // a sensor's noise tells likelihoods, but for what goes as far to a twentieth
+    set_noise(0.30 / 3.97);  // a sensor's noise tells likelihoods, but for what goes as far to a twentieth
     EXPECT_THAT(named(), ElementsAre(cubic));
     ranking_[curve].gap_after = 0.3155;
     EXPECT_THAT(named(), ElementsAre(cubic));
     ranking_[curve].gap_after = 0.3145;
     EXPECT_THAT(named(), ElementsAre(cubic, curve));
     // Within a fifth more, and on this side of half the way back.
-    set_noise(0.30 / 7.03);
+    set_noise(0.30 / 4.03);
     ranking_[curve].gap_after = 0.359;
     EXPECT_THAT(named(), ElementsAre(cubic, curve));
     ranking_[curve].gap_after = 0.361;

@@ -47,15 +47,18 @@ bool generalises(const Candidate& general, const Candidate& special) {
 }
 
 // Beside a fitted form whose best candidate leaves more than noise all of them miss something: the likelihoods of
-// misfits tell nothing, and what goes about as far is as near to the truth. Where noise is left a likelihood tells, but
-// a law that is not quite the drive's own loses some units of it: two that leave the same are not told apart.
+// misfits tell nothing, and what goes about as far is as near to the truth. So it is from four times what differs from
+// sample to sample on, which is more than the noise of most sensors, if not of all. Where noise is left a likelihood
+// tells, but a law that is not quite the drive's own loses some units of it: two that leave the same are not told
+// apart.
 bool goes_as_far(const Evidence& evidence, std::size_t i, std::size_t chosen) {
+    constexpr double most_sensors = 4.0;
     constexpr double of_a_misfit = 1.2;
     constexpr double of_noise = 1.05;
     constexpr double of_the_way = 0.5;
     const double after = evidence.gap(chosen);
     const double theirs = evidence.gap(i);
-    const double about = evidence.is_no_noise(after) ? of_a_misfit : of_noise;
+    const double about = evidence.over_noise(after) > most_sensors ? of_a_misfit : of_noise;
     return evidence.beside_form() && theirs < about * after &&
            theirs < after + of_the_way * (evidence.gap(evidence.none()) - after);
 }

@@ -1,5 +1,6 @@
 // The reading is held for stretches: where the record itself repeats one value though no quantum makes it. Its rate is
-// the share of repeats that the audit counted.
+// the share of repeats that the audit counted. What a record repeats at its highest or lowest is held by an end, and
+// not by a logger.
 #include <algorithm>
 #include <cmath>
 
@@ -20,8 +21,10 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
 
 void add(Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
     scenario.logger.emplace_back([](std::span<double> reading, const Record& record) {
+        const auto [lowest, highest] = std::ranges::minmax(record.output);
         for (std::size_t i = 1; i < record.output.size(); ++i) {
-            if (record.output[i] == record.output[i - 1]) {
+            const double read = record.output[i];
+            if (read == record.output[i - 1] && read != lowest && read != highest) {
                 reading[i] = reading[i - 1];
             }
         }
