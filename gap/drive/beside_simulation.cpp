@@ -44,6 +44,11 @@ Answer answer_beside_simulation(Question question, const std::function<void(cons
     question.find = question.refit = false;
     Answer answer = answer_to(question, say);
     answer.base_name = question.base_name;
+    judge_reproduction(answer, reproduced);
+    return answer;
+}
+
+void judge_reproduction(Answer& answer, double reproduced) {
     constexpr double poorly = 0.1;
     answer.notes.push_back(
         fmt::format("a model reproduces the simulation but for {:.2g} % of its deviation", 100.0 * reproduced));
@@ -54,7 +59,6 @@ Answer answer_beside_simulation(Question question, const std::function<void(cons
         answer.decision.confidence = std::min(answer.decision.confidence, 0.5);
         answer.notes.emplace_back("too poorly for effects to be told apart: where the gap lies is told all the same");
     }
-    return answer;
 }
 
 }  // namespace gap

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "gap/drive/beside_simulation.hpp"
+
 namespace {
 
 using gap::Outcome;
@@ -187,6 +189,29 @@ TEST(BesideFoundBase, WithoutACauseNamesNothing) {
     EXPECT_EQ(kept.decision.outcome, Outcome::attributed);
     EXPECT_TRUE(kept.next_record);
     EXPECT_THAT(kept.notes, IsEmpty());
+}
+
+// Beyond a tenth of the simulation's deviation effects are not told from what the model lacks.
+TEST(BesideSimulation, NamesNothingWhereItIsReproducedPoorly) {
+    gap::Answer well = answer_of({{"backlash"}}, 0.1);
+    gap::judge_reproduction(well, 0.1);
+    EXPECT_EQ(well.decision.outcome, Outcome::attributed);
+    EXPECT_THAT(well.notes, ElementsAre("a model reproduces the simulation but for 10 % of its deviation"));
+    gap::Answer poorly = answer_of({{"gain_drift"}, {"backlash"}}, 0.1);
+    poorly.decision.chosen = 1;
+    gap::judge_reproduction(poorly, 0.1001);
+    EXPECT_EQ(poorly.decision.outcome, Outcome::unknown);
+    EXPECT_EQ(poorly.decision.suspect, 1U);
+    EXPECT_THAT(poorly.decision.effects, IsEmpty());
+    EXPECT_EQ(poorly.decision.confidence, 0.5);
+    EXPECT_THAT(poorly.notes, ElementsAre(HasSubstr("10 %"), HasSubstr("too poorly")));
+    gap::Answer unsure = answer_of({{"backlash"}}, 0.1);
+    unsure.decision.confidence = 0.4;
+    gap::judge_reproduction(unsure, 0.2);
+    EXPECT_EQ(unsure.decision.confidence, 0.4);
+    gap::Answer none = answer_of({}, 0.1);
+    gap::judge_reproduction(none, 0.2);
+    EXPECT_EQ(none.decision.outcome, Outcome::no_gap);
 }
 
 }  // namespace

@@ -88,6 +88,12 @@ TEST(LevelScan, TriesAtMost24Places) {
     EXPECT_EQ(places.size(), 24U);
     EXPECT_LT(places.front(), 0.1);
     EXPECT_GT(places.back(), 2.4);
+    // A place once, however long its levels are held.
+    const gap::Record rests = gap_test::record_of(1000, [](double t) { return t < 60.0 ? 0.01 * t : 0.6; });
+    places.clear();
+    (void)gap::scan_levels({gap::Course(rests, 1), base, {}, {}}, add);
+    EXPECT_TRUE(std::ranges::adjacent_find(places) == places.end());
+    EXPECT_LT(places.size(), 24U);
     const gap::Record held = gap_test::record_of(100, [](double) { return -2.0; });
     places.clear();
     (void)gap::scan_levels({gap::Course(held, 1), base, {}, {}}, add);
