@@ -169,14 +169,15 @@ TEST(GapScales, HaveTheTurnThatReadingsJumpBy) {
     EXPECT_NEAR(turn_of(9.5, 0.5, 0.5), 10.0, 1e-9);
     EXPECT_NEAR(turn_of(9.8, 0.3, 0.1), 10.0, 1e-9);
     EXPECT_EQ(turn_of(5.0, 0.5, 0.5), 0.0);  // half the span
-    // Of several the median: 6, 8 and 10 of 10.
-    std::vector<double> several(41, 0.0);
-    std::fill(several.begin() + 10, several.begin() + 20, 10.0);
-    std::fill(several.begin() + 20, several.begin() + 30, 2.0);
-    std::fill(several.begin() + 30, several.end(), 9.0);
+    // Of several the median: 10, 8, 7, 8.5 and 9.5.
+    std::vector<double> several;
+    for (const double held : {0.0, 10.0, 2.0, 9.0, 0.5, 10.0}) {
+        several.insert(several.end(), 7, held);
+    }
+    several.resize(41);
     EXPECT_EQ(
         gap::scales_of(model_of({{1.0, 1.0}, {1.0, 0.0}}), {record_of(std::vector<double>(41, 1.0), several)}, {}).turn,
-        8.0);
+        8.5);
     // Of what is not calm none.
     std::vector<double> spike(41, 0.0);
     spike[20] = 10.0;
