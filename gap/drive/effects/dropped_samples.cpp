@@ -21,6 +21,9 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
 
 void add(Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
     scenario.logger.emplace_back([](std::span<double> reading, const Record& record) {
+        if (record.output.empty()) {
+            return;  // nobody measured: nothing was repeated
+        }
         const auto [lowest, highest] = std::ranges::minmax(record.output);
         for (std::size_t i = 1; i < record.output.size(); ++i) {
             const double read = record.output[i];
