@@ -34,8 +34,8 @@
  * QEMU emulator version 7.2.22 (Debian 1:7.2+dfsg-7+deb12u18+b3)
  */
 #if defined(HALF_F32_H) && !defined(HALF_F32_IS_37CB5CCD9331D4D3)
-#define HALF_F32_DESIGN "ring_plain_f32, 200, v = 0.5, h = 0.001 s"
-#error "half_f32: another design of this prefix was included before (see the two DESIGN); make one with another --prefix"
+#pragma message("half_f32 was included before as: " HALF_F32_DESIGN)
+#error "half_f32: two designs of one prefix, the one of the message above and ring_plain_f32, 200, v = 0.5, h = 0.001 s; make one with another --prefix"
 #endif
 #ifndef HALF_F32_H
 #define HALF_F32_H

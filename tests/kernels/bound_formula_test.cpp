@@ -123,6 +123,14 @@ TEST(BoundFormula, OfAModeThatSwings) {
     EXPECT_NEAR((bound_of<Sum<Modes, Compensated, F32>>(design, 0.75)) / expected(126.0), 1.0, 1e-4);
 }
 
+// A decay is rounded to the format, at worst by u = 2^-24 of itself: of 2 - 2^-20 that leaves 7/8 of what a step forgets.
+TEST(BoundFormula, OfADecayThatIsRoundedUp) {
+    using K = Sum<Modes, Plain, F32>;
+    EXPECT_NEAR(average_reach<K>(2.0 - 0x1p-20) / (0x1p21 * 8.0 / 7.0), 1.0, 1e-5);
+    EXPECT_TRUE(std::isinf(average_reach<K>(2.0 - 0x1p-30)));
+    EXPECT_DOUBLE_EQ(average_reach<K>(1.0), 1.0);
+}
+
 // cascade_bound.hpp: behind near taps the cascade is a term as a window's are. Its output, at most Y = P (1 + |H(1) -
 // 1|), passes the last tap's coefficient, product and addition; what it has lost itself, which a cascade without other
 // taps loses too, passes the coefficient alone.
