@@ -35,8 +35,12 @@ TEST_F(Rules, FittedFormsLeaveDoubt) {
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.8);
     ranking_[drag].gap_after = 0.0995;
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.95);
-    set_noise(1.0);
+    // Four times what differs from sample to sample is more than most sensors' noise.
+    set_noise(0.0995 / 4.03);
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.95);
+    set_noise(0.0995 / 3.97);
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    set_noise(1.0);
     ranking_[drag].gap_after = 0.5;
     known_.remainders[drag] = {0.4, true, {}};  // or can be foreseen
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);

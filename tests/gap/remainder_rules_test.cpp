@@ -199,9 +199,9 @@ TEST_F(Rules, WhatIsNoNoiseOfAFittedFormIsItsOwnWhereItIsSmall) {
         set_noise(noise);
         return evidence().is_small_of_a_form(gap);
     };
-    EXPECT_TRUE(small(0.0446, 0.0446 / 6.97));
-    EXPECT_FALSE(small(0.0449, 0.0449 / 6.97));
-    EXPECT_FALSE(small(0.0446, 0.0446 / 7.03));
+    EXPECT_TRUE(small(0.0446, 0.0446 / 3.97));
+    EXPECT_FALSE(small(0.0449, 0.0449 / 3.97));
+    EXPECT_FALSE(small(0.0446, 0.0446 / 4.03));
     EXPECT_TRUE(small(0.0124, 1e-5));
     EXPECT_FALSE(small(0.0126, 1e-5));
     gap::Decision none;

@@ -313,6 +313,30 @@ TEST_F(Rules, WhatCannotBePartedBesideAFormIsSimplerWhereItLeavesATenthMore) {
     EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(uneven));
 }
 
+// A load that is none beside friction is none beside friction of two levels.
+TEST_F(Rules, WhatCannotBePartedFromWhatHoldsNoEventHoldsNone) {
+    const std::size_t uneven = add({"direction_dependent_friction", "load_disturbance"}, 0.1, 900.0);
+    const std::size_t even = add({"coulomb_friction", "load_disturbance"}, 0.109, 500.0);
+    known_.objections[even] = "validation does not tell load_disturbance from none";
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(uneven));
+    beside_a_form();
+    gap::Decision decision = after("what_cannot_be_parted", attributed(uneven));
+    EXPECT_EQ(decision.outcome, Outcome::unknown);
+    EXPECT_THAT(decision.effects, IsEmpty());
+    EXPECT_EQ(decision.chosen, even);
+    EXPECT_EQ(decision.confidence, 0.7);
+    ASSERT_EQ(decision.notes.size(), 1U);
+    EXPECT_EQ(decision.notes[0],
+              "coulomb_friction + load_disturbance says as much as direction_dependent_friction + load_disturbance, but "
+              "validation does not tell load_disturbance from none");
+    // Not what goes less far, nor what may be named.
+    ranking_[even].gap_after = 0.111;
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(uneven));
+    ranking_[even].gap_after = 0.109;
+    known_.objections[even] = "";
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(even));
+}
+
 TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatGoesAsFar) {
     const std::size_t cubic = add({"cubic_stiffness"}, 0.30, 900.0);
     const std::size_t curve = add({"input_curve"}, 0.35, 500.0);
@@ -356,6 +380,16 @@ TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatLooksAlike) {
     ranking_[friction].gap_after = 0.199;
     set_noise(0.10 / 6.97);
     EXPECT_THAT(named(), ElementsAre(play));
+}
+
+// A valve that sticks and jumps is a play as long as it moves far.
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsAPlayOrAValveThatSticks) {
+    const std::size_t play = add({"input_hysteresis"}, 0.10, 900.0);
+    const std::size_t valve = add({"valve_stiction"}, 0.199, 500.0);
+    ranking_[valve].trained.lasting[0][1].value = ranking_[valve].trained.lasting[0][0].value = 0.1;
+    set_noise(0.10 / 7.03);
+    beside_a_form();
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(play)).effects, ElementsAre(play, valve));
 }
 
 // The other way round, too; what stands in another one's place is no likeness.

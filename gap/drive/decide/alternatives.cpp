@@ -52,13 +52,12 @@ bool generalises(const Candidate& general, const Candidate& special) {
 // tells, but a law that is not quite the drive's own loses some units of it: two that leave the same are not told
 // apart.
 bool goes_as_far(const Evidence& evidence, std::size_t i, std::size_t chosen) {
-    constexpr double most_sensors = 4.0;
     constexpr double of_a_misfit = 1.2;
     constexpr double of_noise = 1.05;
     constexpr double of_the_way = 0.5;
     const double after = evidence.gap(chosen);
     const double theirs = evidence.gap(i);
-    const double about = evidence.over_noise(after) > most_sensors ? of_a_misfit : of_noise;
+    const double about = evidence.over_noise(after) > Evidence::most_sensors ? of_a_misfit : of_noise;
     return evidence.beside_form() && theirs < about * after &&
            theirs < after + of_the_way * (evidence.gap(evidence.none()) - after);
 }
@@ -91,28 +90,50 @@ bool is_near(const Evidence& evidence, std::size_t chosen, std::size_t i, const 
            goes_as_far(evidence, i, chosen) || looks_alike(evidence, i, chosen);
 }
 
-// The candidate, or the special case of it that says as much. Beside a fitted form a wider one follows a part of the
-// misfit with its further number: a tenth of what is left is none of the drive's.
-std::size_t simplest(const Evidence& evidence, std::size_t chosen) {
+// Beside a fitted form a wider candidate follows a part of the misfit with its further number: a tenth of what is left is
+// none of the drive's.
+bool says_as_much(const Evidence& evidence, std::size_t special, std::size_t chosen) {
     constexpr double as_much = 1.1;
+    return is_near(evidence, chosen, special, advantage(evidence.ranking[chosen], evidence.ranking[special])) ||
+           (evidence.beside_form() && evidence.gap(special) < as_much * evidence.gap(chosen));
+}
+
+// The first special case of a candidate that says as much and may be named, or that may not.
+std::optional<std::size_t> special_case(const Evidence& evidence, std::size_t chosen, bool may_be_named) {
     for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
-        if (!generalises(evidence.ranking[chosen].trained, evidence.ranking[i].trained) ||
-            !evidence.objection(i).empty()) {
-            continue;
-        }
-        if (is_near(evidence, chosen, i, advantage(evidence.ranking[chosen], evidence.ranking[i])) ||
-            (evidence.beside_form() && evidence.gap(i) < as_much * evidence.gap(chosen))) {
+        if (generalises(evidence.ranking[chosen].trained, evidence.ranking[i].trained) &&
+            evidence.objection(i).empty() == may_be_named && says_as_much(evidence, i, chosen)) {
             return i;
         }
     }
-    return chosen;
+    return std::nullopt;
+}
+
+// Beside a fitted form an event that is none beside the simpler law is none beside the wider one either, which has a
+// number more to make room for it. \returns whether it was so
+bool has_no_event(const Evidence& evidence, Decision& decision) {
+    const auto simpler = special_case(evidence, decision.chosen, false);
+    if (!evidence.beside_form() || !simpler || !evidence.ranking[*simpler].trained.has_events()) {
+        return false;
+    }
+    decision.notes.push_back(fmt::format("{} says as much as {}, but {}", evidence.ranking[*simpler].trained.name(),
+                                         evidence.ranking[decision.chosen].trained.name(),
+                                         evidence.objection(*simpler)));
+    decision.chosen = *simpler;
+    decision.refuse(0.7);
+    return true;
 }
 
 void part(const Evidence& evidence, Decision& decision) {
     if (decision.outcome != Outcome::attributed) {
         return;
     }
-    const std::size_t chosen = decision.chosen = simplest(evidence, decision.chosen);
+    if (const auto simpler = special_case(evidence, decision.chosen, true)) {
+        decision.chosen = *simpler;
+    } else if (has_no_event(evidence, decision)) {
+        return;
+    }
+    const std::size_t chosen = decision.chosen;
     decision.effects = {chosen};
     const Candidate& mine = evidence.ranking[chosen].trained;
     double nearest = advantage(evidence.ranking[chosen], evidence.ranking[evidence.none()]).mean;

@@ -66,7 +66,7 @@ bool Evidence::leaves_noise_alone(double left) const {
 }
 
 bool Evidence::is_small_of_a_form(double gap) const {
-    return gap < small_gap_of_clean_readings || (gap < small_gap_of_a_form && !is_no_noise(gap));
+    return gap < small_gap_of_clean_readings || (gap < small_gap_of_a_form && over_noise(gap) < most_sensors);
 }
 
 const Flexible& Evidence::remainder(std::size_t i) const {

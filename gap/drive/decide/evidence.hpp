@@ -61,6 +61,8 @@ public:
     [[nodiscard]] bool leaves_a_disturbance(std::size_t i) const;
 
     static constexpr double usual_ratio = 7.0;
+    /// What differs from sample to sample, so many times, is more than the noise of most sensors, if not of all.
+    static constexpr double most_sensors = 4.0;
 
 private:
     [[nodiscard]] std::string objection_to_events(const Candidate& trained, Candidate judged, double gap) const;

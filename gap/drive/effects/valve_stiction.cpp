@@ -83,6 +83,7 @@ const Effect& valve_stiction() {
         .kind = Kind::lasting,
         .parameters = parameters,
         .add_to = add,
+        .looks_like = {"input_hysteresis"},
         .place = Place::actuator,
         .numbers = {{"band"}, {"jump"}, {"softness", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical, Domain::hydraulic},
