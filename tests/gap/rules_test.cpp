@@ -326,9 +326,10 @@ TEST_F(Rules, WhatCannotBePartedFromWhatHoldsNoEventHoldsNone) {
     EXPECT_EQ(decision.chosen, even);
     EXPECT_EQ(decision.confidence, 0.7);
     ASSERT_EQ(decision.notes.size(), 1U);
-    EXPECT_EQ(decision.notes[0],
-              "coulomb_friction + load_disturbance says as much as direction_dependent_friction + load_disturbance, but "
-              "validation does not tell load_disturbance from none");
+    EXPECT_EQ(
+        decision.notes[0],
+        "coulomb_friction + load_disturbance says as much as direction_dependent_friction + load_disturbance, but "
+        "validation does not tell load_disturbance from none");
     // Not what goes less far, nor what may be named.
     ranking_[even].gap_after = 0.111;
     EXPECT_THAT(after("what_cannot_be_parted", attributed(uneven)).effects, ElementsAre(uneven));
