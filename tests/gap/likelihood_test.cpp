@@ -77,6 +77,10 @@ TEST(Likelihood, PaysForNumbersWhatChanceGains) {
     }
     gap::judge(event, made.study, white());
     EXPECT_NEAR(event.penalty - none, 0.5 * chance * 6.0 + 2.0 * chance + 2.0 * 4.0, 1e-9);
+    // And so are numbers of its lasting effects that were settled there.
+    event.settled = 2;
+    gap::judge(event, made.study, white());
+    EXPECT_NEAR(event.penalty - none, 0.5 * chance * 8.0 + 2.0 * chance + 2.0 * 4.0, 1e-9);
 }
 
 // No reading tells more than which step it fell on.

@@ -90,8 +90,8 @@ bool is_near(const Evidence& evidence, std::size_t chosen, std::size_t i, const 
            goes_as_far(evidence, i, chosen) || looks_alike(evidence, i, chosen);
 }
 
-// Beside a fitted form a wider candidate follows a part of the misfit with its further number: a tenth of what is left is
-// none of the drive's.
+// Beside a fitted form a wider candidate follows a part of the misfit with its further number: a tenth of what is left
+// is none of the drive's.
 bool says_as_much(const Evidence& evidence, std::size_t special, std::size_t chosen) {
     constexpr double as_much = 1.1;
     return is_near(evidence, chosen, special, advantage(evidence.ranking[chosen], evidence.ranking[special])) ||
@@ -109,19 +109,20 @@ std::optional<std::size_t> special_case(const Evidence& evidence, std::size_t ch
     return std::nullopt;
 }
 
-// Beside a fitted form an event that is none beside the simpler law is none beside the wider one either, which has a
-// number more to make room for it. \returns whether it was so
-bool has_no_event(const Evidence& evidence, Decision& decision) {
-    const auto simpler = special_case(evidence, decision.chosen, false);
-    if (!evidence.beside_form() || !simpler || !evidence.ranking[*simpler].trained.has_events()) {
-        return false;
-    }
-    decision.notes.push_back(fmt::format("{} says as much as {}, but {}", evidence.ranking[*simpler].trained.name(),
+// The special case that shows that a candidate's event is none: an event that cannot be named beside the simpler law is
+// none beside the wider one either, which has a number more to make room for it.
+std::optional<std::size_t> shows_no_event(const Evidence& evidence, std::size_t chosen) {
+    const auto simpler = special_case(evidence, chosen, false);
+    return evidence.beside_form() && simpler && evidence.ranking[*simpler].trained.has_events() ? simpler
+                                                                                                : std::nullopt;
+}
+
+void refuse_for(const Evidence& evidence, std::size_t simpler, Decision& decision) {
+    decision.notes.push_back(fmt::format("{} says as much as {}, but {}", evidence.ranking[simpler].trained.name(),
                                          evidence.ranking[decision.chosen].trained.name(),
-                                         evidence.objection(*simpler)));
-    decision.chosen = *simpler;
+                                         evidence.objection(simpler)));
+    decision.chosen = simpler;
     decision.refuse(0.7);
-    return true;
 }
 
 void part(const Evidence& evidence, Decision& decision) {
@@ -130,7 +131,8 @@ void part(const Evidence& evidence, Decision& decision) {
     }
     if (const auto simpler = special_case(evidence, decision.chosen, true)) {
         decision.chosen = *simpler;
-    } else if (has_no_event(evidence, decision)) {
+    } else if (const auto without_event = shows_no_event(evidence, decision.chosen)) {
+        refuse_for(evidence, *without_event, decision);
         return;
     }
     const std::size_t chosen = decision.chosen;
