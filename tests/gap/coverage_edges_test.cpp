@@ -94,8 +94,8 @@ TEST(CoverageEdges, ItIsKnownByAQuarter) {
 // Three hundredths of the span are a turn.
 TEST(CoverageEdges, ATurnIsOfThreeHundredths) {
     const Values falls = path({0.0, 1.0, 0.89});
-    EXPECT_TRUE(lacks_falls(path({0.0, 0.5, 0.4705, 1.0}), falls));
-    EXPECT_FALSE(lacks_falls(path({0.0, 0.5, 0.4695, 1.0}), falls));
+    EXPECT_TRUE(lacks_falls(path({0.0, 0.5, 0.4701, 1.0}), falls));
+    EXPECT_FALSE(lacks_falls(path({0.0, 0.5, 0.4699, 1.0}), falls));
 }
 
 // Or six times what differs from reading to reading, in either.
