@@ -263,6 +263,16 @@ TEST(CoverageEdges, FrequenciesHaveTheirShare) {
     EXPECT_THAT(frequencies({waves({1.0, 0.0}, 2), waves({1.0, 0.389})}, waves({1.0, 1.0})), ElementsAre());
 }
 
+// What an output ends away from its beginning is no frequency of it.
+TEST(CoverageEdges, FrequenciesAreBesideADrift) {
+    gap::Record drifting = waves({1.0, 1.0});
+    for (std::size_t i = 0; i < drifting.size(); ++i) {
+        drifting.output[i] += 10.0 * drifting.time_s[i] / drifting.time_s.back();
+    }
+    EXPECT_THAT(frequencies({waves({1.0, 1.0})}, drifting), ElementsAre());
+    EXPECT_THAT(frequencies({drifting}, waves({1.0, 1.0, 1.0})), ElementsAre("faster than 0.49 Hz"));
+}
+
 // What training has much of, a fiftieth of that, says on which side of it something is missing.
 TEST(CoverageEdges, FrequenciesAreBesideWhatTrainingHas) {
     const gap::Record asked = waves({0.0, 1.0});
