@@ -102,7 +102,9 @@ void plot_equal_cost(const EqualCost& wanted, const std::vector<Json>& rows, con
                 "{}\n",
                 base::gnuplot_text(order), base::gnuplot_text(signal),
                 largest > 0.0 ? base::log_range(smallest, largest) : "[1e-3:1]", last ? "multiplications a sample" : "",
-                key ? fmt::format("set key at screen {:.4f}, screen {:.4f} left top Left reverse spacing 1.4",
+                // A key that is taller than its panel goes on in a second column, beyond the picture: a tight one, so
+                // that all ways stand in one in large fonts, too.
+                key ? fmt::format("set key at screen {:.4f}, screen {:.4f} left top Left reverse spacing 1",
                                   1.0 - 205.0 / wide, 1.0 - 75.0 / tall)
                     : "unset key",
                 fmt::join(lines, ", \\\n  "));
