@@ -23,6 +23,10 @@ std::string quoted_path(const std::filesystem::path& path) {
     return text + "'";
 }
 
+// Debian's package fonts-dejavu-core has it: pictures look the same wherever they are drawn. It is as wide as Helvetica
+// of a tenth more, for which a machine may have a wider one.
+constexpr const char* installed_font = "DejaVu Sans,9";
+
 void run_gnuplot(const std::string& script, const std::filesystem::path& path) {
     void (*const before)(int) = std::signal(SIGPIPE, SIG_IGN);  // without gnuplot nobody reads
     FILE* pipe = popen("gnuplot >/dev/null", "w");
@@ -59,7 +63,7 @@ void draw(const Picture& picture, const std::filesystem::path& stem) {
         run_gnuplot(fmt::format("set terminal {} size {},{} font \"{}\" background rgb \"white\"\n"
                                 "set output {}\n{}\nunset output\n",
                                 svg ? "svg" : "pngcairo", picture.width, picture.height,
-                                svg ? "Helvetica,12" : "Helvetica,10", quoted_path(partial), picture.script),
+                                svg ? "Helvetica,12" : installed_font, quoted_path(partial), picture.script),
                     path);
         std::error_code error;
         if (const auto size = std::filesystem::file_size(partial, error); error || size == 0) {

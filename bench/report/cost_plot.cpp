@@ -24,6 +24,13 @@ std::vector<std::string> distinct(const std::vector<CurvePoint>& points, Get get
     return found;
 }
 
+// Four of them stand side by side.
+std::string in_two_lines(const std::string& title) {
+    const std::string text = base::gnuplot_text(title);
+    const std::size_t comma = text.find(", ");
+    return comma == std::string::npos ? text : text.substr(0, comma + 1) + "\\n" + text.substr(comma + 2);
+}
+
 // One order over one cost: a point for each kernel and length, by format, and the front as steps with its names.
 std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::string>& formats,
                   const std::string& order, const Cost& cost, std::size_t c, bool key) {
@@ -73,9 +80,8 @@ std::string panel(const std::vector<CurvePoint>& points, const std::vector<std::
     lines.emplace_back("$front using 1:2 with points pt 6 ps 0.9 lc rgb \"black\" notitle");
     return blocks +
            fmt::format("set title \"order {}\"\nset xlabel \"{}\"\nset xrange {}\nset yrange {}\n{}\nplot {}\n",
-                       base::gnuplot_text(order), base::gnuplot_text(cost.title), range(costs_shown),
-                       range(errors_shown), key ? "set key at screen 0.995, screen 0.93" : "unset key",
-                       fmt::join(lines, ", \\\n  "));
+                       base::gnuplot_text(order), in_two_lines(cost.title), range(costs_shown), range(errors_shown),
+                       key ? "set key at screen 0.995, screen 0.93" : "unset key", fmt::join(lines, ", \\\n  "));
 }
 
 }  // namespace
@@ -86,14 +92,14 @@ void plot_costs(const std::filesystem::path& stem, const std::vector<CurvePoint>
     orders.resize(std::min(orders.size(), most_orders));
     const auto formats =
         distinct(points, [](const CurvePoint& point) { return number_format_of(point.entry->kernel); });
-    const std::size_t height = 140 + 330 * orders.size();
+    const std::size_t height = 155 + 330 * orders.size();
     const auto share = [&](double pixels) { return pixels / static_cast<double>(height); };
     std::string text = fmt::format(
         "set multiplot layout {},{} margins 0.06,0.88,{:.3f},{:.3f} spacing 0.05,{:.3f} title \"Grünwald-Letnikov sum: "
         "error against cost, every length (worst over the signals, relative to the largest exact sum)\"\n"
         "set logscale xy\nset format xy \"10^{{%L}}\"\nset xtics nomirror\nset ytics nomirror\nset mytics 1\n"
         "set grid lc rgb \"#dddddd\"\n",
-        orders.size(), costs.size(), share(60), 1.0 - share(65), share(95));
+        orders.size(), costs.size(), share(75), 1.0 - share(65), share(110));
     bool key = true;
     for (const std::string& order : orders) {
         for (std::size_t c = 0; c < costs.size(); ++c) {

@@ -212,7 +212,7 @@ void plot_gains(const std::filesystem::path& stem, const std::vector<CurvePoint>
         "Worst of the signals; errors below {} are not shown; arrows: how many times the cost, at errors of {}\"\n"
         "set logscale xy\nset format xy \"10^{{%L}}\"\nset xtics nomirror\nset ytics nomirror\nset mytics 1\n"
         "set grid lc rgb \"#dddddd\"\n",
-        1.0 - share(62), rows, columns, share(50), 1.0 - share(92), share(60), message.text(), power(least_error),
+        1.0 - share(66), rows, columns, share(50), 1.0 - share(96), share(60), message.text(), power(least_error),
         fmt::join(marks, ", "));
     base::draw({head + panels + "unset multiplot\n", 1200, height}, stem);
 }

@@ -120,6 +120,10 @@ TEST(FilteredEstimates, TryNineDeadTimesUnderSevenFilters) {
         EXPECT_EQ(one.delay_s, 0.0);
         EXPECT_NEAR(one.denominator.at(0), 4.0, 0.02);
     }
+    // What stays where it is has no lag.
+    gap::Record still = free;
+    std::ranges::fill(still.output, 0.0);
+    EXPECT_THAT(gap::filtered_estimates(*gap::structure_named("first_order"), {still}, false), testing::IsEmpty());
 }
 
 // Of a record without noise the equation holds under every filter, whatever was before the record.

@@ -396,6 +396,20 @@ TEST(DeployedReadings, AreThoseOfTheScheme) {
     expect_near(shows(20.25), mixed, 0, 1e-9);
     expect_near(shows(1.5), ran(h, 1, 2), 0, 1e-9);
     expect_near(shows(0.0), ran(h, 1, {}), 0, 1e-9);
+    const Values whole = ran(h, 1, {});
+    // A stamp that is late by a millionth of a step belongs to that step.
+    const auto moved_by_a_late_stamp = [&](double by) {
+        gap::Record off = record;
+        off.time_s[30] += by * h;
+        const Values found = gap::Course(off, 1).deployed(model, {h, 0.0, ""}, 0);
+        double largest = 0.0;
+        for (std::size_t i = 0; i < found.size(); ++i) {
+            largest = std::max(largest, std::fabs(found[i] - whole[i]));
+        }
+        return largest;
+    };
+    EXPECT_LT(moved_by_a_late_stamp(0.995e-6), 1e-5);
+    EXPECT_GT(moved_by_a_late_stamp(1.005e-6), 1e-4);
 }
 
 // What differs in anything is another simulation, whatever was asked for before.

@@ -3,7 +3,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gap/verdict/plot.hpp"
@@ -89,6 +91,23 @@ TEST(PlotTicks, AreFewerWhereItIsLow) {
     EXPECT_THAT(on_screen(150.0), testing::HasSubstr(">0.8</text>"));
     EXPECT_THAT(on_screen(149.9), testing::Not(testing::HasSubstr(">0.8</text>")));
     EXPECT_THAT(on_screen(149.9), testing::HasSubstr(">0.5</text>"));
+}
+
+// Of the time six steps, three on a phone: round ones of at least a sixth of it, or a third.
+TEST(PlotTicks, AreFewerWhereItIsNarrow) {
+    const auto of = [](double length_s) {
+        const std::string svg = gap::to_svg({"left", 300.0, {{"line", {0.0, 1.0}}}}, {0.0, length_s});
+        const std::size_t phone = svg.find("phone");
+        const auto along = [](const std::string& drawn) {
+            return all_between(drawn, "text-anchor=\"middle\">", "</text>");
+        };
+        return std::pair(along(svg.substr(0, phone)), along(svg.substr(phone)));
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(of(5.99).first, ElementsAre("0 s", "1", "2", "3", "4", "5"));
+    EXPECT_THAT(of(6.03).first, ElementsAre("0 s", "2", "4"));
+    EXPECT_THAT(of(5.99).second, ElementsAre("0 s", "2", "4"));
+    EXPECT_THAT(of(6.03).second, ElementsAre("0 s", "5"));
 }
 
 // As high as asked for 1100 px across; on a phone 400 across and three fifths as high, 110 at least.
