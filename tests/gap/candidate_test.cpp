@@ -377,6 +377,14 @@ TEST(Jitter, SpreadsReadingsByTheirSpeed) {
         const double shift = speed == 0.0 ? 0.0 : std::clamp(left[i] / speed * moved / (moved + noise), -0.2, 0.2);
         EXPECT_NEAR(without[i], left[i] - speed * shift, 1e-9) << i;
     }
+    // Of the first reading, too, by its one neighbour.
+    std::vector<double> off = left;
+    off[0] = 0.05;
+    const double speed = (z[1] - off[1] - (z[0] - off[0])) / 0.5;
+    const double moved = speed * speed * 0.04 / 3.0;
+    ASSERT_NE(speed, 0.0);
+    EXPECT_NEAR(gap::without_jitter(made.study, candidate, 0, off, whitener)[0],
+                off[0] - speed * std::clamp(off[0] / speed * moved / (moved + 0.0025), -0.2, 0.2), 1e-9);
     // What a sensor's end holds has no noise whenever it is read.
     gap::Record& held = made.records[0];
     std::fill_n(held.output.begin() + 10, 12, 9.0);

@@ -206,4 +206,21 @@ TEST(Locate, SharesOutWhereThereIsNoGap) {
     EXPECT_NEAR(where.rising + where.falling + where.still, 1.0, 1e-12);
 }
 
+// Over two samples before and two behind, a hundredth of the record each, it must have moved by a hundredth of its
+// range: 1 of 100.
+TEST(Locate, CallsStillWhatMovesLessThanAHundredth) {
+    const auto of_slope = [](double by_sample) {
+        gap::Record record = record_of(200, staircase);
+        for (std::size_t i = 0; i < record.size(); ++i) {
+            record.output[i] = by_sample * static_cast<double>(i);
+        }
+        record.output.back() = 100.0;
+        std::vector<double> residuals(200, 0.0);
+        residuals[50] = 1.0;
+        return gap::locate({record}, {residuals});
+    };
+    EXPECT_EQ(of_slope(0.25).rising, 1.0);
+    EXPECT_EQ(of_slope(0.2499).still, 1.0);
+}
+
 }  // namespace
