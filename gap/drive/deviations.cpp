@@ -47,7 +47,10 @@ struct Directions {
     Eigen::VectorXd told;  // inverse eigenvalues; 0: nothing tells it
 };
 
-std::optional<Directions> directions_of(const Slopes& slopes) {
+constexpr double rounding = 1e-10;  // of what a direction moves, squared, that of differences
+
+// \param untold  a direction that moves less, squared, than so much of what the one does that moves most
+std::optional<Directions> directions_of(const Slopes& slopes, double untold = rounding) {
     Directions found;
     found.length = slopes.by_number.colwise().norm();
     for (Eigen::Index i = 0; i < found.length.size(); ++i) {
@@ -63,7 +66,6 @@ std::optional<Directions> directions_of(const Slopes& slopes) {
     if (parts.info() != Eigen::Success) {
         return std::nullopt;
     }
-    constexpr double untold = 1e-10;  // of the largest: below it is the rounding of differences
     const double least = untold * parts.eigenvalues().maxCoeff();
     found.told = (parts.eigenvalues().array() > least).select(parts.eigenvalues().cwiseInverse(), 0.0);
     found.vectors = parts.eigenvectors();
@@ -133,11 +135,11 @@ void add_deviations(const Study& study, Candidate& candidate, const Whitener* wh
     }
 }
 
-std::vector<double> untold_shares(const Study& study, Candidate candidate) {
+std::vector<double> untold_shares(const Study& study, Candidate candidate, double untold) {
     const std::vector<FreeParameter*> free = free_numbers(candidate, false);
     std::vector<double> shares(free.size(), 0.0);
     const auto slopes = free.empty() ? std::nullopt : slopes_of(study, candidate, free, nullptr);
-    const auto directions = slopes ? directions_of(*slopes) : std::nullopt;
+    const auto directions = slopes ? directions_of(*slopes, std::max(untold, rounding)) : std::nullopt;
     for (std::size_t i = 0; directions && i < directions->moving.size(); ++i) {
         shares[static_cast<std::size_t>(directions->moving[i])] = in_untold(*directions, static_cast<Eigen::Index>(i));
     }

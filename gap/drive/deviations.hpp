@@ -12,8 +12,9 @@ namespace gap {
 /// infinite where nothing tells.
 void add_deviations(const Study& study, Candidate& candidate, const Whitener* whitener);
 
-/// Of each free number how much of it, 0 to 1, lies in directions along which numbers move together and no residual
-/// does: of each direction, the square of its part.
-[[nodiscard]] std::vector<double> untold_shares(const Study& study, Candidate candidate);
+/// Of each free number how much of it, 0 to 1, lies in directions along which numbers move together and residuals do
+/// not: of each direction, the square of its part. \param untold  they move less, as squares, than so much of what the
+/// direction does that moves them most; at least what rounding is
+[[nodiscard]] std::vector<double> untold_shares(const Study& study, Candidate candidate, double untold = 0.0);
 
 }  // namespace gap

@@ -329,19 +329,47 @@ TEST(FitDeviations, OfWhatNothingTellsAreInfinite) {
 }
 
 // Friction of two levels beside an operating point: what one has more than the other moves the point, unless the record
-// shows it by resting.
+// shows it by resting, and goes both ways.
 TEST(FitDeviations, OfTwoLevelsOfFrictionAreOfTheirMean) {
-    const Made made(lag(), {stepped()}, true);
+    gap::Record both_ways = stepped();
+    for (std::size_t i = 8; i < both_ways.size(); ++i) {
+        both_ways.input[i] = i < 20 ? 2.0 : i < 32 ? 0.5 : i < 44 ? 3.0 : 1.0;
+    }
+    Made made(lag(), {both_ways}, true);
     gap::Candidate uneven;
     uneven.effects = {&gap::effect_named("direction_dependent_friction")};
     uneven.base = gap::base_of(made.study);
     uneven.own = {gap::state_of(made.study, made.records[0])};
     uneven.lasting = {gap::parameters_of(*uneven.effects[0], made.study.scales, 2)};
+    const std::vector<double> left = gap::residuals_of(made.study, uneven, 0);
+    for (std::size_t i = 0; i < left.size(); ++i) {
+        made.records[0].output[i] -= left[i];
+    }
     EXPECT_FALSE(gap::leaves_open(made.study, uneven));
     gap::FreeParameter& offset = uneven.own[0][0];
     offset.lower = -10.0;
     offset.upper = 10.0;
     EXPECT_TRUE(gap::leaves_open(made.study, uneven));
+}
+
+// One step up hardly parts a force from the gain: by less than a hundredth.
+TEST(FitDeviations, OfAForceAndAGainAreHardlyToldByAStep) {
+    const Made made(lag(), {stepped()}, true);
+    gap::Candidate even;
+    even.effects = {&gap::effect_named("coulomb_friction")};
+    even.base = gap::base_of(made.study);
+    even.own = {gap::state_of(made.study, made.records[0])};
+    even.lasting = {gap::parameters_of(*even.effects[0], made.study.scales, 1)};
+    for (gap::FreeParameter& own : even.own[0]) {
+        own.fixed = true;  // the record shows them by resting
+    }
+    const auto open = [&](double untold) {
+        const auto shares = gap::untold_shares(made.study, even, untold);
+        return std::ranges::any_of(shares, [](double share) { return share > 0.05; });
+    };
+    EXPECT_TRUE(gap::leaves_open(made.study, even));
+    EXPECT_TRUE(open(1e-4));
+    EXPECT_FALSE(open(0.0));
 }
 
 // --- Jitter: what shifts of a stamp by up to a half width make of a speed.
