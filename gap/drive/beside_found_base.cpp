@@ -49,9 +49,7 @@ std::string names_of(const std::vector<const Effect*>& causes) {
 bool is_settled(const Decision& decision) { return decision.outcome == Outcome::no_gap && !decision.disturbed; }
 
 bool leaves_most(const Described& base) { return base.validation > 0.5; }
-bool leaves_half_of(const Described& with_signs, const Described& base) {
-    return with_signs.validation < 0.5 * base.validation;
-}
+bool leaves_half_of(double with_signs, double without) { return with_signs < 0.5 * without; }
 
 double best_linear_share(double of_base, const std::vector<Described>& found) {
     for (const Described& one : found) {
@@ -121,8 +119,12 @@ Answer answer_beside_found_base(Question question, const std::function<void(cons
     // follows them with it, and the loss is an effect like others.
     if (leaves_most(found.front()) && may_have_lost_signs(question.train)) {
         say("looking for signs that the sensor may have lost");
-        std::vector<Described> better = find_base(with_signs_of_a_base(question), say);
-        if (leaves_half_of(better.front(), found.front())) {
+        const Question with_signs = with_signs_of_a_base(question);
+        std::vector<Described> better = find_base(with_signs, say);
+        // Judged where both were fitted: that validation goes where training never was says nothing of signs. And in
+        // units of the output, whose deviation is another one with signs.
+        if (leaves_half_of(better.front().aside * deviation_of(with_signs.train),
+                           found.front().aside * deviation_of(question.train))) {
             found = std::move(better);
         }
     }

@@ -18,8 +18,8 @@ namespace gap {
 
 /// Whether the best base leaves more than half of the output: the sensor may have lost its sign.
 [[nodiscard]] bool leaves_most(const Described& base);
-/// Whether one that is found with signs is believed, since it leaves less than half as much.
-[[nodiscard]] bool leaves_half_of(const Described& with_signs, const Described& base);
+/// Whether one that is found with signs is believed, since it leaves less than half as much. Both in the output's unit.
+[[nodiscard]] bool leaves_half_of(double with_signs, double without);
 
 /// Answer::linear_share, where the base that was asked beside has its own.
 [[nodiscard]] double best_linear_share(double of_base, const std::vector<Described>& found);

@@ -339,4 +339,43 @@ TEST(LostSigns, AreThoseOfABaseWherePlantsSwing) {
     EXPECT_EQ(wrong(found.validate[0], judge), 0);
 }
 
+// One that swings at every move of the input is somewhere else by the time the input turns: nothing of that tells its
+// signs, the magnitudes themselves do. The plant of two motors and a belt, an interval of 20 ms.
+TEST(LostSigns, AreThoseOfTheMagnitudesWhereNoTurnTellsThem) {
+    constexpr double ms = h / 20.0;
+    constexpr double lag = 130.0 * ms;
+    constexpr double swing = 46.5 * ms;
+    constexpr double damping = 0.15;
+    const drive::Model model = of({{lag * swing * swing, 3.0},
+                                   {swing * swing + 2.0 * damping * swing * lag, 2.0},
+                                   {lag + 2.0 * damping * swing, 1.0},
+                                   {1.0, 0.0}});
+    const auto swinging = [&](unsigned seed) {
+        gap::Record record = record_of(500, [bits = seed](double t) mutable {
+            return (bits >> (static_cast<unsigned>(t / (100.0 * ms) + 0.5) % 31U)) % 2U == 0U ? 1.0 : -1.0;
+        });
+        record.output = response(record, model);
+        return record;
+    };
+    const gap::Record truth = swinging(0x5A3C96E1U);
+    gap::Question question{{drive::Kind::fopdt, drive::make_fopdt(1.0, 2.0, 0.5)},
+                           false,
+                           {truth},
+                           {},
+                           0.75 * truth.time_s.back(),
+                           gap::Metric::simulation,
+                           {},
+                           1};
+    std::ranges::transform(truth.output, question.train[0].output.begin(), [](double y) { return std::fabs(y); });
+    const auto wrong = [&](const gap::Record& found) {
+        int count = 0;
+        for (std::size_t i = 0; i < truth.size(); ++i) {
+            count += found.output[i] * truth.output[i] < 0.0 && std::fabs(truth.output[i]) > 0.1 ? 1 : 0;
+        }
+        return std::min(count, static_cast<int>(truth.size()) - count);
+    };
+    EXPECT_GT(wrong(gap::with_signs(question.train)[0]), 50);
+    EXPECT_EQ(wrong(gap::with_signs_of_a_base(question).train[0]), 0);
+}
+
 }  // namespace

@@ -39,8 +39,8 @@ gap::Described description(double validation) { return {"", "", gap::form_to_fin
 TEST(BesideFoundBase, AsksForLostSignsWhereMostIsLeft) {
     EXPECT_FALSE(gap::leaves_most(description(0.5)));
     EXPECT_TRUE(gap::leaves_most(description(0.501)));
-    EXPECT_TRUE(gap::leaves_half_of(description(0.299), description(0.6)));
-    EXPECT_FALSE(gap::leaves_half_of(description(0.3), description(0.6)));
+    EXPECT_TRUE(gap::leaves_half_of(0.299, 0.6));
+    EXPECT_FALSE(gap::leaves_half_of(0.3, 0.6));
 }
 
 // 1 less the gap's square.

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
 
 #include "gap/drive/base/find.hpp"
+#include "gap/drive/base/part.hpp"
 #include "gap/drive/base/structure.hpp"
 #include "gap/drive/fit.hpp"
 
@@ -67,16 +71,92 @@ std::vector<Record> with_signs(std::vector<Record> records) {
     return records;
 }
 
-Question with_signs_of_a_base(Question question) {
-    question.train = with_signs(std::move(question.train));
-    question.validate = with_signs(std::move(question.validate));
-    question.refit = true;
+namespace {
+
+// From one step of the grid to the next.
+constexpr double times_the_lag = 1.75;
+constexpr double times_the_period = 1.4;
+
+// Of a lag and an oscillator: the one whose magnitudes the readings are, with the gain that suits them best.
+drive::Model shape_of_magnitudes(const std::vector<Record>& records) {
+    std::vector<Part> parts;
+    std::ranges::transform(records, std::back_inserter(parts), part_of);
+    std::vector<Course> courses;
+    double length_s = 0.0;
+    for (const Part& part : parts) {
+        courses.emplace_back(part.record, part.per_interval);
+        length_s = std::max(length_s, part.record.time_s.back() - part.record.time_s.front());
+    }
+    const double shortest_s = records.front().usual_interval_s;
+    const double longest_s = 0.1 * length_s;
+    drive::Model best;
+    double least = std::numeric_limits<double>::infinity();
+    const auto rate = [&](const Coefficients& shape) {
+        Scenario scenario;
+        scenario.model = model_of(form_of(*structure_named("third_order"), shape, true));
+        double theirs = 0.0;
+        double both = 0.0;
+        double mine = 0.0;
+        for (const Course& course : courses) {
+            const std::vector<double> moved = simulate(scenario, course);
+            const std::vector<double>& read = course.record().output;
+            for (std::size_t i = 0; i < read.size(); ++i) {
+                theirs += read[i] * read[i];
+                both += std::fabs(read[i] * moved[i]);
+                mine += moved[i] * moved[i];
+            }
+        }
+        const double left = theirs - both * both / mine;
+        if (std::isfinite(left) && left < least) {
+            least = left;
+            best = scenario.model;
+            best.gain = both / mine;
+        }
+    };
+    for (double lag_s = shortest_s; lag_s < longest_s; lag_s *= times_the_lag) {
+        for (double swing_s = shortest_s; swing_s < longest_s; swing_s *= times_the_period) {
+            for (const double damping : {0.1, 0.25, 0.6}) {
+                for (const double delay_s : {0.0, 0.5 * swing_s}) {
+                    const double friction_s = 2.0 * damping * swing_s;
+                    rate({1.0,
+                          {lag_s + friction_s, swing_s * swing_s + lag_s * friction_s, lag_s * swing_s * swing_s},
+                          {},
+                          delay_s});
+                }
+            }
+        }
+    }
+    return best;
+}
+
+std::vector<Record> with_signs_of(const drive::Model& model, std::vector<Record> records) {
+    for (Record& record : records) {
+        const Part part = part_of(record);
+        Scenario scenario;
+        scenario.model = model;
+        const std::vector<double> moved = simulate(scenario, Course(record, part.per_interval));
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            record.output[i] = std::copysign(record.output[i], moved[i]);
+        }
+    }
+    return records;
+}
+
+struct Signed {
+    Question question;
+    double cost;
+};
+
+// Signs of a base that is fitted to the signs before, while they change.
+Signed settled(Question question) {
     const Structure& structure = *structure_named("third_order");
     constexpr int rounds = 12;
+    double cost = 0.0;
     for (int round = 0; round < rounds; ++round) {
         question.form = starts_of(structure, question.train).whole;
         const Ground ground = prepare(question);
         const Candidate fitted = fit(ground.study, {}, ground.base, nullptr);
+        cost = fitted.cost;
         bool changed = false;
         const auto take = [&](std::vector<Record>& records, const Study& study, const Candidate& candidate) {
             for (std::size_t r = 0; r < records.size(); ++r) {
@@ -100,7 +180,22 @@ Question with_signs_of_a_base(Question question) {
             break;
         }
     }
-    return question;
+    return {std::move(question), cost};
+}
+
+}  // namespace
+
+Question with_signs_of_a_base(Question question) {
+    question.refit = true;
+    Question of_input = question;
+    of_input.train = with_signs(question.train);
+    of_input.validate = with_signs(question.validate);
+    const drive::Model shape = shape_of_magnitudes(question.train);
+    question.train = with_signs_of(shape, std::move(question.train));
+    question.validate = with_signs_of(shape, std::move(question.validate));
+    Signed by_input = settled(std::move(of_input));
+    Signed by_shape = settled(std::move(question));
+    return by_shape.cost < by_input.cost ? std::move(by_shape.question) : std::move(by_input.question);
 }
 
 }  // namespace gap

@@ -14,8 +14,10 @@ namespace gap {
 /// its input passes 0 there. Good enough for a base to be looked for.
 [[nodiscard]] std::vector<Record> with_signs(std::vector<Record> records);
 
-/// Signs that the input says are a start; those of a base that was fitted to them are better, and so on, while they
-/// change. \return  the question with readings that have them
+/// Signs that the input says are a start, and those of the lag and oscillator whose magnitudes the readings are another
+/// one: what swings at every move of the input passes 0 elsewhere. Those of a base that was fitted to them are better,
+/// and so on, while they change; the start that ends with less is taken. \return  the question with readings that have
+/// them
 [[nodiscard]] Question with_signs_of_a_base(Question question);
 
 }  // namespace gap
