@@ -7,12 +7,12 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <functional>
 #include <sstream>
 #include <string>
 
 #include "base/failure.hpp"
 #include "base/scratch.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -62,17 +62,6 @@ TEST(Files, AFolderThatCannotBeWrittenIsFoundBeforeTheRun) {
     EXPECT_THROW(base::check_writable("/proc/glsum/out.json"), glsum::Failure);
 }
 
-std::string refusal(const std::function<void()>& ask) {
-    try {
-        ask();
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
-        return failure.what();
-    }
-    ADD_FAILURE() << "nothing was refused";
-    return "";
-}
-
 std::ptrdiff_t files_in(const std::filesystem::path& folder) {
     return std::distance(std::filesystem::directory_iterator(folder), {});
 }
@@ -84,11 +73,11 @@ TEST(Files, AreReadUpToTheirLimit) {
     std::ofstream(path) << text;
     EXPECT_EQ(base::read_file(path, text.size()), text);
     EXPECT_EQ(base::read_file(path, 1 << 20), text);
-    EXPECT_EQ(refusal([&] { (void)base::read_file(path, text.size() - 1); }),
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { (void)base::read_file(path, text.size() - 1); }),
               path.string() + ": expected a file of at most 66535 bytes");
-    EXPECT_EQ(refusal([&] { (void)base::read_file(folder.file("none"), 9); }),
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { (void)base::read_file(folder.file("none"), 9); }),
               folder.file("none").string() + ": cannot read: No such file or directory");
-    EXPECT_EQ(refusal([&] { (void)base::read_file(folder.file(""), 9); }),
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { (void)base::read_file(folder.file(""), 9); }),
               folder.file("").string() + ": cannot read: Is a directory");
     std::ofstream(folder.file("empty")).flush();
     EXPECT_EQ(base::read_file(folder.file("empty"), 9), "");
@@ -97,17 +86,18 @@ TEST(Files, AreReadUpToTheirLimit) {
 // Whatever comes in the way, the reason is said, nothing is left beside, and what was there stays.
 TEST(Files, WhatCannotBeWrittenIsNamedWithItsReason) {
     const base::Scratch folder;
-    EXPECT_EQ(refusal([&] { base::write_file("/proc/glsum/out.json", "x"); }),
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { base::write_file("/proc/glsum/out.json", "x"); }),
               "/proc/glsum/out.json: cannot write: No such file or directory; what was there before is untouched");
-    EXPECT_NE(refusal([] { base::check_writable("/proc/glsum/out.json"); }).find("cannot write: No such file"),
+    EXPECT_NE(test::refusal(glsum::Exit::bad_input, [] { base::check_writable("/proc/glsum/out.json"); })
+                  .find("cannot write: No such file"),
               std::string::npos);
     const auto taken = folder.file("taken");
     std::filesystem::create_directories(taken / "inside");
-    EXPECT_EQ(refusal([&] { base::write_file(taken, "x"); }),
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { base::write_file(taken, "x"); }),
               taken.string() + ": cannot write: Is a directory; what was there before is untouched");
     EXPECT_EQ(files_in(taken.parent_path()), 1);
     EXPECT_EQ(
-        refusal([&] { base::publish(folder.file("gone"), folder.file("out")); }),
+        test::refusal(glsum::Exit::bad_input, [&] { base::publish(folder.file("gone"), folder.file("out")); }),
         folder.file("out").string() + ": cannot write: No such file or directory; what was there before is untouched");
 }
 
@@ -158,11 +148,11 @@ TEST(Files, NoneIsLeftOpen) {
     base::check_writable(path);
     base::write_file(folder.file("other"), "x");
     std::filesystem::create_directories(folder.file("taken") / "inside");
-    (void)refusal([&] { base::write_file(folder.file("taken"), "x"); });
-    (void)refusal([&] { (void)base::read_file(path, 0); });
-    (void)refusal([&] { (void)base::read_file(folder.file(""), 9); });
+    (void)test::refusal(glsum::Exit::bad_input, [&] { base::write_file(folder.file("taken"), "x"); });
+    (void)test::refusal(glsum::Exit::bad_input, [&] { (void)base::read_file(path, 0); });
+    (void)test::refusal(glsum::Exit::bad_input, [&] { (void)base::read_file(folder.file(""), 9); });
     std::filesystem::create_symlink("/dev/full", base::partial_name(path));
-    (void)refusal([&] { base::write_file(path, "new"); });
+    (void)test::refusal(glsum::Exit::bad_input, [&] { base::write_file(path, "new"); });
     EXPECT_EQ(open_files(), before);
 }
 
@@ -173,14 +163,8 @@ TEST(Files, AFolderForResultsIsNewOrEmpty) {
     std::filesystem::create_directory(path);
     EXPECT_NO_THROW(base::check_new_or_empty(path));
     base::write_file(path / "a", "");
-    try {
-        base::check_new_or_empty(path);
-        FAIL() << "a folder with a file in it was taken";
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
-        EXPECT_EQ(std::string(failure.what()),
-                  path.string() + ": expected a folder that is new or empty, found files in it");
-    }
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { base::check_new_or_empty(path); }),
+              path.string() + ": expected a folder that is new or empty, found files in it");
 }
 
 }  // namespace

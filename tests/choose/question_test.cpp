@@ -18,23 +18,12 @@
 #include "glsum/registry.hpp"
 #include "tests/choose/pretend_board.hpp"
 #include "tests/choose/small_question.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
 using choose::MeasuredErrors;
 using choose::Question;
-
-template <class Ask>
-std::string refusal(glsum::Exit status, Ask ask) {
-    try {
-        ask();
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), status) << failure.what();
-        return failure.what();
-    }
-    ADD_FAILURE() << "nothing was refused";
-    return "";
-}
 
 TEST(Question, LimitsThatDoNotSuitTheTargetAreRefused) {
     const auto ask = [](choose::Target target, const char* core, bool cycles, bool instructions) {
@@ -51,15 +40,16 @@ TEST(Question, LimitsThatDoNotSuitTheTargetAreRefused) {
         return [question] { (void)choose::answer(question, std::nullopt); };
     };
     using choose::Target;
-    EXPECT_NE(refusal(glsum::Exit::bad_input, ask(Target::host, "", false, true)).find("only with --target m7"),
+    EXPECT_NE(test::refusal(glsum::Exit::bad_input, ask(Target::host, "", false, true)).find("only with --target m7"),
               std::string::npos);
-    EXPECT_NE(refusal(glsum::Exit::bad_input, ask(Target::m7, "m7-ideal", false, true)).find("with --core use"),
+    EXPECT_NE(test::refusal(glsum::Exit::bad_input, ask(Target::m7, "m7-ideal", false, true)).find("with --core use"),
               std::string::npos);
-    EXPECT_NE(refusal(glsum::Exit::bad_input, ask(Target::m7, "", true, false)).find("only instructions are counted"),
-              std::string::npos);
+    EXPECT_NE(
+        test::refusal(glsum::Exit::bad_input, ask(Target::m7, "", true, false)).find("only instructions are counted"),
+        std::string::npos);
     for (const auto& well : {ask(Target::m7, "", false, true), ask(Target::m7, "m7-ideal", true, false),
                              ask(Target::m7, "", false, false), ask(Target::m7, "m7-ideal", false, false)}) {
-        EXPECT_NE(refusal(glsum::Exit::missing, well).find("the emulated board is needed"), std::string::npos);
+        EXPECT_NE(test::refusal(glsum::Exit::missing, well).find("the emulated board is needed"), std::string::npos);
     }
 }
 
@@ -119,8 +109,8 @@ TEST(Question, OneKernelWithoutABoardHasItsErrorAndNoCost) {
                   *core == '\0' ? bench::Json({"count"}) : bench::Json({"m7-ideal"}));
     }
     question.conditions.order = -1.5;
-    EXPECT_NE(refusal(glsum::Exit::bad_input,
-                      [&] { (void)choose::measure_one(question, "mirrordelta_plain_f32", 20, std::nullopt); })
+    EXPECT_NE(test::refusal(glsum::Exit::bad_input,
+                            [&] { (void)choose::measure_one(question, "mirrordelta_plain_f32", 20, std::nullopt); })
                   .find("mirrordelta_plain_f32 with 20 taps: the order is not in (-2, 2]"),
               std::string::npos);
 }

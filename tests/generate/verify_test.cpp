@@ -11,6 +11,7 @@
 #include "bench/target/target_rows.hpp"
 #include "tests/choose/pretend_board.hpp"
 #include "tests/generate/pretend_compiler.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -125,15 +126,17 @@ TEST(Verified, AFolderWithoutFlagsIsNamed) {
     const base::Scratch folder;
     qemu::Board board;
     board.measure_elf = folder.file("measure.elf");
-    try {
-        (void)generate::verify_on_target(
-            {{.kernel = "shift_plain_f32", .order = 0.5, .taps = 5, .step_s = {}, .prefix = "a", .provenance = {}}},
-            board, {});
-        ADD_FAILURE() << "nothing was refused";
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), glsum::Exit::missing);
-        EXPECT_THAT(failure.what(), HasSubstr("build_info.json: expected the flags of the firmware"));
-    }
+    EXPECT_THAT(test::refusal(glsum::Exit::missing,
+                              [&] {
+                                  (void)generate::verify_on_target({{.kernel = "shift_plain_f32",
+                                                                     .order = 0.5,
+                                                                     .taps = 5,
+                                                                     .step_s = {},
+                                                                     .prefix = "a",
+                                                                     .provenance = {}}},
+                                                                   board, {});
+                              }),
+                HasSubstr("build_info.json: expected the flags of the firmware"));
 }
 
 // From a board and a compiler that are pretended: of each header its own answer, counts and cycles, beside its

@@ -23,6 +23,7 @@
 #include "tests/qemu/made_elf.hpp"
 #include "tests/qemu/made_emulator.hpp"
 #include "tests/qemu/made_program.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -37,18 +38,6 @@ using test::ring;
 std::string text_of(const std::filesystem::path& path) {
     std::ifstream in(path);
     return {std::istreambuf_iterator<char>(in), {}};
-}
-
-template <class Ask>
-std::string refusal(glsum::Exit status, Ask ask) {
-    try {
-        ask();
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), status) << failure.what();
-        return failure.what();
-    }
-    ADD_FAILURE() << "nothing was refused";
-    return "";
 }
 
 // Build attributes as an assembler writes them: names of the processor (tags 4 and 5), its architecture (6), profile
@@ -90,7 +79,7 @@ TEST(MadeElf, HasItsSymbolsFunctionsAndBytes) {
     EXPECT_EQ(elf.text(0x20000000, 5), "hello");
     EXPECT_EQ(elf.text(0x20000001, 2), "el");
     for (const std::uint32_t address : {0xFCU, 0xFFU, 0x105U, 0x108U, 0x20000002U, 0xFFFFFFFFU}) {
-        EXPECT_EQ(refusal(glsum::Exit::bad_input, [&] { (void)elf.word(address); })
+        EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { (void)elf.word(address); })
                       .find(folder.file("a.elf").string() + ": no section holds address 0x"),
                   0U);
     }
@@ -112,17 +101,17 @@ TEST(MadeElf, HasItsSymbolsFunctionsAndBytes) {
     EXPECT_EQ(elf.function("_Z5shownif").address, 0x140U);
     EXPECT_EQ(elf.function("twice(int)").address, 0x150U);
     EXPECT_EQ(elf.function("loop").address, 0x170U);
-    EXPECT_NE(refusal(glsum::Exit::bad_input, [&] { (void)elf.function("twice"); })
+    EXPECT_NE(test::refusal(glsum::Exit::bad_input, [&] { (void)elf.function("twice"); })
                   .find("twice is the name of 2 functions: _Z5twicei at 0x150 _Z5twicef at 0x160"),
               std::string::npos);
     // The three closest, the closest first.
-    EXPECT_NE(
-        refusal(glsum::Exit::bad_input, [&] { (void)elf.function("secund"); }).find("the closest names are second, "),
-        std::string::npos);
-    EXPECT_NE(refusal(glsum::Exit::bad_input, [&] { (void)elf.function("thirds"); })
+    EXPECT_NE(test::refusal(glsum::Exit::bad_input, [&] { (void)elf.function("secund"); })
+                  .find("the closest names are second, "),
+              std::string::npos);
+    EXPECT_NE(test::refusal(glsum::Exit::bad_input, [&] { (void)elf.function("thirds"); })
                   .find("the closest names are third, first, twice(float)"),
               std::string::npos)
-        << refusal(glsum::Exit::bad_input, [&] { (void)elf.function("thirds"); });
+        << test::refusal(glsum::Exit::bad_input, [&] { (void)elf.function("thirds"); });
     EXPECT_THROW((void)elf.function("data"), glsum::Failure);
 }
 
@@ -142,7 +131,7 @@ TEST(MadeElf, OtherMachinesTypesAndDamageAreRefused) {
     const base::Scratch folder;
     const auto said = [&](const MadeElf& made) {
         made.write(folder.file("a.elf"));
-        return refusal(glsum::Exit::bad_input, [&] { const qemu::Elf elf(folder.file("a.elf")); });
+        return test::refusal(glsum::Exit::bad_input, [&] { const qemu::Elf elf(folder.file("a.elf")); });
     };
     MadeElf made;
     made.sections = {{0, test::bytes_of({0})}};
@@ -268,7 +257,7 @@ protected:
             board, plan, {{0.5}}, [&] { ++done_; }, counting, timing);
     }
     std::string fault() {
-        return refusal(glsum::Exit::check_failed, [&] { (void)measure(); });
+        return test::refusal(glsum::Exit::check_failed, [&] { (void)measure(); });
     }
 
     base::Scratch folder_;
@@ -384,7 +373,7 @@ TEST_F(MeasureMade, WhatTheProgramMustOfferIsAskedForByName) {
         MadeElf without = program();
         std::erase_if(without.symbols, [&](const test::MadeSymbol& symbol) { return symbol.name == missing; });
         without.write(folder_.file("measure.elf"));
-        EXPECT_EQ(refusal(glsum::Exit::bad_input, [&] { (void)measure(); }),
+        EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { (void)measure(); }),
                   folder_.file("measure.elf").string() + ": expected the symbol " + missing);
     }
 }
@@ -534,16 +523,17 @@ TEST_F(MeasureModel, CyclesAreThoseOfEachRowsLog) {
 }
 
 TEST_F(MeasureModel, OtherStepsThanWereMadeAreNotBelieved) {
-    const auto fault = [&] { return refusal(glsum::Exit::check_failed, [&] { (void)step(); }); };
+    const auto fault = [&] { return test::refusal(glsum::Exit::check_failed, [&] { (void)step(); }); };
     log(steps_ + calls(ring, 1, "1 1 1 1") + reached);
     EXPECT_EQ(fault(), "the instrument saw more steps than the program made");
     log(calls(block, 1, "1 1 1 1") + steps_ + reached);
     EXPECT_EQ(fault(), "the instrument saw other steps than the program made");
     log(calls(ring, 100, "1 1 1 1") + reached);
     EXPECT_EQ(fault(), "the instrument saw other steps than the program made");
-    EXPECT_EQ(refusal(glsum::Exit::bad_input, [&] { (void)step({}, 99); }), "expected at least 100 steps to count");
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { (void)step({}, 99); }),
+              "expected at least 100 steps to count");
     std::filesystem::remove(folder_.file("model.elf"));
-    EXPECT_EQ(refusal(glsum::Exit::missing, [&] { (void)step(); }),
+    EXPECT_EQ(test::refusal(glsum::Exit::missing, [&] { (void)step(); }),
               folder_.file("model.elf").string() + ": not found; expected from the firmware's build");
 }
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "base/failure.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -159,13 +160,7 @@ TEST(TimingRequest, ChangesACoreFileAsItSays) {
     ASSERT_EQ(timing::cores_of(request)[0].sets.size(), 1U);
     EXPECT_EQ(timing::cores_of(request)[0].sets[0].name, last);
     const auto message_of = [&] {
-        try {
-            (void)timing::cores_of(request);
-        } catch (const glsum::Failure& failure) {
-            EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
-            return std::string(failure.what());
-        }
-        return std::string("nothing was refused");
+        return test::refusal(glsum::Exit::bad_input, [&] { (void)timing::cores_of(request); });
     };
     request.cores = {{"stm32f746-flash", "", "", true, "no-set"}};
     EXPECT_EQ(
