@@ -44,6 +44,11 @@ TEST_F(Rules, FittedFormsLeaveDoubt) {
     ranking_[drag].gap_after = 0.5;
     known_.remainders[drag] = {0.4, true, {}};  // or can be foreseen
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
+    ranking_[drag].gap_after = 0.26;  // or half of it, however little of all: here 3 to 4 %
+    known_.remainders[drag] = {0.52, true, {}};
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
+    known_.remainders[drag] = {0.48, true, {}};
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
 }
 
 // A disturbance in training and in validation: what a form's misfit looks like, unless nothing else is left.

@@ -125,6 +125,16 @@ TEST_F(Rules, ClearAdvantageTakesNothingOfTheShapeOfALawBesideAForm) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
     ranking_[bend].gap_after = 0.1605;
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    // Up to a quarter of the gap what follows a shape takes a part of it, and a cause takes half and more.
+    ranking_[bend].gap_after = 0.248;
+    ranking_[both].gap_after = 0.125;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
+    ranking_[both].gap_after = 0.123;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[bend].gap_after = 0.252;
+    ranking_[both].gap_after = 0.15;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[both].gap_after = 0.04;
     // What a log shows by itself follows no shape, and what goes without the law explains it otherwise.
     ranking_[bend].gap_after = 0.1595;
     ranking_[both].trained.effects[1] = &gap::effect_named("dropped_samples");

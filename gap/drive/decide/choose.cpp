@@ -28,6 +28,9 @@ constexpr double further_share_of_an_event = 0.5;
 // A cause is a law of a few numbers, and the drive's own is a little different: so much of the gap's rms, a fortieth of
 // its squares, is what the law's shape leaves to whatever follows it.
 constexpr double shape_of_a_law = 0.16;
+// A shape may be a quarter off: friction falls with speed, say. What follows that takes a part of it, a cause half.
+constexpr double widest_shape_of_a_law = 0.25;
+constexpr double part_of_a_shape = 0.5;
 
 // Whether all that a wider candidate has more are facts of the log: readings that are rounded, held or clipped.
 bool adds_facts_alone(const Candidate& wider, const Candidate& narrower) {
@@ -40,8 +43,10 @@ bool adds_facts_alone(const Candidate& wider, const Candidate& narrower) {
 bool follows_a_shape(const Evidence& evidence, std::size_t wider, std::size_t chosen) {
     const Candidate& mine = evidence.ranking[chosen].trained;
     const Candidate& theirs = evidence.ranking[wider].trained;
+    const double left = evidence.gap(chosen) / evidence.gap(evidence.none());
+    const bool takes_a_part = evidence.gap(wider) > part_of_a_shape * evidence.gap(chosen);
     return evidence.beside_form() && !mine.effects.empty() &&
-           evidence.gap(chosen) < shape_of_a_law * evidence.gap(evidence.none()) && contains(theirs, mine) &&
+           (left < shape_of_a_law || (left < widest_shape_of_a_law && takes_a_part)) && contains(theirs, mine) &&
            !adds_facts_alone(theirs, mine);
 }
 

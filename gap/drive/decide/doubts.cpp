@@ -18,7 +18,9 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
     }
     constexpr double an_event = 0.8;
     const double after = evidence.gap(decision.chosen);
-    if (foreseeable(evidence, decision).is_too_much || evidence.over_noise(after) > Evidence::most_sensors) {
+    const Foreseeable rest = foreseeable(evidence, decision);
+    constexpr double most = 0.5;  // what can be foreseen is no noise, however little it is of all
+    if (rest.is_too_much || rest.share > most || evidence.over_noise(after) > Evidence::most_sensors) {
         // The more is left the less sure it is.
         constexpr double a_tenth = 0.1;
         constexpr double a_quarter = 0.25;
