@@ -208,6 +208,18 @@ TEST_F(Rules, WhatCannotBeNamedOutdoesWhatIs) {
     EXPECT_EQ(outcome(), Outcome::unknown);
 }
 
+// What has a wider law in its stead says no other cause.
+TEST_F(Rules, WhatHasAWiderLawOutdoesNothing) {
+    const std::size_t friction = add({"coulomb_friction"}, 0.5, 100.0);
+    const std::size_t wider = add({"direction_dependent_friction", "missed_counts"}, 0.2, 200.0);
+    known_.objections[wider] = "every record needs one of its own";
+    beside_a_form();
+    set_noise(0.01);
+    EXPECT_EQ(after("what_is_outdone", attributed(friction)).outcome, Outcome::attributed);
+    ranking_[wider].trained.effects[0] = &gap::effect_named("quadratic_drag");
+    EXPECT_EQ(after("what_is_outdone", attributed(friction)).outcome, Outcome::unknown);
+}
+
 // A lag that another base has helps whatever it stands beside.
 TEST_F(Rules, WhatGoesFartherByALagAloneOutdoesNothing) {
     const std::size_t bend = add({"input_curve"}, 0.5, 100.0);

@@ -143,6 +143,10 @@ TEST_F(Rules, ClearAdvantageTakesNothingOfTheShapeOfALawBesideAForm) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
     ranking_[both].trained.effects = {&gap::effect_named("gain_drift"), &gap::effect_named("quadratic_drag")};
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    // A wider law than the one that is taken is that law.
+    ranking_[bend].trained.effects = {&gap::effect_named("coulomb_friction")};
+    ranking_[both].trained.effects[0] = &gap::effect_named("direction_dependent_friction");
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
 }
 
 TEST_F(Rules, ClearAdvantageOfFourEffectsIsTheMost) {

@@ -46,7 +46,7 @@ bool follows_a_shape(const Evidence& evidence, std::size_t wider, std::size_t ch
     const double left = evidence.gap(chosen) / evidence.gap(evidence.none());
     const bool takes_a_part = evidence.gap(wider) > part_of_a_shape * evidence.gap(chosen);
     return evidence.beside_form() && !mine.effects.empty() &&
-           (left < shape_of_a_law || (left < widest_shape_of_a_law && takes_a_part)) && contains(theirs, mine) &&
+           (left < shape_of_a_law || (left < widest_shape_of_a_law && takes_a_part)) && goes_beyond(theirs, mine) &&
            !adds_facts_alone(theirs, mine);
 }
 

@@ -102,7 +102,7 @@ void doubt_what_is_outdone(const Evidence& evidence, Decision& decision) {
     for (std::size_t i = 0; i < evidence.ranking.size(); ++i) {
         const Ranked& other = evidence.ranking[i];
         if (other.score() > chosen.score() + clear_advantage && other.gap_after < of_what_is_left * chosen.gap_after &&
-            !contains(other.trained, chosen.trained) && !evidence.objection(i).empty() &&
+            !goes_beyond(other.trained, chosen.trained) && !evidence.objection(i).empty() &&
             !is_helped_as_far(evidence, chosen.trained, other)) {
             decision.outcome = Outcome::unknown;
             decision.effects.clear();

@@ -30,6 +30,13 @@ bool contains(const Candidate& wider, const Candidate& narrower) {
                        [&](const Effect* effect) { return wider.has(effect->name); });
 }
 
+bool goes_beyond(const Candidate& wider, const Candidate& narrower) {
+    return std::ranges::all_of(narrower.effects, [&](const Effect* mine) {
+        return std::ranges::any_of(wider.effects,
+                                   [&](const Effect* theirs) { return theirs == mine || theirs->covers(*mine); });
+    });
+}
+
 bool is_clear(const Interval& over) { return over.mean > clear_advantage && over.low > 0.0; }
 
 Evidence::Evidence(const std::vector<Ranked>& ranked, const Whitener& whitener, const Study& trained,

@@ -73,6 +73,8 @@ private:
 
 /// Whether a candidate has all effects of another.
 [[nodiscard]] bool contains(const Candidate& wider, const Candidate& narrower);
+/// The same, or wider ones in their stead (Effect::covers).
+[[nodiscard]] bool goes_beyond(const Candidate& wider, const Candidate& narrower);
 
 /// A likelihood ratio that chance does not reach among some hundred candidates.
 constexpr double clear_advantage = 8.0;
