@@ -29,6 +29,7 @@ const std::filesystem::path results_folder = std::filesystem::path(build_info::s
 
 struct Options {
     std::filesystem::path baseline;
+    std::string target;  // whose own baseline is meant
     std::filesystem::path current = results_folder / "latest.json";
     std::filesystem::path thresholds = results_folder / "thresholds.toml";
     bool annotations = false;
@@ -43,6 +44,24 @@ struct Written {
     Output output;
     std::string (*text)(const Verdict&) = nullptr;
 };
+
+std::filesystem::path baseline_of(const Options& options) {
+    if (options.baseline.empty() == options.target.empty()) {
+        throw Failure(Exit::bad_input, options.target.empty()
+                                           ? "--baseline or --target is required"
+                                           : "--target: the baseline that --baseline names is another");
+    }
+    if (options.target.empty()) {
+        return options.baseline;
+    }
+    const std::filesystem::path own = results_folder / "baselines" / (options.target + ".json");
+    if (!std::filesystem::exists(own)) {
+        throw Failure(Exit::bad_input, fmt::format("--target: expected one that results/baselines has a baseline of, "
+                                                   "as host, found {}",
+                                                   options.target));
+    }
+    return own;
+}
 
 Verdict judge(const Options& options) {
     const bench::gate::Rules rules = bench::gate::read_rules(options.thresholds);
@@ -117,7 +136,8 @@ void annotate(const Verdict& verdict, const Options& options) {
     }
 }
 
-void run(const Options& options, const std::vector<Written>& outputs) {
+void run(Options options, const std::vector<Written>& outputs) {
+    options.baseline = baseline_of(options);
     if (!options.timed.elf.empty()) {
         gate_functions(
             {options.timed, options.functions, options.baseline, options.update, options.reason},
@@ -166,8 +186,11 @@ void add_options(Command& command, const Words&) {
         "With --elf the cycles, instructions, code and stack of a program's functions are held to a baseline that\n"
         "--update-baseline recorded of an earlier build: any growth is worse.\n"
         "Example: glsum gate --baseline results/baselines/m7.json --current my.json --junit gate.xml\n"
+        "Example: glsum gate --target host --current my.json\n"
         "Example: glsum gate --elf app.elf --functions 'ctrl_*' --baseline app.json");
-    command.add_option("--baseline", options->baseline, "What to hold the run against").required();
+    command.add_option("--baseline", options->baseline, "What to hold the run against");
+    command.add_option("--target", options->target,
+                       "Against this project's own baseline of it: results/baselines/TARGET.json");
     command.add_option("--current", options->current, "The run's result file").default_str("results/latest.json");
     command.add_option("--thresholds", options->thresholds, "Rules: what may change by how much, and why")
         .default_str("results/thresholds.toml");

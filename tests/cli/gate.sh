@@ -11,7 +11,10 @@ a=$folder/a.json
 gate="gate --thresholds $rules --baseline $a --current"
 
 expect 0 "Example:" gate --help
-expect 2 "--baseline" gate
+expect 2 "--baseline or --target is required" gate
+expect 2 "--target: the baseline that --baseline names is another" $gate "$a" --target host
+expect 2 "as host, found m9" gate --target m9 --current "$a"
+expect 1 "against $source/results/baselines/host.json" gate --target host --current "$a"
 expect 0 "pass: " $gate "$a"
 # Times that cannot be judged are said so at once.
 expect 0 "against $a; not judged: 3 host times, no row of the anchor" $gate "$a"
