@@ -49,6 +49,11 @@ TEST_F(Rules, FittedFormsLeaveDoubt) {
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.7);
     known_.remainders[drag] = {0.48, true, {}};
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.97);
+    known_.remainders[drag] = {0.52, true, {}};
+    ranking_[drag].gap_after = 0.0505;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.8);
+    ranking_[drag].gap_after = 0.0495;
+    EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.95);
 }
 
 // A disturbance in training and in validation: what a form's misfit looks like, unless nothing else is left.

@@ -285,8 +285,8 @@ TEST_F(Rules, WhatCannotBePartedIsWhatItsNumbersSay) {
         return after("what_cannot_be_parted", attributed(valve)).effects;
     };
     EXPECT_THAT(sticks_with(0.4, 0.0), ElementsAre(play));
-    EXPECT_THAT(sticks_with(0.4, 0.019), ElementsAre(play));
-    EXPECT_THAT(sticks_with(0.4, 0.021), ElementsAre(valve, play));
+    EXPECT_THAT(sticks_with(0.4, 0.039), ElementsAre(play));
+    EXPECT_THAT(sticks_with(0.4, 0.041), ElementsAre(valve, play));
     // What says less than the numbers is none of it.
     ranking_[play].by_sample.assign(samples, 20.0 / samples);
     ranking_[play].gap_after = 0.6;

@@ -21,11 +21,11 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
     const Foreseeable rest = foreseeable(evidence, decision);
     constexpr double most = 0.5;  // what can be foreseen is no noise, however little it is of all
     if (rest.is_too_much || rest.share > most || evidence.over_noise(after) > Evidence::most_sensors) {
-        // The more is left the less sure it is.
-        constexpr double a_tenth = 0.1;
+        // The more is left the less sure it is, of what can be foreseen twice: a second cause, say.
+        const double little = rest.share > most ? 0.05 : 0.1;
         constexpr double a_quarter = 0.25;
         const double left = after / decision.base_gap;
-        decision.at_most(left < a_tenth ? 0.95 : left < a_quarter ? 0.8 : 0.7);
+        decision.at_most(left < little ? 0.95 : left < a_quarter ? 0.8 : 0.7);
     }
     if (evidence.ranking[decision.chosen].trained.has_events()) {
         decision.at_most(an_event);

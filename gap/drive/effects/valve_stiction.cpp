@@ -68,7 +68,7 @@ std::vector<double> start(const Clue& clue) {
 
 // Without a jump it neither sticks nor breaks loose: what is left is a play.
 std::optional<Special> is_only(std::span<const double> values) {
-    constexpr double next_to_no_jump = 0.05;
+    constexpr double next_to_no_jump = 0.1;
     if (values[1] > next_to_no_jump * values[0]) {
         return std::nullopt;
     }
