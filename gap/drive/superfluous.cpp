@@ -12,7 +12,7 @@ namespace gap {
 namespace {
 
 constexpr double nearly_as_far = 1.15;
-constexpr double sure_of_the_others = 0.9;  // as of a base that does as well without any effect
+constexpr double sure_of_the_others = 0.8;  // the one that went may have been a cause, and what is left its numbers
 
 // The candidate without one of its effects; none: it was not tried, or cannot be named.
 std::optional<std::size_t> place_without(const Evidence& evidence, std::size_t of, const Effect* effect) {

@@ -93,7 +93,7 @@ TEST_F(Superfluous, GoesWhatTheOthersDoTogether) {
     EXPECT_EQ(decision.outcome, Outcome::attributed);
     EXPECT_THAT(decision.effects, ElementsAre(1U));
     EXPECT_EQ(decision.chosen, 1U);
-    EXPECT_EQ(decision.confidence, 0.9);
+    EXPECT_EQ(decision.confidence, 0.8);
     EXPECT_THAT(decision.notes, ElementsAre(HasSubstr("quadratic_drag leaves")));
     // What goes farther is none of its numbers.
     decision = after(0.75 * noise);

@@ -92,7 +92,7 @@ base::Picture picture_of_calibration(std::span<const Claim> claims) {
             : fmt::format("None of {} answers has a confidence of 0.9 or more", claims.size());
     // gnuplot refuses a block without rows; one outside the axes shows nothing.
     return {fmt::format("$bins << EOD\n{}EOD\n"
-                        "set title \"{}\" noenhanced\n"
+                        "set title \"{}\\nBrier score {:.3f}, {} answers that name causes\" noenhanced\n"
                         "set xlabel \"confidence that an answer is given with\"\n"
                         "set ylabel \"share of such answers that is right\"\n"
                         "set grid lc rgb \"#dddddd\"\n"
@@ -101,8 +101,6 @@ base::Picture picture_of_calibration(std::span<const Claim> claims) {
                         "set xrange [0:1.04]\n"
                         "set yrange [0:1.04]\n"
                         "set key top left\n"
-                        "set label \"Brier score {:.3f}, {} answers that name causes\" at graph 0.97, graph 0.05 "
-                        "right\n"
                         "plot x with lines lw 2 dt 2 lc rgb \"#666666\" title \"as often right as it says\", \\\n"
                         "  $bins using 1:2:3:4 with yerrorbars pt 7 ps 1.2 lw 2 lc rgb \"{}\" title \"answers, with "
                         "95 % intervals\", \\\n"
