@@ -12,6 +12,13 @@ std::string text(const bench::Json& context, const char* field) {
     return found == context.end() || !found->is_string() ? "unknown" : found->get<std::string>();
 }
 
+std::string commit_of(const bench::Json& context) {
+    const std::string commit = text(context, "commit");
+    const std::string dirty = text(context, "dirty");
+    const bool nobody_knows = commit != "unknown" && dirty == "unknown";
+    return commit + (dirty == "true" ? " with changes" : nobody_knows ? " (changes unknown)" : "");
+}
+
 }  // namespace
 
 std::vector<std::string> provenance(const Answer& answer, const std::string& command) {
@@ -48,9 +55,8 @@ std::vector<std::string> provenance(const Answer& answer, const std::string& com
     }
     lines.push_back("");
     lines.push_back("Command: " + command);
-    lines.push_back(fmt::format("glsum {}, commit {}{}", text(answer.context, "glsum_version"),
-                                text(answer.context, "commit"),
-                                text(answer.context, "dirty") == "true" ? " with changes" : ""));
+    lines.push_back(
+        fmt::format("glsum {}, commit {}", text(answer.context, "glsum_version"), commit_of(answer.context)));
     lines.push_back(fmt::format("Errors and expected bits: {}, {}", text(answer.context, "compiler"),
                                 text(answer.context, "flags")));
     if (on_target && chosen.cost.fault.empty()) {

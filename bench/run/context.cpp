@@ -2,16 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
 #include <ctime>
 #include <fstream>
-#include <memory>
 
 #include "base/build_info.hpp"
 #include "base/files.hpp"
 #include "base/scratch.hpp"
 #include "base/sha256.hpp"
 #include "bench/rows/target_fields.hpp"
+#include "bench/run/commit.hpp"
+#include "bench/run/first_line.hpp"
 #include "bench/target/target_build.hpp"
 #include "bench/target/target_plan.hpp"
 #include "bench/target/target_rows.hpp"
@@ -19,18 +19,6 @@
 
 namespace bench {
 namespace {
-
-// The first line that a command prints, or an empty text.
-std::string first_line(const std::string& command) {
-    const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-    char line[1024] = "";
-    if (pipe && std::fgets(line, sizeof line, pipe.get()) == nullptr) {
-        return "";
-    }
-    std::string text(line);
-    text.erase(text.find_last_not_of('\n') + 1);
-    return text;
-}
 
 std::string cpu_name() {
     std::ifstream info("/proc/cpuinfo");
@@ -71,14 +59,11 @@ Json make_context(Json google, const Sweep& sweep, const std::vector<qemu::Board
         context["executable"] = "glsum bench";
         context["library_build_type"] = "release";
     }
-    const std::string git = fmt::format("git -C '{}' ", build_info::source_folder);
-    const std::string commit = first_line(git + "rev-parse HEAD 2>/dev/null");
+    const Commit commit = commit_of(build_info::source_folder);
     context["schema"] = "glsum-results-1";
     context["glsum_version"] = build_info::version;
-    context["commit"] = commit.empty() ? "unknown" : commit;
-    context["dirty"] = commit.empty()                                                                    ? "unknown"
-                       : first_line(git + "status --porcelain --untracked-files=no 2>/dev/null").empty() ? "false"
-                                                                                                         : "true";
+    context["commit"] = commit.hash;
+    context["dirty"] = commit.dirty;
     context["compiler"] = build_info::compiler;
     context["flags"] = build_info::flags;
     context["contraction"] = build_info::contraction;

@@ -181,6 +181,10 @@ TEST(Provenance, SaysWhatWasMeasuredWhereAndHow) {
     EXPECT_THAT(lines[2], HasSubstr("420, on an emulated Cortex-M7: no cycles"));
     EXPECT_EQ(lines[3], "Runner-up of 7 kernels: modes_plain_f32 with 2+7 taps, 500 instructions");
     EXPECT_EQ(lines[6], "glsum 1.2, commit c0ffee");
+    answer.context["dirty"] = "unknown";
+    EXPECT_EQ(choose::provenance(answer, "c")[6], "glsum 1.2, commit c0ffee (changes unknown)");
+    answer.context["commit"] = "unknown";
+    EXPECT_EQ(choose::provenance(answer, "c")[6], "glsum 1.2, commit unknown");
     answer.question.target = choose::Target::host;
     answer.choice.runner_up.reset();
     answer.context.erase("flags");
