@@ -225,6 +225,44 @@ TEST_F(Rules, WhatHasAWiderLawOutdoesNothing) {
     EXPECT_EQ(after("what_is_outdone", attributed(friction)).outcome, Outcome::unknown);
 }
 
+// Two first terms of series that leave what is no noise follow a third thing, a spring's hysteresis, say.
+TEST_F(Rules, TwoSmoothLawsThatLeaveMuchAreNoCauses) {
+    const std::size_t chosen = add({"cubic_stiffness", "quadratic_drag"}, 0.151, 100.0);
+    const std::size_t with_more = add({"cubic_stiffness", "quadratic_drag", "rate_limit"}, 0.12, 108.1);
+    known_.objections[with_more] = "training leaves it open";
+    beside_a_form();
+    const auto outcome = [&] { return after("smooth_laws", attributed(chosen)).outcome; };
+    const gap::Decision refused = after("smooth_laws", attributed(chosen));
+    EXPECT_EQ(refused.outcome, Outcome::unknown);
+    EXPECT_THAT(refused.notes, ElementsAre(HasSubstr("cubic_stiffness + quadratic_drag leaves 15 % of the gap")));
+    EXPECT_EQ(after("suspects", refused).suspect, chosen);
+    ranking_[with_more].gap_after = 0.1215;  // less than a fifth of what is left
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    ranking_[with_more].gap_after = 0.12;
+    ranking_[with_more].by_sample.assign(samples, 107.9 / samples);  // not clearly more likely
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    known_.remainders[chosen] = {0.34, true, {}};
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    known_.remainders[chosen] = {0.32, true, {}};
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    known_.remainders[chosen] = {0.6, true, {}};
+    ranking_[chosen].gap_after = 0.149;  // little is left
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    ranking_[chosen].gap_after = 0.151;
+    ranking_[chosen].trained.effects[1] = &gap::effect_named("coulomb_friction");  // which has a corner
+    EXPECT_EQ(outcome(), Outcome::attributed);
+    ranking_[chosen].trained.effects[1] = &gap::effect_named("output_curve");
+    EXPECT_EQ(outcome(), Outcome::unknown);
+    ranking_[chosen].trained.effects.pop_back();  // one of them is a cause
+    EXPECT_EQ(outcome(), Outcome::attributed);
+}
+
+TEST_F(Rules, TwoSmoothLawsBesideAGivenModelAreItsCauses) {
+    const std::size_t chosen = add({"cubic_stiffness", "quadratic_drag"}, 0.3, 100.0);
+    known_.remainders[chosen] = {0.6, true, {}};
+    EXPECT_EQ(after("smooth_laws", attributed(chosen)).outcome, Outcome::attributed);
+}
+
 // A lag that another base has helps whatever it stands beside.
 TEST_F(Rules, WhatGoesFartherByALagAloneOutdoesNothing) {
     const std::size_t bend = add({"input_curve"}, 0.5, 100.0);

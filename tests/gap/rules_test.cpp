@@ -26,7 +26,7 @@ TEST_F(Rules, HaveNamesOfTheirOwnAndReasons) {
         EXPECT_THAT(rule.reason, HasSubstr(" ")) << rule.name;
         EXPECT_EQ(gap::rule_named(rule.name).apply, rule.apply);
     }
-    EXPECT_THAT(names, SizeIs(13));
+    EXPECT_THAT(names, SizeIs(14));
     EXPECT_THROW((void)gap::rule_named("luck"), std::out_of_range);
 }
 

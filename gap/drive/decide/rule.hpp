@@ -44,6 +44,8 @@ extern const Rule rule_of_patterns;
 // alternatives.cpp
 extern const Rule rule_of_what_cannot_be_parted;
 extern const Rule rule_of_few_alternatives;
+// smooth_laws.cpp
+extern const Rule rule_of_smooth_laws;
 // doubts.cpp
 extern const Rule rule_of_fitted_forms;
 extern const Rule rule_of_events_from_outside;

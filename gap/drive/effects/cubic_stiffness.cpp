@@ -33,6 +33,7 @@ const Effect& cubic_stiffness() {
         .place = Place::plant,
         .numbers = {{"coefficient"}},
         .domains = {Domain::mechanical, Domain::electric},
+        .smooth = true,
     };
     return effect;
 }

@@ -40,6 +40,7 @@ const Effect& input_curve() {
         .generalises = {"gain_error"},
         .place = Place::actuator,
         .numbers = {{"curvature"}, {"reference"}},
+        .smooth = true,
     };
     return effect;
 }

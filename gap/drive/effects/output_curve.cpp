@@ -50,6 +50,7 @@ const Effect& output_curve() {
         .numbers = {{"curvature"},
                     {"reference", Number::Given::otherwise, 1.0},
                     {"in_outflow", Number::Given::otherwise, 0.0}},
+        .smooth = true,
     };
     return effect;
 }

@@ -47,6 +47,7 @@ const Effect& quadratic_drag() {
         .place = Place::plant,
         .numbers = {{"coefficient"}, {"of_speed", Number::Given::otherwise, 0.0}},
         .domains = {Domain::mechanical, Domain::hydraulic},
+        .smooth = true,
         .slope = slope,
     };
     return effect;

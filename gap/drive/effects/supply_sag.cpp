@@ -43,6 +43,7 @@ const Effect& supply_sag() {
         .add_to = add,
         .place = Place::actuator,
         .numbers = {{"per_unit_s", Number::Given::otherwise, 0.0}, {"resistance", Number::Given::otherwise, 0.0}},
+        .smooth = true,
     };
     return effect;
 }
