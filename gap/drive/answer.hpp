@@ -21,7 +21,7 @@ struct Answer {
     Where where;                  ///< of the base's gap
     std::vector<Record> records;  ///< what it was judged on
     std::string metric;
-    bool split = false;                     ///< no validation record was given
+    bool split = false;                     ///< judged by parts of the training records that were kept aside
     drive::Model base;                      ///< as judged, or as fitted without any effect
     std::vector<std::string> extrapolated;  ///< what validation has and training lacks, in words
     std::string next_experiment;

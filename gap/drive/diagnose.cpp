@@ -6,6 +6,7 @@
 #include "gap/drive/base/idle.hpp"
 #include "gap/drive/beside_found_base.hpp"
 #include "gap/drive/beside_simulation.hpp"
+#include "gap/drive/within_training.hpp"
 
 namespace gap {
 namespace {
@@ -35,7 +36,13 @@ Answer diagnose(Question question, const std::function<void(const std::string&)>
         question = counted_from_idle(std::move(question));
     }
     if (question.find) {
-        return answer_beside_found_base(std::move(question), say);
+        Answer across = answer_beside_found_base(question, say);
+        if (!goes_elsewhere(across)) {
+            return across;
+        }
+        say("validation goes where training never was: the training alone");
+        return told_by_training(std::move(across),
+                                answer_beside_found_base(of_training_alone(std::move(question)), say));
     }
     Answer answer = answer_to(question, say);
     answer.base_name = question.base_name;

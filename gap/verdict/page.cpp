@@ -74,7 +74,7 @@ std::string summary(const Verdict& verdict, const OfDrive& of, const std::string
                             escaped(fmt::format("{}", fmt::join(of.extrapolated, ", "))));
     }
     if (of.split) {
-        html += "<p class=\"dim\">No validation log: parts of the training log were kept aside for it.</p>\n";
+        html += "<p class=\"dim\">Judged by parts of the training log, which were kept aside.</p>\n";
     }
     return html + (command.empty() ? "" : fmt::format("<p class=\"dim\"><code>{}</code></p>\n", escaped(command)));
 }

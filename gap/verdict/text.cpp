@@ -125,7 +125,7 @@ std::string text_of(const Verdict& verdict, const OfDrive& of) {
     text += fmt::format("variance explained: {:.1f} % by the simulation, {:.1f} % by the best candidate\n",
                         explained_percent(gap.base), explained_percent(gap.after));
     if (of.split) {
-        text += "no validation record: parts of the training record were kept aside for it\n";
+        text += "judged by parts of the training record, which were kept aside\n";
     }
     for (const std::vector<Cause>& causes : of.alternatives) {
         for (const std::string& line : cause_lines(causes)) {

@@ -126,7 +126,7 @@ TEST(VerdictFile, SaysWhichCausesStandTogether) {
     EXPECT_FALSE(file.contains("suspect"));
     EXPECT_THAT(gap::to_text(verdict),
                 AllOf(HasSubstr("verdict: ambiguous: backlash + sensor_drift or sensor_drift (confidence 0.88)"),
-                      HasSubstr("no validation record: parts of the training record"), Not(HasSubstr("base: "))));
+                      HasSubstr("judged by parts of the training record"), Not(HasSubstr("base: "))));
 }
 
 // What a cause takes is what the others leave without it, squared, over the squared gap.
@@ -489,13 +489,13 @@ TEST(VerdictPage, SaysWhatTheTextSays) {
         page, AllOf(HasSubstr("<h1>attributed: backlash or backlash</h1>"),
                     HasSubstr("confidence 0.88; gap (simulation) 0.5000 before, 0.1000 after, 0.0500 at best"),
                     HasSubstr("Extrapolated, as training has none of it: input above &lt;1&gt;."),
-                    HasSubstr("No validation log"), HasSubstr("Note: a &quot;note&quot; &amp; more."),
+                    HasSubstr("Judged by parts"), HasSubstr("Note: a &quot;note&quot; &amp; more."),
                     HasSubstr("<p>base: second_order"), HasSubstr("<ul><li>backlash.gap = 0.25  [0.2, 0.3]</li></ul>"),
                     HasSubstr("<h2>Next</h2><p>rest.</p>")));
     of.extrapolated.clear();
     of.split = false;
     EXPECT_THAT(gap::to_html(verdict, of, {}),
-                AllOf(Not(HasSubstr("Extrapolated")), Not(HasSubstr("No validation log"))));
+                AllOf(Not(HasSubstr("Extrapolated")), Not(HasSubstr("Judged by parts"))));
 }
 
 // A label at the picture's right edge ends there: in the middle of its tick, half of it would be cut off.
