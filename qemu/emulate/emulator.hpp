@@ -11,6 +11,7 @@ namespace qemu {
 
 struct Emulator {
     std::filesystem::path command;  ///< the board's `emulate` script
+    /// Of its own processor time; up to ten times as long where others take the processor.
     std::chrono::seconds silence_limit{120};
     /// How long it may take to end by itself, its plugin included, before it is killed.
     std::chrono::seconds grace{0};

@@ -183,6 +183,19 @@ TEST(Emulate, AnEmulatorThatIsGivenGraceMayFinish) {
     EXPECT_EQ(usual.grace, std::chrono::seconds(0));
 }
 
+// Where others take the processor it is slow, and no longer silent by its own clock: here it works a third of the time.
+TEST(Emulate, IsNotEndedForWhatOthersTakeOfTheProcessor) {
+    const std::string work = "i=0; while [ $i -lt 40000 ]; do i=$((i + 1)); done; ";
+    const std::string slowly = "for turn in 1 2 3 4 5 6 7 8; do " + work + "sleep 0.2; done; echo done\n";
+    const Told told = told_by(slowly, "", std::chrono::seconds(1));
+    EXPECT_EQ(told.status, glsum::Exit::good) << told.message;
+    EXPECT_EQ(told.lines, std::vector<std::string>{"done"});
+    // What turns in circles has had its time.
+    const Told circles = told_by("while :; do :; done\n", "", std::chrono::seconds(1));
+    EXPECT_EQ(circles.status, glsum::Exit::check_failed);
+    EXPECT_EQ(circles.message.find("the emulator was silent for "), 0U) << circles.message;
+}
+
 // A signal that its caller takes care of, here every 10 ms, ends no waiting: neither for output nor for the end.
 TEST(Emulate, WaitsOnWhenASignalInterrupts) {
     struct sigaction before {};
