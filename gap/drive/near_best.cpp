@@ -93,8 +93,8 @@ std::vector<Candidate> simplified(const Neighbourhood& near, std::size_t size) {
     return fitted;
 }
 
-std::vector<Candidate> rivals(const Neighbourhood& near) {
-    const Candidate& best = near.found.ranking.front().trained;
+std::vector<Candidate> rivals(const Neighbourhood& near, std::size_t size) {
+    const Candidate& best = near.found.best_of(size).trained;
     std::vector<Effects> all;
     for (std::size_t i = 0; i < best.effects.size(); ++i) {
         for (const Effect* other : near.of.ground.list) {
@@ -106,6 +106,9 @@ std::vector<Candidate> rivals(const Neighbourhood& near) {
                 all.push_back(std::move(effects));
             }
         }
+    }
+    if (all.empty()) {
+        return {};
     }
     near.of.say(fmt::format("fitting {} rivals", all.size()));
     std::vector<Candidate> close(all.size());

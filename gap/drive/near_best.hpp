@@ -29,9 +29,9 @@ struct Neighbourhood {
 /// wider one, which follows more, comes first.
 [[nodiscard]] std::vector<Candidate> simplified(const Neighbourhood& near, std::size_t size);
 
-/// Of the best set each effect exchanged for each that acts at its place, from where the best one stands: what looks
-/// alike is not to lose because it began further away.
-[[nodiscard]] std::vector<Candidate> rivals(const Neighbourhood& near);
+/// Of the best of a size each effect exchanged for each that acts at its place, from where the best one stands: what
+/// looks alike is not to lose because it began further away.
+[[nodiscard]] std::vector<Candidate> rivals(const Neighbourhood& near, std::size_t size);
 
 /// That readings are multiples of a coarse step is seen, not guessed: it is asked for beside the best single and the
 /// best pair, whatever squares it has at the start, since a sum of squares has a jump wherever a reading takes the next

@@ -89,9 +89,13 @@ public:
                 }
             }
         }
-        if (of_.ground.study.base.refit && !found_.ranking.front().trained.effects.empty()) {
-            take(rivals(near()));
-            renew_whitener();
+        // Named is mostly a single or a pair, though wider sets that follow the rest lead.
+        const std::size_t leading = found_.ranking.front().trained.effects.size();
+        for (const std::size_t size : std::set<std::size_t>{leading, 1, 2}) {
+            if (of_.ground.study.base.refit && size > 0 && size <= leading && found_.has_sized(size)) {
+                take(rivals(near(), size));
+                renew_whitener();
+            }
         }
         for (std::size_t size = 1; of_.ground.study.base.refit && found_.has_sized(size); ++size) {
             take(simplified(near(), size));
