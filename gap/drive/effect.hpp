@@ -122,6 +122,7 @@ struct Effect {
         false;  ///< readings under it mislead a base that is fitted without it: both begin at the form's values
     bool leads_base = false;    ///< a fitted base has to follow it before its numbers can be told
     bool only_spreads = false;  ///< moves no reading: found by likelihood, not by the sum of squares
+    bool of_time = false;       ///< it grows with time, whatever moves
     bool smooth = false;        ///< a curve, as the first term of a series: it follows other curves, too
     bool rounds = false;        ///< a reading stands for a range of values, within which nothing is missed
     std::vector<Written> (*to_contract)(const Effect& effect, std::span<const Fitted> fitted) = numbers_to_contract;

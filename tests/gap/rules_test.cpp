@@ -149,6 +149,22 @@ TEST_F(Rules, ClearAdvantageTakesNothingOfTheShapeOfALawBesideAForm) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(bend));
 }
 
+// What grows with time has no shape that the input shows again, nor follows one.
+TEST_F(Rules, ClearAdvantageTakesADriftOfTheReadingsBesideAnyLaw) {
+    const std::size_t bend = add({"output_curve"}, 0.1, 100.0);
+    const std::size_t drift = add({"sensor_drift"}, 0.1, 99.0);
+    const std::size_t both = add({"output_curve", "sensor_drift"}, 0.04, 200.0);
+    beside_a_form();
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[bend].gap_after = 0.6;
+    ranking_[drift].log_likelihood = 101.0;
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    // A gain that drifts bends what the input does.
+    ranking_[drift].trained.effects = {&gap::effect_named("gain_drift")};
+    ranking_[both].trained.effects[1] = &gap::effect_named("gain_drift");
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drift));
+}
+
 TEST_F(Rules, ClearAdvantageOfFourEffectsIsTheMost) {
     std::vector<std::string> effects;
     std::vector<std::size_t> at;

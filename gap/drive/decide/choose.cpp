@@ -39,6 +39,13 @@ bool adds_facts_alone(const Candidate& wider, const Candidate& narrower) {
     });
 }
 
+// What grows with time alone has no shape that the input shows again, nor follows one.
+bool are_of_time(const Candidate& wider, const Candidate& narrower) {
+    return std::ranges::all_of(narrower.effects, &Effect::of_time) ||
+           std::ranges::all_of(wider.effects,
+                               [&](const Effect* effect) { return narrower.has(effect->name) || effect->of_time; });
+}
+
 // Whether what is left beside a fitted form may be the shape of the laws that are taken, which a further one follows.
 bool follows_a_shape(const Evidence& evidence, std::size_t wider, std::size_t chosen) {
     const Candidate& mine = evidence.ranking[chosen].trained;
@@ -47,7 +54,7 @@ bool follows_a_shape(const Evidence& evidence, std::size_t wider, std::size_t ch
     const bool takes_a_part = evidence.gap(wider) > part_of_a_shape * evidence.gap(chosen);
     return evidence.beside_form() && !mine.effects.empty() &&
            (left < shape_of_a_law || (left < widest_shape_of_a_law && takes_a_part)) && goes_beyond(theirs, mine) &&
-           !adds_facts_alone(theirs, mine);
+           !adds_facts_alone(theirs, mine) && !are_of_time(theirs, mine);
 }
 
 // What a fitted form leaves below what it may leave itself, however clean the readings, is no cause's but the log's.

@@ -37,6 +37,7 @@ const Effect& sensor_drift() {
         .add_to = add,
         .place = Place::sensor,
         .numbers = {{"per_s"}},
+        .of_time = true,
     };
     return effect;
 }
