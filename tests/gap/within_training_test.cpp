@@ -51,7 +51,7 @@ TEST(WithinTraining, IsAskedWhereNothingExplainsWhatTrainingNeverSaw) {
 }
 
 TEST(WithinTraining, AsksWithoutTheRecordsThatJudged) {
-    gap::Question question;
+    gap::Question question{gap::form_to_find(), true, {}, {}, {}, gap::Metric::simulation, {}};
     gap::Record record;
     for (int i = 0; i < 100; ++i) {
         record.time_s.push_back(0.1 * i);
