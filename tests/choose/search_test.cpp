@@ -292,6 +292,22 @@ TEST(Search, WhatCanNoMoreBecomeTheCheapestIsNotLookedAt) {
     }
 }
 
+// What a kernel could do at most within the other limits is looked for among the lengths that it has.
+TEST(Search, WhereNothingMeetsTheLimitNoLengthBeyondFullMemoryIsAsked) {
+    struct ShortRecord : Few {
+        [[nodiscard]] std::size_t longest() const override { return 20; }
+    };
+    ShortRecord few;
+    few.ones["a"] = {21, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }};
+    const Choice found = few.choose({0.1, 1000.0, {}});
+    ASSERT_EQ(found.relaxed.size(), 1U);
+    EXPECT_EQ(found.relaxed[0].limit, "max_error");
+    EXPECT_EQ(found.relaxed[0].fits.taps, 20U);
+    for (const auto& [kernel, taps] : few.asked) {
+        EXPECT_LE(taps, 20U);
+    }
+}
+
 // A costly kernel is measured at 64 taps first, and where it is longer and costlier there than what fits, nowhere else.
 TEST(Search, ADearKernelIsTriedAtAShortLengthFirst) {
     const auto asked_of = [](double short_cost, std::size_t meets_from, const Limits& limits, bool fails = false) {
