@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <utility>
 
 #include "base/failure.hpp"
 #include "base/gnuplot.hpp"
@@ -11,6 +13,7 @@
 #include "cli/drive_files.hpp"
 #include "cli/name_value.hpp"
 #include "cli/output.hpp"
+#include "drive/over_log.hpp"
 #include "drive/pictures.hpp"
 #include "drive/simulation_report.hpp"
 
@@ -65,11 +68,17 @@ void print_exact_values(const drive::Model& model, const Options& options) {
         options.json, [&] { return drive::to_json(points); }, [&] { return drive::to_text(points); }, options.out);
 }
 
-drive::Log make_record(const Options& options, double step_s) {
+// What is simulated, and the log that it is of, if it is one.
+struct Task {
+    drive::Log record;
+    std::optional<drive::Log> log = {};
+};
+
+Task make_task(const Options& options, double step_s) {
     if (options.input == "step" || options.input == "pulse" || options.input == "staircase") {
         drive::Excitation excitation = options.excitation;
         excitation.name = options.input;
-        return drive::make_log(excitation, step_s, options.until_s);
+        return {drive::make_log(excitation, step_s, options.until_s)};
     }
     if (!std::filesystem::exists(options.input)) {
         throw Failure(Exit::bad_input,
@@ -77,21 +86,29 @@ drive::Log make_record(const Options& options, double step_s) {
     }
     drive::Columns columns = options.columns;
     columns.needs_output = false;  // it is what is asked for
-    drive::Log record = read_ordered_log(options.input, columns);
+    drive::Log log = read_ordered_log(options.input, columns);
+    log.name = options.input;
     if (!options.exact) {
-        record = drive::resample(std::move(record), step_s, drive::Hold::zero_order).log;
+        return {drive::on_steps(log, step_s), log};
     }
-    record.name = options.input;
-    const double first_s = record.time_s.front();
+    drive::Log record = log;
     for (double& t : record.time_s) {
-        t -= first_s;
+        t -= log.time_s.front();
     }
-    return record;
+    return {std::move(record), std::move(log)};
+}
+
+// A log's simulation is written at the log's own stamps, where it can be compared with what was measured.
+void put_series(const Options& options, const Task& task, const drive::Log& simulated) {
+    if (!options.out.empty()) {
+        put(drive::to_csv(task.log ? drive::at_own_stamps(*task.log, simulated) : simulated), options.out);
+    }
 }
 
 // A model that diagnose improved: its effects are simulated with it, about its operating point. \return  whether it is
 // one
-bool tell_of_effects(const drive::Model& model, drive::Log record, const Options& options) {
+bool tell_of_effects(const drive::Model& model, const Task& task, const Options& options) {
+    drive::Log record = task.record;
     const gap::Improved improved = simulate_effects(model, record, options.model.string());
     if (improved.output.empty()) {
         return false;
@@ -102,9 +119,7 @@ bool tell_of_effects(const drive::Model& model, drive::Log record, const Options
                                              : fmt::format("with {}", fmt::join(improved.effects, ", "));
     report.record = record;
     fmt::print("{}", drive::to_text(report, model));
-    if (!options.out.empty()) {
-        put(drive::to_csv(record), options.out);
-    }
+    put_series(options, task, record);
     draw(options, model, {{"with effects", record.time_s, record.output}});
     return true;
 }
@@ -119,16 +134,14 @@ void run(Options options) {
     options.scheme.step_s = options.step_s > 0.0 ? options.step_s : model.sample_time_s.value_or(0.001);
     options.scheme.taps = to_taps(options.taps);
     options.scheme.forcing = options.sampled ? drive::Forcing::sampled : drive::Forcing::held;
-    drive::Log record = make_record(options, options.scheme.step_s);
-    if (tell_of_effects(model, record, options)) {
+    const Task task = make_task(options, options.scheme.step_s);
+    if (tell_of_effects(model, task, options)) {
         return;
     }
     const drive::SimulationReport report =
-        options.exact ? drive::simulate_exactly(model, std::move(record))
-                      : drive::simulate(model, options.scheme, std::move(record), !options.no_compare);
-    if (!options.out.empty()) {
-        put(drive::to_csv(report.record), options.out);
-    }
+        options.exact ? drive::simulate_exactly(model, task.record)
+                      : drive::simulate(model, options.scheme, task.record, !options.no_compare);
+    put_series(options, task, report.record);
     put_either(
         options.json, [&] { return drive::to_json(report, options.model.string()); },
         [&] { return drive::to_text(report, model); }, {});
@@ -187,7 +200,7 @@ void add_options(Command& command, const Words&) {
     command.add_flag("--no-compare", options->no_compare, "Leave out the comparison with the exact response");
     add_column_options(command, options->columns);
     options->json.add_to(command, "--json", "The summary");
-    command.add_option("--out", options->out, "CSV of time_s, input and output");
+    command.add_option("--out", options->out, "CSV of time_s, input and output; of a log, at its own stamps");
     command.add_option("--plot", options->plot, "Draw STEM.svg and STEM.png");
     command.callback([options] { run(*options); });
 }

@@ -97,6 +97,9 @@ StampReport order_stamps(Log& log);
 
 enum class Hold { linear, zero_order };
 
+/// Where a constant rate ends: with the last step within the log, or with the first that is not before its last stamp.
+enum class End { within, behind };
+
 struct Resampled {
     Log log;
     StampReport stamps;
@@ -105,7 +108,7 @@ struct Resampled {
 /// A log at a constant rate, from its first stamp to its last: t_k = t_0 + k step_s. Linear interpolation, or the value
 /// of the latest sample; inputs are always held, as they were applied. \throws glsum::Failure (bad input) as
 /// `order_stamps`, and for a step that is not above 0 or gives more than `LogLimits::samples`.
-[[nodiscard]] Resampled resample(Log log, double step_s, Hold hold);
+[[nodiscard]] Resampled resample(Log log, double step_s, Hold hold, End end = End::within);
 
 /// CSV with columns time_s, input (if there is one), input_2 and further ones, output and simulated (if there are), in
 /// shortest numbers that read back exactly.

@@ -187,7 +187,7 @@ StampReport order_stamps(Log& log) {
     return report;
 }
 
-Resampled resample(Log log, double step_s, Hold hold) {
+Resampled resample(Log log, double step_s, Hold hold, End end) {
     Resampled result;
     result.stamps = order_stamps(log);
     const double from = log.time_s.front();
@@ -196,7 +196,9 @@ Resampled resample(Log log, double step_s, Hold hold) {
         refuse(fmt::format("{}: expected a step above 0 s that gives at most {} samples over {} s, found {}", log.name,
                            LogLimits::samples, span, step_s));
     }
-    const auto count = static_cast<std::size_t>(std::floor(span / step_s + 1e-9)) + 1;
+    const double steps = span / step_s;
+    const auto count =
+        static_cast<std::size_t>(end == End::within ? std::floor(steps + 1e-9) : std::ceil(steps - 1e-9)) + 1;
     if (count < 2) {
         refuse(fmt::format("{}: expected a step of at most {} s, the length of the log, found {}", log.name, span,
                            step_s));

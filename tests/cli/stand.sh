@@ -9,6 +9,7 @@ for form in fopdt sopdt; do
     expect 0 "sum of squares" identify "$folder/stand/series-1.csv" --form $form --out "$folder/$form.json"
 done
 expect 0 "largest error over the record" simulate --model "$folder/sopdt.json" --input "$folder/stand/series-2.csv" --out "$folder/simulated.csv"
+expect 0 "simulated.csv" indices "$folder/stand/series-2.csv" --simulated "$folder/simulated.csv"
 expect 0 "NRMSE fit" indices "$folder/stand/series-2.csv" --model "$folder/fopdt.json" --model "$folder/sopdt.json"
 # The disturbed series is further from the model of the first than the repeatable ones are.
 fit_of() { "$program" indices "$folder/stand/series-$1.csv" --model "$folder/sopdt.json" --json | sed -n 's/.*"nrmse_fit": \([-0-9.]*\),*/\1/p'; }
