@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "gap/drive/fit.hpp"
 #include "rules_case.hpp"
@@ -54,6 +55,24 @@ TEST_F(Rules, FittedFormsLeaveDoubt) {
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.8);
     ranking_[drag].gap_after = 0.0495;
     EXPECT_EQ(after("fitted_forms", attributed(drag)).confidence, 0.95);
+}
+
+// What is as likely and leaves clearly less may hold a second cause.
+TEST_F(Rules, FittedFormsLeaveDoubtWhereMoreIsLeftThanNeedBe) {
+    const std::size_t drag = add({"quadratic_drag"}, 0.06, 100.0);
+    const auto confidence = [&](double floor) {
+        gap::Decision decision = attributed(drag);
+        decision.noise_floor = floor;
+        return after("fitted_forms", std::move(decision)).confidence;
+    };
+    EXPECT_EQ(confidence(0.01), 0.97);
+    beside_a_form();
+    EXPECT_EQ(confidence(0.06 / 1.49), 0.97);
+    EXPECT_EQ(confidence(0.06 / 1.51), 0.85);
+    ranking_[drag].gap_after = 0.0405;
+    EXPECT_EQ(confidence(0.01), 0.85);
+    ranking_[drag].gap_after = 0.0395;  // of a base of 1
+    EXPECT_EQ(confidence(0.01), 0.97);
 }
 
 // A disturbance in training and in validation: what a form's misfit looks like, unless nothing else is left.

@@ -27,6 +27,13 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
         const double left = after / decision.base_gap;
         decision.at_most(left < little ? 0.95 : left < a_quarter ? 0.8 : 0.7);
     }
+    // So may what an answer as likely, or a model without physics, closes of the rest.
+    constexpr double clearly_more = 1.5;
+    constexpr double material = 0.04;
+    constexpr double not_alone = 0.85;
+    if (after > clearly_more * decision.noise_floor && after > material * decision.base_gap) {
+        decision.at_most(not_alone);
+    }
     if (evidence.ranking[decision.chosen].trained.has_events()) {
         decision.at_most(an_event);
     }
