@@ -1,5 +1,6 @@
 // A memoryless bend of the output, z = y ((1 - c) + c |y| / reference), about a reference that stays where it is. In
-// its other variant it is the restoring term that bends, as an outflow does that goes with the power 1 + c of the level.
+// its other variant it is the restoring term that bends, as an outflow does that goes with the power 1 + c of the
+// level.
 #include <algorithm>
 #include <cmath>
 
