@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <utility>
+
 #include "base/failure.hpp"
 #include "gap/drive/base/idle.hpp"
 #include "gap/drive/beside_found_base.hpp"
@@ -25,6 +28,18 @@ void check_simulated(const Question& question) {
     }
 }
 
+// The training may be too short to be parted, or still in what is kept aside: it then tells nothing more.
+std::optional<Answer> answer_of_training_alone(Question question, const std::function<void(const std::string&)>& say) {
+    try {
+        return answer_beside_found_base(of_training_alone(std::move(question)), say);
+    } catch (const glsum::Failure& failure) {
+        if (failure.status() != glsum::Exit::bad_input) {
+            throw;
+        }
+        return {};
+    }
+}
+
 }  // namespace
 
 Answer diagnose(Question question, const std::function<void(const std::string&)>& say) {
@@ -41,8 +56,8 @@ Answer diagnose(Question question, const std::function<void(const std::string&)>
             return across;
         }
         say("validation goes where training never was: the training alone");
-        return told_by_training(std::move(across),
-                                answer_beside_found_base(of_training_alone(std::move(question)), say));
+        std::optional<Answer> within = answer_of_training_alone(std::move(question), say);
+        return within ? told_by_training(std::move(across), std::move(*within)) : across;
     }
     Answer answer = answer_to(question, say);
     answer.base_name = question.base_name;

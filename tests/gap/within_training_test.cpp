@@ -4,8 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
+
+#include "gap/drive/diagnose.hpp"
 
 namespace {
 
@@ -13,6 +17,7 @@ using gap::Outcome;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 // Nothing leaves 1, the effect `gap_after`.
 gap::Answer answer_with(const std::string& effect, double gap_after, Outcome outcome, double confidence) {
@@ -89,6 +94,35 @@ TEST(WithinTraining, IsBelievedWhereLastingCausesLeaveAQuarter) {
         EXPECT_EQ(told(within).decision.outcome, Outcome::unknown);
         EXPECT_THAT(told(within).notes, IsEmpty());
     }
+}
+
+// A vessel that is full from the first samples on, with readings in steps: what is kept aside of it never moves. And
+// with waves, which no effect makes.
+gap::Record vessel(double low, double high, std::size_t hold, double wave) {
+    gap::Record record;
+    record.usual_interval_s = 0.5;
+    double level = 2.7 * 4.9;
+    for (std::size_t i = 0; i < 400; ++i) {
+        const double input = (i / hold) % 2 == 0 ? high : low;
+        record.time_s.push_back(0.5 * static_cast<double>(i));
+        record.input.push_back(input);
+        const double waves = wave * std::sin(0.8 * record.time_s.back()) * std::sin(0.043 * record.time_s.back());
+        record.output.push_back(1.31 * std::round((level + waves) / 1.31));
+        level += 0.5 / 10.0 * (2.7 * std::min(input, 6.3) - level);
+    }
+    return record;
+}
+
+TEST(WithinTraining, TrainingThatCannotJudgeLeavesTheAnswerAsItIs) {
+    gap::Question question{gap::form_to_find(), true, {}, {}, {}, gap::Metric::simulation, {}};
+    question.find = true;
+    question.train = {vessel(7.0, 9.0, 50, 0.0)};
+    question.validate = {vessel(2.0, 7.0, 60, 6.0)};
+    std::string said;
+    const gap::Answer answer = gap::diagnose(question, [&](const std::string& what) { said += what + "\n"; });
+    EXPECT_THAT(said, HasSubstr("the training alone"));
+    EXPECT_EQ(answer.decision.outcome, Outcome::unknown);
+    EXPECT_THAT(answer.extrapolated, Not(IsEmpty()));
 }
 
 }  // namespace
