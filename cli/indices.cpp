@@ -10,6 +10,7 @@
 #include "cli/drive_files.hpp"
 #include "cli/output.hpp"
 #include "drive/indices.hpp"
+#include "drive/over_log.hpp"
 #include "drive/response.hpp"
 
 namespace cli {
@@ -31,10 +32,7 @@ void run(const Options& options) {
     drive::Columns columns = options.columns;
     columns.needs_input = !options.models.empty();
     const drive::Log log = read_ordered_log(options.log, columns);
-    drive::Log from_start = log;
-    for (double& t : from_start.time_s) {
-        t -= log.time_s.front();
-    }
+    const drive::Log from_start = drive::from_start(log);
     nlohmann::ordered_json all = nlohmann::ordered_json::array();
     std::string table = fmt::format("{:<28} {:>11} {:>11} {:>11} {:>11} {:>11} {:>10} {:>14}\n", "", "ISE", "IAE",
                                     "ITSE", "ITAE", "MaxAPE", "NRMSE fit", "NRMSE printed");

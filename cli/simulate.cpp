@@ -91,11 +91,7 @@ Task make_task(const Options& options, double step_s) {
     if (!options.exact) {
         return {drive::on_steps(log, step_s), log};
     }
-    drive::Log record = log;
-    for (double& t : record.time_s) {
-        t -= log.time_s.front();
-    }
-    return {std::move(record), std::move(log)};
+    return {drive::from_start(log), std::move(log)};
 }
 
 // A log's simulation is written at the log's own stamps, where it can be compared with what was measured.
@@ -105,10 +101,11 @@ void put_series(const Options& options, const Task& task, const drive::Log& simu
     }
 }
 
-// A model that diagnose improved: its effects are simulated with it, about its operating point. \return  whether it is
-// one
+// A model that diagnose improved: its effects are simulated with it, about its operating point. It takes uneven steps,
+// and so keeps a log's own stamps: on a grid, the input of a jittered one would lag half a step. \return  whether it
+// is one
 bool tell_of_effects(const drive::Model& model, const Task& task, const Options& options) {
-    drive::Log record = task.record;
+    drive::Log record = task.log && options.step_s == 0.0 ? drive::from_start(*task.log) : task.record;
     const gap::Improved improved = simulate_effects(model, record, options.model.string());
     if (improved.output.empty()) {
         return false;
@@ -193,7 +190,11 @@ void add_options(Command& command, const Words&) {
         .above(0);
     command.add_flag("--sampled", options->sampled,
                      "The input is continuous, given at the samples: force with the newest");
-    command.add_option("--step-s", options->step_s, "Step h; usually the model's sample_time_s, or 0.001").above(0);
+    command
+        .add_option(
+            "--step-s", options->step_s,
+            "Step h; usually the model's sample_time_s, or 0.001; of a log, a model with effects takes its stamps")
+        .above(0);
     command.add_option("--until,--until-s", options->until_s, "Length of the record in s")
         .above(0)
         .capture_default_str();

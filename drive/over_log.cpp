@@ -6,13 +6,16 @@
 
 namespace drive {
 
-Log on_steps(const Log& log, double step_s) {
-    Log steps = resample(log, step_s, Hold::zero_order, End::behind).log;
-    const double first_s = steps.time_s.front();
-    for (double& t : steps.time_s) {
+Log from_start(Log log) {
+    const double first_s = log.time_s.front();
+    for (double& t : log.time_s) {
         t -= first_s;
     }
-    return steps;
+    return log;
+}
+
+Log on_steps(const Log& log, double step_s) {
+    return from_start(resample(log, step_s, Hold::zero_order, End::behind).log);
 }
 
 Log at_own_stamps(Log log, const Log& simulated) {

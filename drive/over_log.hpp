@@ -6,6 +6,9 @@
 
 namespace drive {
 
+/// The log in time from 0.
+[[nodiscard]] Log from_start(Log log);
+
 /// The log on steps of `step_s`, in time from 0 to the first that is not before its last stamp; every column held.
 /// \throws glsum::Failure (bad input) as `resample`
 [[nodiscard]] Log on_steps(const Log& log, double step_s);

@@ -42,6 +42,12 @@ distance() { # of the second file's third column from the measured one, every 20
 fit() { "$program" indices "$folder/other.csv" --model "$1" --json | sed -n 's/.*"nrmse_fit": \([-0-9.e]*\).*/\1/p'; }
 [ "$(echo "$(fit "$folder/improved.json") $(fit "$folder/linear.json")" | awk 'NF == 2 {print (1 - $1 < 0.5 * (1 - $2))}')" = 1 ] ||
     { echo "indices: improved $(fit "$folder/improved.json"), base $(fit "$folder/linear.json")"; failures=$((failures + 1)); }
+# And what simulate writes of a jittered log is what indices simulates of it: at the log's own stamps, on no grid.
+awk -F, -v OFS=, 'FNR > 2 {$1 = sprintf("%.6f", $1 + 0.02 * ((7 * FNR) % 11) / 12)} {print}' "$folder/other.csv" >"$folder/uneven.csv"
+expect 0 "with input_dead_zone" simulate --model "$folder/improved.json" --input "$folder/uneven.csv" --out "$folder/own.csv"
+expect 0 '' indices "$folder/uneven.csv" --model "$folder/improved.json" --simulated "$folder/own.csv" --json
+[ "$(sed -n 's/.*"nrmse_fit": \([-0-9.e]*\).*/\1/p' "$folder/said" | awk '{d[NR] = $1} END {print (NR == 2 && (d[1] - d[2]) ^ 2 < 1e-10)}')" = 1 ] ||
+    { echo "simulate: $(grep nrmse_fit "$folder/said" | tr -d '\n')"; failures=$((failures + 1)); }
 grep -qF 'input_dead_zone' "$folder/page.html" || { echo "page.html: expected the effect's name"; failures=$((failures + 1)); }
 grep -qF "<code>glsum diagnose drive --model $folder/linear.json" "$folder/page.html" || { echo "page.html: expected the command"; failures=$((failures + 1)); }
 grep -qF 'polyline class="input"' "$folder/page.html" || { echo "page.html: expected the input's curve"; failures=$((failures + 1)); }

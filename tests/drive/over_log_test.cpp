@@ -18,6 +18,19 @@ drive::Log log_from(double first_s) {
     return log;
 }
 
+TEST(OverLog, FromTheStartItKeepsItsIntervals) {
+    for (const double first_s : {0.0, 7.0, -3.0}) {
+        const drive::Log log = drive::from_start(log_from(first_s));
+        ASSERT_EQ(log.time_s.size(), 4U);
+        EXPECT_EQ(log.time_s[0], 0.0);
+        EXPECT_NEAR(log.time_s[1], 0.1, 1e-12);
+        EXPECT_NEAR(log.time_s[2], 0.25, 1e-12);
+        EXPECT_NEAR(log.time_s[3], 0.5, 1e-12);
+        EXPECT_EQ(log.input, log_from(first_s).input);
+        EXPECT_EQ(log.output, log_from(first_s).output);
+    }
+}
+
 TEST(OverLog, TheStepsBeginAtZeroAndReachTheLastStamp) {
     for (const double first_s : {0.0, 7.0, -3.0}) {
         const drive::Log steps = drive::on_steps(log_from(first_s), 0.2);  // no multiple of it is the last stamp
