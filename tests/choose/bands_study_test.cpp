@@ -198,6 +198,21 @@ TEST_F(BandPlot, ShowsWhatNoOtherOfItsSeriesBetters) {
     EXPECT_THAT(script, HasSubstr("set multiplot layout 2,1 "));
     EXPECT_THAT(script, HasSubstr(" size 410,590 "));  // panels of 290 by 220 pixels
     EXPECT_THAT(script, HasSubstr("set xrange [0:42]"));
+    // Panels lie within the picture, above each other, with room for what is written beside them.
+    double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0, beside = 0.0, between = 0.0;
+    ASSERT_EQ(std::sscanf(script.c_str() + script.find(" margins "), " margins %lf,%lf,%lf,%lf spacing %lf,%lf", &left,
+                          &right, &bottom, &top, &beside, &between),
+              6);
+    const double width = 410.0 * (right - left);
+    const double height = 590.0 * (top - bottom - between) / 2.0;
+    EXPECT_TRUE(width > 220.0 && width < 310.0) << width;
+    EXPECT_TRUE(height > 150.0 && height < 220.0) << height;
+    EXPECT_GT(410.0 * left, 50.0);
+    EXPECT_GT(410.0 * beside, 50.0);
+    EXPECT_LT(right, 1.0);
+    EXPECT_GT(590.0 * bottom, 30.0);
+    EXPECT_GT(590.0 * between, 30.0);
+    EXPECT_GT(590.0 * (1.0 - top), 60.0);
     double low = 0.0;
     double high = 0.0;
     ASSERT_EQ(std::sscanf(script.c_str() + script.find("set yrange"), "set yrange [%lf:%lf]", &low, &high), 2);

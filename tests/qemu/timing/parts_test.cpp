@@ -189,6 +189,25 @@ TEST(StoreBuffer, IsFullWhenItsBankFallsBehind) {
     EXPECT_EQ(buffer.free_from(figures), 8);
 }
 
+// What is done by the time to which the clock is set back is forgotten: a buffer that has written everything is a new
+// one.
+TEST(StoreBuffer, ForgetsWhatIsDoneWhereTheClockIsSetBack) {
+    timing::Figures figures = probe::core("stm32f746-itcm").figures;
+    figures.store_entries = 4;
+    timing::StoreBuffer buffer;
+    buffer.add(figures, 0, 0, false, 1, 0);  // done at 4
+    buffer.add(figures, 0, 0, false, 1, 0);  // at 8
+    timing::StoreBuffer later = buffer;
+    later.settle(figures, 5);
+    EXPECT_NE(later, timing::StoreBuffer{});
+    timing::StoreBuffer empty = buffer;
+    empty.settle(figures, 8);
+    EXPECT_EQ(empty, timing::StoreBuffer{});
+    empty = buffer;
+    empty.settle(figures, 1000);
+    EXPECT_EQ(empty, timing::StoreBuffer{});
+}
+
 TEST(ItBlock, GivesEachMemberItsCondition) {
     timing::ItBlock it;
     EXPECT_FALSE(it.inside());
