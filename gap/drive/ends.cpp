@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gap/drive/clipped.hpp"
+#include "gap/drive/moments.hpp"
 #include "gap/drive/white_noise.hpp"
 
 namespace gap {
@@ -20,21 +21,8 @@ double noise_of(const std::vector<double>& z) {
     return noise_by_differences(std::move(sizes), 2);
 }
 
-// Whether more input makes more output: of what both are off from their means.
-bool follows(const Record& record) {
-    double u = 0.0;
-    double z = 0.0;
-    const auto count = static_cast<double>(record.size());
-    for (std::size_t i = 0; i < record.size(); ++i) {
-        u += record.input[i] / count;
-        z += record.output[i] / count;
-    }
-    double both = 0.0;
-    for (std::size_t i = 0; i < record.size(); ++i) {
-        both += (record.input[i] - u) * (record.output[i] - z);
-    }
-    return both >= 0.0;
-}
+// Whether more input makes more output.
+bool follows(const Record& record) { return moments_of(record.input, record.output).xy >= 0.0; }
 
 // How far from its highest or lowest reading a record stays there; none: noise hides it.
 std::optional<double> nearness_to_an_end(const Record& record, double swing) {

@@ -298,7 +298,9 @@ TEST(Exam, AnswersWhatIsAsked) {
     EXPECT_EQ(question.split_s, 12.0);
     const gap::Answer answer = gap::diagnose(question, [](const std::string&) {});
     const std::string text = exam::to_answer(asked, answer);
-    EXPECT_EQ(nlohmann::json::parse(text)["question"]["units"]["y"], "rad");
+    const nlohmann::json verdict = nlohmann::json::parse(text);
+    EXPECT_EQ(verdict["question"]["units"]["y"], "rad");
+    EXPECT_EQ(verdict["split"], true);
     const exam::Scored scored =
         exam::score(truth_of(R"("known": "listed", "causes": [{"any_of": ["input_dead_zone"]}])"),
                     exam::parse_reply(text, "v.json"));

@@ -129,6 +129,7 @@ TEST(IdleInput, LetsADeadZoneBeginThere) {
     const gap::Answer answer = gap::diagnose(question, [](const std::string&) {});
     ASSERT_EQ(answer.decision.outcome, gap::Outcome::attributed) << gap::to_text(answer);
     const nlohmann::json verdict = nlohmann::json::parse(gap::to_json(answer));
+    EXPECT_EQ(verdict["split"], false);
     ASSERT_EQ(verdict["effects"].size(), 1U);
     EXPECT_EQ(verdict["effects"][0]["effect"], "input_dead_zone");
     EXPECT_NEAR(verdict["effects"][0]["parameters"]["width"].get<double>(), 100.0, 5.0);
