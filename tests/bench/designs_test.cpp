@@ -117,6 +117,10 @@ TEST(Designs, OfIncrementsAreThoseOfOneOrderLess) {
         EXPECT_EQ(design.order, 0.5);
         ASSERT_EQ(design.modes.size(), less.modes.size());
         EXPECT_EQ(design.modes.data(), less.modes.data());  // made once
+        // Increments of |x| <= 1 are twice as large.
+        const double of_samples = bench::design_error("modes_plain_f32", -0.5, less, sweep.samples);
+        EXPECT_GT(of_samples, 0.0);
+        EXPECT_EQ(bench::design_error("modesdelta_plain_f32", 0.5, design, sweep.samples), 2.0 * of_samples);
     }
     EXPECT_EQ(bench::length_of("modesdelta_plain_f32", 0.5, 16, 1000).text(),
               bench::length_of("modes_plain_f32", -0.5, 16, 1000).text());

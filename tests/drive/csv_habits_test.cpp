@@ -176,6 +176,13 @@ TEST(LogColumns, AreFoundByUsualNamesContractNamesWin) {
     EXPECT_THAT(refusal("T,u,y\n0,1,1\n"), HasSubstr("expected a column time_s for the time, found 'T,u,y'"));
 }
 
+TEST(LogColumns, EachIsReadOnce) {
+    EXPECT_THAT(refusal("time_s,u,y\n0,1,1\n1,1,1\n", {.input = "u", .output = "u"}),
+                HasSubstr("expected different columns for the input and the output, found u for both"));
+    EXPECT_THAT(refusal("time_s,u,y\n0,1,1\n1,1,1\n", {.input = "u", .more_inputs = {"u"}}),
+                HasSubstr("expected different columns for the input and another input, found u for both"));
+}
+
 TEST(LogColumns, NearNamesAreSuggested) {
     const auto said = [](const std::string& names) {
         return refusal("time_s," + names + ",y\n0,1,2,3,4,5\n1,1,2,3,4,5\n", {.input = "abcd"});
