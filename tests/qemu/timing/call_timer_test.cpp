@@ -275,6 +275,23 @@ TEST(CallTimer, LossesAndHotAddressesSumToTheTotal) {
     EXPECT_LE(hot[0].at(0x102).lost, lost);
 }
 
+// Two bit fields take two cycles: half a cycle is lost to single issue in each call, whatever was lost before it.
+TEST(CallTimer, LossesAreThoseOfTheCallAlone) {
+    Program p("stm32f746-itcm");
+    for (int i = 0; i < 3; ++i) {
+        p.call(0x10);
+        p.run(0x100, 0xFA5FF081, 4);  // uxtb.w r0, r1
+        p.run(0x104, 0xFA5FF283, 4);  // uxtb.w r2, r3
+        p.give_back(0x108);
+        p.add(0x14);
+    }
+    p.finish();
+    ASSERT_EQ(p.calls.size(), 3U);
+    for (const timing::TimedCall& call : p.calls) {
+        EXPECT_EQ(call.cores[0].losses[timing::index(timing::Effect::single_issue)], 1);
+    }
+}
+
 TEST(CallTimer, AStretchLastsFromBehindItsFirstMarkToItsSecond) {
     Program p("m7-ideal", {});
     p.timer().watch_stretch(0x20);
