@@ -5,11 +5,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <random>
+#include <span>
 
 #include "base/failure.hpp"
 #include "drive/coverage.hpp"
 #include "drive/fit.hpp"
+#include "drive/inverse_laplace.hpp"
 #include "drive/log.hpp"
 #include "drive/model_file.hpp"
 
@@ -78,6 +81,39 @@ TEST(ClosedLoop, IsTheOneSteppedByHand) {
     const auto uneven = drive::run_loop(plant(), drive::to_model(pi, "pi"), moved, log.reference);
     EXPECT_NEAR(uneven.output[399], log.output[399], 1e-5);
     EXPECT_NE(uneven.output[399], run.output[399]);
+}
+
+// How the output moves with the reading's offset and with the plant's gain, whatever their order: by differences.
+TEST(ClosedLoop, KnowsHowItMovesWithOffsetAndGain) {
+    const drive::Log log = step_by_hand(200, 0.0, 0.0, 3);
+    const Model controller = drive::to_model(pi, "pi");
+    const auto output_at = [&](double plant_gain, double offset) {
+        return drive::run_loop(drive::make_fopdt(plant_gain, time_constant_s, step_s * delay_steps), controller,
+                               log.time_s, log.reference, offset)
+            .output;
+    };
+    constexpr double by = 1e-4;
+    const auto more = output_at(gain, by);
+    const auto less = output_at(gain, -by);
+    const auto stronger = output_at(gain + by, 0.0);
+    const auto weaker = output_at(gain - by, 0.0);
+    for (const std::ptrdiff_t offset_column : {0, 1}) {
+        drive::InverseLaplace of_gain(2,
+                                      [](std::complex<double> s, std::span<std::complex<double>> out) {
+                                          out[1] = 1.0 / (s * (1.0 + time_constant_s * s));
+                                          out[0] = gain * out[1];
+                                      },
+                                      {});
+        Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(1, 2);
+        chain(0, 1 - offset_column) = 1.0;
+        const drive::LoopRun run = drive::run_loop(of_gain, 2, step_s * delay_steps, controller, log.time_s,
+                                                   log.reference, 0.0, {}, drive::Sensitivity{&chain, offset_column});
+        for (std::size_t k = 0; k < log.time_s.size(); ++k) {
+            const auto row = static_cast<Eigen::Index>(k);
+            ASSERT_NEAR(run.sensitivities(row, offset_column), (more[k] - less[k]) / (2.0 * by), 1e-5) << k;
+            ASSERT_NEAR(run.sensitivities(row, 1 - offset_column), (stronger[k] - weaker[k]) / (2.0 * by), 1e-5) << k;
+        }
+    }
 }
 
 TEST(ClosedLoop, SeesItsDisturbance) {
