@@ -28,6 +28,9 @@ struct Ranked {
 /// Likelihood and gap anew, after another whitener.
 void judge(Ranked& ranked, const Study& validation, const Whitener& whitener);
 
+/// A likelihood ratio that chance does not reach among some hundred candidates.
+constexpr double clear_advantage = 8.0;
+
 /// By how much a is more likely than b, penalties included, with bounds from redrawn blocks of samples.
 [[nodiscard]] Interval advantage(const Ranked& a, const Ranked& b);
 

@@ -19,7 +19,9 @@ using Effects = std::vector<const Effect*>;
 
 constexpr std::size_t shortlisted = 14;  // singles that are refitted whitened
 constexpr double hopeless_beside_a_form = 0.97;
-constexpr double too_far = 4.0;      // from the best single's cost
+constexpr double too_far = 4.0;  // from the best single's cost
+constexpr double worth_pairs = 0.5 * clear_advantage;
+constexpr double worth_fits = 4.0;   // over what differs from sample to sample
 constexpr double hopeless = 0.9995;  // of the cost without an effect: a unit of likelihood of 4000 samples
 
 bool by_cost(const Candidate& a, const Candidate& b) { return a.cost < b.cost; }
@@ -59,7 +61,7 @@ public:
         const Ranked& none = ranked_of({});
         const Ranked& best = found_.ranking.front();
         const bool slow = is_slow(of_.ground.validation, none.gap_after * output_deviation(of_.ground.validation));
-        if ((&best != &none && advantage(best, none).mean > 4.0) || slow || quantum_shows()) {
+        if ((&best != &none && advantage(best, none).mean > worth_pairs) || slow || quantum_shows()) {
             const std::vector<Candidate> pairs = widened(1, "pairs");
             take(pairs);
             renew_whitener();
@@ -77,9 +79,10 @@ public:
                 renew_whitener();
             }
             // One more as long as the best of all has as many as were tried, each without each of its own.
-            for (std::size_t size = 2; size < most_effects_beside(of_.ground.study.base) &&
-                                       found_.ranking.front().candidate.effects.size() == size &&
-                                       advantage(found_.ranking.front(), found_.best_of(size - 1)).mean > 8.0;
+            for (std::size_t size = 2;
+                 size < most_effects_beside(of_.ground.study.base) &&
+                 found_.ranking.front().candidate.effects.size() == size &&
+                 advantage(found_.ranking.front(), found_.best_of(size - 1)).mean > clear_advantage;
                  ++size) {
                 take(widened(size, fmt::format("sets of {}", size + 1)));
                 renew_whitener();
@@ -135,7 +138,8 @@ private:
     // times as long.
     [[nodiscard]] bool worth_more(const Ranked& best) const {
         const Study& validation = of_.ground.validation;
-        return !validation.base.refit && over_noise(validation, best.gap_after * output_deviation(validation)) > 4.0;
+        return !validation.base.refit &&
+               over_noise(validation, best.gap_after * output_deviation(validation)) > worth_fits;
     }
 
     // The best candidates of some size with one effect more.

@@ -76,8 +76,6 @@ private:
 /// The same, or wider ones in their stead (Effect::covers).
 [[nodiscard]] bool goes_beyond(const Candidate& wider, const Candidate& narrower);
 
-/// A likelihood ratio that chance does not reach among some hundred candidates.
-constexpr double clear_advantage = 8.0;
 [[nodiscard]] bool is_clear(const Interval& over);
 /// A fitted form that leaves less than so much of the deviation, two thousandths of the variance, has all that matters
 /// where noise hides what it leaves,

@@ -44,8 +44,7 @@ void doubt_smooth_laws(const Evidence& evidence, Decision& decision) {
 const Rule rule_of_smooth_laws{
     "smooth_laws",
     "A curve of a command, of a spring or of a drag is the first term of a series. Two of them together follow much "
-    "that "
-    "is neither, a spring's hysteresis, say: where they leave what is no noise they are not named.",
+    "that is neither, a spring's hysteresis, say: where they leave what is no noise they are not named.",
     doubt_smooth_laws};
 
 }  // namespace gap
