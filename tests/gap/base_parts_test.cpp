@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <map>
 
 #include "gap/drive/base/filtered.hpp"
@@ -213,6 +214,25 @@ TEST(TwoModes, AreThePlantsOwnOrNone) {
 }
 
 // --- Structures.
+
+// By its roots: -1 / lag, and two whose product is 1 / period^2 and whose sum is -2 damping / period.
+TEST(Structures, OfALagAndAnOscillator) {
+    constexpr double lag_s = 0.8;
+    constexpr double period_s = 0.3;
+    constexpr double damping = 0.25;
+    const gap::Coefficients found = gap::lag_and_oscillator(lag_s, period_s, damping, 0.4);
+    ASSERT_EQ(found.denominator.size(), 3U);
+    EXPECT_EQ(found.gain, 1.0);
+    EXPECT_EQ(found.delay_s, 0.4);
+    const std::complex<double> swinging = std::polar(1.0 / period_s, std::acos(-damping));
+    for (const std::complex<double> root : {std::complex<double>(-1.0 / lag_s), swinging, std::conj(swinging)}) {
+        std::complex<double> sum = 1.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            sum += found.denominator[i] * std::pow(root, static_cast<double>(i + 1));
+        }
+        EXPECT_LT(std::abs(sum), 1e-12) << root;
+    }
+}
 
 TEST(Structures, HaveTheirNumbers) {
     const auto numbers = [](const char* name) { return gap::structure_named(name)->numbers(); };

@@ -1,10 +1,11 @@
 #!/usr/bin/perl
 # draw.pl ROOT SEED COUNT AREA: draws one-line changes of the product's code at random. Prints for each a line as planted/bugs.txt
 # has them, with its place, LINE:COLUMN, instead of a symbol. The same seed draws the same from the same code. What is in comments,
-# in texts, in includes and in the lists of names (*.def) is no code; equivalent.txt says which changes alter nothing. Left out as
-# whole classes, since no answer depends on them: what shows progress on a terminal; reserve(), which only saves time; and, in the
-# files that lay out pictures alone, numbers (where a key or a margin lies), and in bench/run/pieces.cpp (how long work is expected
-# to take, by which shards are dealt). Their other code is drawn, as is every threshold elsewhere.
+# in texts, in what a refusal says, in includes and in the lists of names (*.def) is no code; equivalent.txt says which changes
+# alter nothing. Left out as whole classes, since no answer depends on them: what shows progress on a terminal; reserve(), which
+# only saves time; and, in the files that lay out pictures alone, numbers (where a key or a margin lies), and in
+# bench/run/pieces.cpp (how long work is expected to take, by which shards are dealt). Their other code is drawn, as is every
+# threshold elsewhere.
 use strict;
 use warnings;
 
@@ -81,19 +82,23 @@ for my $one (@areas) {
         `cd '$root' && find @{[$folders{$one} // $one]} \\( -name '*.cpp' -o -name '*.hpp' \\) -not -path '*/build/*' | LC_ALL=C sort`;
     for my $file (@files) {
         open my $in, '<', "$root/$file" or die "$file: $!";
-        my ($comment, $raw, $foreign) = (0, 0, 0);
+        my ($comment, $raw, $foreign, $message) = (0, 0, 0, 0);
         while (my $line = <$in>) {
             chomp $line;
             $raw = 1 if $line =~ /R"\w*\(/;
             # Code of other processors is not compiled here; what is before and behind it is.
             $foreign = $line =~ /^#if.*(__ARM|GLSUM_M7)|^#elif defined\(__aarch64__\)/ if $line =~ /^#(if|el|endif)/;
-            my $skip = $raw || $foreign || $comment || $line =~ m{^\s*(#|//|/\*|\*|namespace|static_assert|template|using)} || $line =~ /= (delete|default|0);$/ || $line =~ /fmt::format|refuse\(|Failure\(|notes\.|warnings\.|\.reserve\(|\b[Pp]rogress\b/;
+            # A message goes on to where its call is closed.
+            my $code = code_of($line);
+            my $within = $message > 0;
+            $message = ($within || $line =~ /refuse\(|Failure\(/) ? $message + ($code =~ tr/(//) - ($code =~ tr/)//) : 0;
+            my $skip = $raw || $foreign || $comment || $within || $line =~ m{^\s*(#|//|/\*|\*|namespace|static_assert|template|using)} || $line =~ /= (delete|default|0);$/ || $line =~ /fmt::format|refuse\(|Failure\(|notes\.|warnings\.|\.reserve\(|\b[Pp]rogress\b/;
             $raw = 0 if $raw && $line =~ /\)\w*"/;
             $comment = 1 if $line =~ m{/\*} && $line !~ m{\*/};
             $comment = 0 if $line =~ m{\*/};
             next if $skip;
             # What is blanked for the search is as it was where it is put back.
-            for (places(code_of($line))) {
+            for (places($code)) {
                 next if $file =~ $no_numbers && $_->[1] =~ /^\d/;
                 push @{$places_of{$one}}, [$file, $., $_->[0], substr($line, $_->[0], length $_->[1]), $_->[2], $line =~ s/^\s+|\s+$//gr];
             }

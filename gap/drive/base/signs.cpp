@@ -117,11 +117,7 @@ drive::Model shape_of_magnitudes(const std::vector<Record>& records) {
         for (double swing_s = shortest_s; swing_s < longest_s; swing_s *= times_the_period) {
             for (const double damping : {0.1, 0.25, 0.6}) {
                 for (const double delay_s : {0.0, 0.5 * swing_s}) {
-                    const double friction_s = 2.0 * damping * swing_s;
-                    rate({1.0,
-                          {lag_s + friction_s, swing_s * swing_s + lag_s * friction_s, lag_s * swing_s * swing_s},
-                          {},
-                          delay_s});
+                    rate(lag_and_oscillator(lag_s, swing_s, damping, delay_s));
                 }
             }
         }

@@ -34,6 +34,12 @@ const Structure* structure_named(const std::string& name) {
     return found == structures().end() ? nullptr : &*found;
 }
 
+Coefficients lag_and_oscillator(double lag_s, double period_s, double damping, double delay_s) {
+    const double friction_s = 2.0 * damping * period_s;
+    const double square = period_s * period_s;
+    return {1.0, {lag_s + friction_s, square + lag_s * friction_s, lag_s * square}, {}, delay_s};
+}
+
 drive::Form form_of(const Structure& structure, const Coefficients& at, bool driven) {
     drive::Model model;
     model.kind = drive::Kind::fotf;

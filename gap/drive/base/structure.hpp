@@ -36,6 +36,10 @@ struct Coefficients {
     std::vector<double> orders = {};  ///< of a fractional structure, one for each of `denominator`
 };
 
+/// A lag and an oscillator behind each other: (1 + lag_s s)(1 + 2 damping period_s s + (period_s s)^2), of
+/// `third_order`.
+[[nodiscard]] Coefficients lag_and_oscillator(double lag_s, double period_s, double damping, double delay_s);
+
 /// The range of a fractional structure's order that stands for a whole one: below it two would meet, above it a lag
 /// swings.
 [[nodiscard]] double lowest_order(std::size_t whole);
