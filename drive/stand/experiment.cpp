@@ -53,7 +53,8 @@ std::vector<double> duties_of(const Experiment& experiment, const std::vector<do
             const int level = std::min(static_cast<int>(levels * t / until), levels - 1) + 1;
             value = low + (high - low) * std::min(level, levels - level) / experiment.stairs;
         } else if (experiment.name == "ramp") {
-            value = low + (high - low) * (1.0 - std::fabs(2.0 * t / until - 1.0));
+            const double share = 1.0 - std::fabs(2.0 * t / until - 1.0);
+            value = low + (high - low) * std::max(share, 0.0);  // the last stamp may lie behind its end
         } else if (experiment.name == "chirp") {
             const double octaves = std::log(experiment.to_hz / experiment.from_hz);
             const double turns = experiment.from_hz * until / octaves * std::expm1(octaves * t / until);

@@ -188,8 +188,8 @@ for bad in 'poke((int *)0xF0000000)' 'strange()' 'jump((void (*)(void))0x3000000
     expect 1 "it faulted at 0x$(printf %08x "0x$at") in ${bad%%(*}" time --elf "$folder/bad.elf" --function leaf
 done
 build bad.elf -DBAD="spin()" "$folder/bad.c"
-expect 1 "was silent for 2 s and was ended; the last instruction that it executed was at 0x" time --elf "$folder/bad.elf" --function leaf --timeout 2
-grep -q ' in spin$' "$folder/said" || fail "bad.elf: expected to be told that it was in spin: $(cat "$folder/said")"
+expect 1 "was silent for " time --elf "$folder/bad.elf" --function leaf --timeout 2  # longer where others take the processor
+grep -q 'for [0-9]* s and was ended; the last instruction that it executed was at 0x[0-9a-f]* in spin$' "$folder/said" || fail "bad.elf: expected to be told that it was in spin: $(cat "$folder/said")"
 # Without a handler the core locks up, and the emulator dies of it: a sentence, no dump of registers.
 sed 's/(void \*)fault/0/g; s/, (void \*)tick//' "$foreign/start.c" >"$folder/bare.c"
 link_foreign bare.elf -DBAD='poke((int *)0xF0000000)' "$folder/bare.c" "$folder/bad.c"

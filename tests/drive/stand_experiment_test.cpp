@@ -55,6 +55,18 @@ TEST(StandExperiment, IsTakenToItsEndsAndNotBeyond) {
     EXPECT_FALSE(taken([](Experiment& e) { e.to_hz = 50.0; }));
 }
 
+// The last stamp may lie behind the end, where a ramp is down again.
+TEST(StandExperiment, NoDutyIsBelowTheLowestOrAboveTheHighest) {
+    for (const char* name : {"step", "pulse", "staircase", "ramp", "chirp", "prbs", "release"}) {
+        for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+            const Experiment asked{.name = name, .until_s = 1.0};
+            for (const double duty : stand::run({}, asked, seed).duty) {
+                EXPECT_TRUE(duty >= 0.0 && duty <= asked.duty) << name << ": " << duty;
+            }
+        }
+    }
+}
+
 stand::Stand held_still() {
     stand::Stand built;
     for (const std::string& effect : stand::effects()) {

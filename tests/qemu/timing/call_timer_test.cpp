@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <numeric>
 #include <sstream>
 
@@ -25,6 +26,12 @@ public:
         const auto index = static_cast<std::uint32_t>(known_.size());
         timer_.executes(known_.try_emplace(address, qemu::Instruction{address, encoding, bytes, index}).first->second);
     }
+    // All of them at once; what was executed before was so to its end.
+    void block(const std::vector<qemu::Instruction>& instructions) {
+        blocks_.push_back({instructions, static_cast<std::uint32_t>(blocks_.size())});
+        timer_.executes_block(blocks_.back(), before_);
+        before_ = instructions.size();
+    }
     void call(std::uint32_t from) { run(from, 0xF000F876, 4); }
     void add(std::uint32_t address) { run(address, 0x3001, 2); }
     void jump(std::uint32_t address) { run(address, 0xE07E, 2); }
@@ -41,6 +48,8 @@ public:
 private:
     timing::CallTimer timer_;
     std::map<std::uint32_t, qemu::Instruction> known_;
+    std::deque<qemu::TranslationBlock> blocks_;
+    std::size_t before_ = 1;
 };
 
 TEST(CallTimer, ACallLastsFromItsFirstInstructionToTheFirstOneBehindIt) {
@@ -290,6 +299,19 @@ TEST(CallTimer, LossesAreThoseOfTheCallAlone) {
     for (const timing::TimedCall& call : p.calls) {
         EXPECT_EQ(call.cores[0].losses[timing::index(timing::Effect::single_issue)], 1);
     }
+}
+
+// What moves it as a block's last instruction counts as what moves it first.
+TEST(CallTimer, TheStackIsFollowedThroughWholeBlocks) {
+    Program p;
+    p.block({{0x10, 0xF000F876, 4, 0}});
+    p.block({{0x100, 0xB082, 2, 1}, {0x102, 0xB084, 2, 2}});                         // sub sp, #8; sub sp, #16
+    p.block({{0x104, 0x3001, 2, 3}, {0x106, 0xB082, 2, 4}});                         // adds; sub sp, #8
+    p.block({{0x108, 0xB082, 2, 5}, {0x10A, 0xB00A, 2, 6}, {0x10C, 0x4770, 2, 7}});  // sub sp, #8; add sp, #40; bx lr
+    p.block({{0x14, 0x3001, 2, 8}});
+    p.timer().finish(1);
+    ASSERT_EQ(p.calls.size(), 1U);
+    EXPECT_EQ(p.calls[0].stack_bytes, 40U);
 }
 
 TEST(CallTimer, AStretchLastsFromBehindItsFirstMarkToItsSecond) {
