@@ -58,6 +58,13 @@ TEST(GateRules, AreReadAsWritten) {
     EXPECT_EQ(rules[1].line, 9u);
 }
 
+TEST(GateRules, AllowSoMuchByItself) {
+    const Rules rules = parse_rules(changed("relative = 0.01", "absolute = 3.5"), "t.toml");
+    ASSERT_EQ(rules.size(), 1u);
+    EXPECT_EQ(rules[0].absolute, 3.5);
+    EXPECT_EQ(rules[0].relative, 0.0);
+}
+
 TEST(GateRules, OfHostTimeHaveAnAnchor) {
     std::string text = changed("\"accuracy\"", "\"host_time\"");
     EXPECT_THAT(refusal(text), HasSubstr("expected the key anchor"));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <vector>
@@ -86,6 +87,21 @@ TEST(IntegralDesignTest, OfWeightsThatTheTapsReachIsALevel) {
     // Of order -1, whatever the length, and of others beyond it modes as asked.
     EXPECT_EQ(glsum::design::approximate_integral(weights_to(-1.0, 600), -1.0, 2, 6).modes.size(), 1U);
     EXPECT_EQ(glsum::design::approximate_integral(weights_to(-0.5, 600), -0.5, 2, 6).modes.size(), 6U);
+}
+
+TEST(IntegralDesignTest, HasNoModeTooMany) {
+    const std::vector<double> weights = weights_to(-0.7, 600);
+    std::size_t least = glsum::design::most_modes;
+    for (const double share : {0.3, 0.1, 1e-2, 1e-4}) {
+        const double error = share * std::pow(600.0, 0.7);  // all weights together grow so
+        const auto found = glsum::design::design_integral(weights, -0.7, error);
+        ASSERT_TRUE(found.has_value()) << share;
+        least = std::min(least, found->modes.size());
+        if (const std::size_t modes = found->modes.size(); modes > 1) {
+            EXPECT_GT(glsum::design::approximate_integral(weights, -0.7, found->near_taps, modes - 1).error, error);
+        }
+    }
+    EXPECT_EQ(least, 1U);
 }
 
 // 40 modes are the most that any design has: an error that takes 42 of them has none.

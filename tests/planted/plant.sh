@@ -172,7 +172,7 @@ run_tests() {
             *)
                 # What takes long comes last: most bugs are caught before.
                 case $test in
-                    drive_tests) long='ClosedLoop.Direct*:BlindCases.*:Fit.*:RealtimeController.*:StepResponse.IsTheOracle*:OpenCases.*:WholeRecord.StaysWithin*:Coverage.*' ;;
+                    drive_tests) long='ClosedLoop.Direct*:PublishedSeeds.*:*PublishedOpenSeeds.*:BlindCases.*:Fit.*:RealtimeController.*:StepResponse.IsTheOracle*:OpenCases.*:WholeRecord.StaysWithin*:Coverage.*' ;;
                     tune_tests) long='Tune.*:Stability.By*:Margins.*' ;;
                     bench_tests) long='EqualCost.*:Accuracy.Of*:GateTime.*:Report.*' ;;
                     gap_tests) long='NextExperiment.*:Deployed.*:Exam.*:FittedBase.*:Oracle.*:Verdict.*:Base.*:JointGap.*:Simulated.*:Candidates.*:GapIdentifiable.*:Gap/*' ;;
