@@ -20,7 +20,8 @@ expect 2 "found 1e-06 Hz" choose $at --derivative-error 5% --band 1e-6..1
 expect 2 "expected 10 to 5e+07 samples, found 5" choose $at --derivative-error 5% --step-until 0.005
 expect 2 "of a step is 0" choose --order 1 --step-s 0.001 --target m7 --derivative-error 5% --step-until 1
 expect 2 "expected no --kernel beside it" generate $at --derivative-error 5% --band 1..2 --kernel ring_plain_f32 --taps 9 --out "$folder/no.h"
-expect 1 "misses --derivative-error by" choose $at --derivative-error 5% --band 5..80 --step-until 0.1 --max-bytes 40 --json "$folder/none.json"
+expect 1 "misses --derivative-error by" choose $at --derivative-error 0.3% --band 5..80 --step-until 0.1 --design charef
+expect 1 "misses --max-bytes by" choose $at --derivative-error 5% --band 5..80 --step-until 0.1 --max-bytes 40 --json "$folder/none.json"
 grep -q '"instead": "--step-until 0.1 alone"' "$folder/none.json" || { echo "expected what would do"; failures=$((failures + 1)); }
 expect 0 "a whole order: the sum has 2 weights" choose --order 1 --step-s 0.001 --target m7 --derivative-error 5% --band 0.5..40
 expect 0 "a whole order: the sum is that of all samples" choose --order -1 --step-s 0.001 --target m7 --derivative-error 5% --band 0.5..40
