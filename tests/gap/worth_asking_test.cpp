@@ -44,6 +44,7 @@ TEST(WorthAsking, ARicherOneIsThatSaysMore) {
     EXPECT_THAT(asked({best, description("richer", 0.0969, 0.119, 4)}), ElementsAre("best", "richer"));
     EXPECT_THAT(asked({best, description("richer", 0.0969, 0.121, 4)}), ElementsAre("best"));
     EXPECT_THAT(asked({best, description("richer", 0.0971, 0.0971, 4)}), ElementsAre("best"));
+    EXPECT_THAT(asked({best, description("as rich", 0.0969, 0.0969, 3)}), ElementsAre("best"));
 }
 
 TEST(WorthAsking, OneThatIntegratesIsBesideOneThatRests) {

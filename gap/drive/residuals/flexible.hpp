@@ -23,8 +23,8 @@ struct Flexible {
     std::vector<std::vector<double>> left;  ///< residuals without it, by record of `judge`
 };
 
-/// Features: lagged inputs and simulated outputs, their products, powers, signs and bends, speed, time and waves over
-/// the output. \param judge  whose residuals are to be predicted; \param also  further records that are fitted
+/// Ridge regression on `features_of`: each block of a record is foretold by those of the other folds.
+/// \param judge  whose residuals are to be predicted; \param also  further records that are fitted
 [[nodiscard]] Flexible explain(const std::vector<Remainder>& judge, const std::vector<Remainder>& also, double delay_s,
                                double time_constant_s);
 

@@ -136,6 +136,7 @@ TEST(PackedEvent, TellsEventsApart) {
         changed(load, [](auto& e) { e.odd_word = 1; }),
         changed(load, [](auto& e) { e.in_dtcm = 1; }),
         changed(load, [](auto& e) { e.words = 2; }),
+        changed(load, [](auto& e) { e.words = 4; }),
         changed(load, [](auto& e) { e.fetch_delays[0] = 6; }),
         changed(load, [](auto& e) { e.fetch_effect = timing::Effect::icache_misses; }),
         changed(load, [](auto& e) { e.taken = true; }),
@@ -165,6 +166,7 @@ TEST(PackedEvent, TellsEventsApart) {
     EXPECT_EQ(timing::packed(at_once).fetch_delays, 0U);
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[0] = 8; }))) << "two delays";
     EXPECT_FALSE(timing::packs(changed(store, [](auto& e) { e.store_delays[8] = 9; }))) << "beyond the eighth";
+    EXPECT_FALSE(timing::packs(changed(load, [](auto& e) { e.words = 5; }))) << "more words than delays";
 }
 
 // Which of a block's instructions an event is of takes the ten bits above it: of more than 1023 a block has no key.
