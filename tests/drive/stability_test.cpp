@@ -51,6 +51,20 @@ TEST(Stability, OfOneTermTurnsAtOrderTwo) {
     EXPECT_EQ(drive::judge_stability(with({{1, 2.1}, {3, 0}}), 0.1).unstable_by_roots, 2);
 }
 
+// Where a pole lies is no question of the input's unit.
+TEST(Stability, OfAnyUnitIsTheSame) {
+    for (const double unit : {1e-12, 1.0, 1e12}) {
+        const auto judged = [&](double order) {
+            return drive::judge_stability(with({{unit, order}, {0.2 * unit, 0.5}, {3 * unit, 0}}), 0.1);
+        };
+        EXPECT_EQ(verdict(with({{unit, 1.9}, {0.2 * unit, 0.5}, {3 * unit, 0}}), 0.1), Stability::stable) << unit;
+        EXPECT_EQ(verdict(with({{unit, 2.0}, {3 * unit, 0}}), 0.1), Stability::borderline) << unit;
+        EXPECT_EQ(judged(1.9).unstable_by_argument, 0) << unit;
+        EXPECT_EQ(judged(2.3).unstable_by_argument, 2) << unit;
+        EXPECT_EQ(judged(2.3).unstable_by_roots, 2) << unit;
+    }
+}
+
 TEST(Stability, IntegratorsAreOnTheBorder) {
     EXPECT_EQ(verdict(with({{1, 1}}), 1.0), Stability::borderline);
     EXPECT_EQ(verdict(with({{1, 1.5}, {1, 0.5}}), 0.5), Stability::borderline);
