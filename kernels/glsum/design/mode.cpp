@@ -16,6 +16,18 @@ std::vector<double> weights_to(double order, std::size_t last) {
     return weights;
 }
 
+namespace {
+
+// What has faded adds nothing to weights, of which none within a horizon is below 1e-100. Left to itself it fades on to
+// numbers below 1e-308, with which a processor takes ten times as long.
+void forget_faded(std::vector<double>& terms) {
+    for (double& term : terms) {
+        term = std::fabs(term) < 1e-200 ? 0.0 : term;
+    }
+}
+
+}  // namespace
+
 double error_of(const std::vector<double>& weights, std::size_t near_taps, const std::vector<Mode>& modes,
                 double enough) {
     std::vector<double> terms;
@@ -28,6 +40,9 @@ double error_of(const std::vector<double>& weights, std::size_t near_taps, const
         for (std::size_t m = 0; m < modes.size(); ++m) {
             sum += terms[m];
             terms[m] -= modes[m].decay * terms[m];
+        }
+        if (j % 256 == 0) {
+            forget_faded(terms);
         }
         error += std::fabs(weights[j] - sum);
     }
