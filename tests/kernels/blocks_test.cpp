@@ -51,6 +51,20 @@ TEST(Blocks, AreLaidOutForTheLeastError) {
     EXPECT_EQ(glsum::design::design_blocks({0.5, 50}, 60).near_taps, 60U);
 }
 
+// Of order 1/2: 1, -1/2, -1/8, then the mean of -1/16 and -5/128 twice, then nothing.
+TEST(Blocks, OfOneBlockTheOracleHasItsMean) {
+    const glsum::Design design{0.5, 4, {}, {}, {1, 1}};
+    const std::vector<double> known = {1.0, -0.5, -0.125, -13.0 / 256.0, -13.0 / 256.0, 0.0, 0.0};
+    const auto weights = reference::weights_of(design, known.size());
+    std::vector<double> impulse(known.size());
+    impulse.front() = 1.0;
+    const auto sums = reference::sums_of(design, impulse);
+    for (std::size_t j = 0; j < known.size(); ++j) {
+        EXPECT_EQ(static_cast<double>(weights[j]), known[j]) << j;
+        EXPECT_EQ(sums[j].error_of(known[j]), 0.0) << j;
+    }
+}
+
 // Against every layout that there is: the rule's few candidates lose next to nothing.
 TEST(Blocks, TheLayoutsThatAreTriedHoldTheBest) {
     constexpr std::size_t horizon = 300;
