@@ -171,13 +171,12 @@ TEST(Search, PairsNothingWithItsSpecialCase) {
     }
 }
 
-// Where one effect is all that is looked for nothing can be combined, though it leaves more than noise: neither beside a
-// model that is given nor beside a form.
+// Where one effect is all that is looked for nothing can be combined, though it leaves more than noise: neither beside
+// a model that is given nor beside a form.
 TEST(Search, OfOneEffectTriesNoPair) {
     for (const bool refit : {false, true}) {
-        const Tried tried = search({.truth = {{"backlash", {0.3}}, {"sensor_drift", {0.02}}},
-                                    .list = {"sensor_drift"},
-                                    .refit = refit});
+        const Tried tried = search(
+            {.truth = {{"backlash", {0.3}}, {"sensor_drift", {0.02}}}, .list = {"sensor_drift"}, .refit = refit});
         expect_a_ranking(tried);
         EXPECT_THAT(tried.names(), UnorderedElementsAre("none", "sensor_drift"));
         EXPECT_THAT(tried.said, Contains("fitting 0 pairs"));
