@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "gap/drive/ranking.hpp"
 #include "gap/drive/start.hpp"
@@ -99,7 +100,8 @@ TEST(Likelihood, IsNoFinerThanTheQuantum) {
     EXPECT_NEAR(one.penalty, 24.0 * std::log(0.05 * 4.0) + 2.0, 1e-9);
 }
 
-// Between the steps' edges nothing is missed; beyond them as much as noise of the best size makes.
+// Between the steps' edges nothing is missed; beyond them as much as noise of the best size makes. Where few miss by
+// much the noise is small, and large where many do; what it takes away from those within counts, too.
 TEST(Likelihood, OfSteppedReadingsIsTheMassBeyondTheStep) {
     Made made;
     constexpr double step = 2.0;
@@ -107,22 +109,34 @@ TEST(Likelihood, OfSteppedReadingsIsTheMassBeyondTheStep) {
     gap::Ranked one = ranked(made, 0.0);
     one.candidate.effects = {&gap::effect_named("encoder_quantisation")};
     one.candidate.lasting = {{}};
-    // Where few miss, the noise is a third of a step: what it takes away from those within counts, too.
-    for (const std::size_t missing : {std::size_t{50}, std::size_t{8}}) {
-        for (std::size_t i = 0; i < 50; ++i) {
-            one.residuals[0][i] = i < missing ? 0.5 * step : 0.0;
+    std::set<double> chosen;
+    for (const std::size_t missing : {0U, 2U, 3U, 4U, 5U, 40U, 99U}) {
+        for (const double steps : {0.05, 0.1, 0.3, 1.0, 1.2}) {
+            // And one by more: what misses by less than an eighth of a step altogether is judged as other residuals.
+            std::vector<double> outside(100, 0.0);
+            std::fill_n(outside.begin(), missing, steps);
+            outside.back() = missing == 4 ? 2.0 : 1.3;
+            double best = -1e300;
+            double best_share = 0.0;
+            for (const double share : {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 8.0}) {
+                double sum = 0.0;
+                for (const double miss : outside) {
+                    const double mass = miss == 0.0 ? std::max(0.5, 1.0 - 0.8 * share)
+                                                    : 0.5 * std::erfc(miss / (share * std::sqrt(2.0)));
+                    sum += std::log(std::max(1e-9, mass) / step) + 0.713;
+                }
+                best_share = sum > best ? share : best_share;
+                best = std::max(best, sum);
+            }
+            chosen.insert(best_share);
+            for (std::size_t i = 0; i < 100; ++i) {
+                one.residuals[0][i] = outside[i] * step;
+            }
+            gap::judge(one, made.study, white());
+            EXPECT_NEAR(one.log_likelihood, best, 1e-6) << missing << " by " << steps;
         }
-        gap::judge(one, made.study, white());
-        double best = -1e300;
-        for (const double share : {0.02, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2.0, 4.0, 8.0}) {
-            const double within = std::log(std::max(0.5, 1.0 - 0.8 * share) / step) + 0.713;
-            const double beyond =
-                std::log(std::max(1e-9, 0.5 * std::erfc(0.5 / (share * std::sqrt(2.0)))) / step) + 0.713;
-            const auto count = static_cast<double>(missing);
-            best = std::max(best, (100.0 - count) * within + count * beyond);
-        }
-        EXPECT_NEAR(one.log_likelihood, best, 1e-6) << missing;
     }
+    EXPECT_EQ(chosen.size(), 7U);  // each size of noise has its turn
 }
 
 // What misses by many steps is as likely with its steps as without: a mass that is too small to tell would be a floor.
