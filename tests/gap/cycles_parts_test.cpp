@@ -207,6 +207,24 @@ TEST(CyclesSteps, ACostIsAStepWhereTheClockDoesNotTakeItAlong) {
     EXPECT_THAT(steps(1.0, 204.1, 400.0), ElementsAre("call_overhead"));
 }
 
+// What takes off most goes first; of two that take off the same, the overhead.
+TEST(CyclesSteps, GoByWhatTheyTakeOff) {
+    Made made({row("a_f32", 10, 1104, true), row("a_f32", 20, 1204, true), row("a_f32", 30, 1304, true)});
+    Evidence evidence(made.question, made.by);
+    const State now{.core = "core", .overhead = 200.0, .maintenance = 200.0};
+    const auto steps = [&](double overhead, double maintenance) {
+        const State found{.core = "core", .overhead = overhead, .maintenance = maintenance};
+        std::vector<std::string> effects;
+        for (const auto& step : gap::cycles::steps_to(evidence, found, now, found, 4.0)) {
+            effects.push_back(step.effect);
+        }
+        return effects;
+    };
+    EXPECT_THAT(steps(600.0, 400.0), ElementsAre("call_overhead", "cache_maintenance"));
+    EXPECT_THAT(steps(400.0, 600.0), ElementsAre("cache_maintenance", "call_overhead"));
+    EXPECT_THAT(steps(500.0, 500.0), ElementsAre("call_overhead", "cache_maintenance"));
+}
+
 TEST(CyclesLines, HaveWhatIsLeftOfSlopeAndConstant) {
     Made made({row("a_f32", 10, 120), row("a_f32", 20, 230), row("a_f32", 30, 340), row("a_f32", 40, 9999),
                row("a_f32", 50, 560), row("b_f32", 100, 1010), row("b_f32", 110, 1000)});
