@@ -135,6 +135,31 @@ TEST(Paper, ModelsThatAreTooFarApartDoNotFitTheTables) {
     EXPECT_EQ(drive::check_paper(others)[0].holds, Holds::no);
 }
 
+// The tables' digits are worth a thousandth: by so much may a distance exceed the sum of its sides.
+TEST(Paper, ADistanceMayExceedItsSidesByAThousandth) {
+    const std::vector<double> niopdt = response_of(models.niopdt);
+    const std::vector<double> sopdt = response_of(models.sopdt);
+    for (const bool squares : {true, false}) {
+        const double sides = squares ? std::sqrt(3.0031e-3) + std::sqrt(9.6876e-4) : 7.8585e-2 + 4.6558e-2;
+        for (const double exceeds : {1.0005, 1.0015}) {
+            double low = 1.0;
+            double high = 1.2;
+            for (int i = 0; i < 40; ++i) {
+                const double gain = 0.5 * (low + high);
+                std::vector<double> scaled = sopdt;
+                std::ranges::transform(scaled, scaled.begin(), [&](double y) { return gain * y; });
+                const auto apart = drive::compute_indices(times(), niopdt, scaled);
+                ((squares ? std::sqrt(apart.ise) : apart.iae) < exceeds * sides ? low : high) = gain;
+            }
+            drive::PaperModels others = models;
+            others.sopdt.gain *= low;
+            const std::string said = drive::check_paper(others)[squares ? 5 : 6].ours;
+            const bool refused = std::regex_search(said, std::regex("SOPDT-NIOPDT [^;]* NO"));
+            EXPECT_EQ(refused, exceeds > 1.001) << said;
+        }
+    }
+}
+
 TEST(Paper, TheValueAfterFiveSecondsIsThePublishedOne) {
     const auto value = drive::value_at_5_s(models.niopdt);
     EXPECT_EQ(value.without_delay, "0.9977144659");
