@@ -21,6 +21,8 @@
 #include "bench/steppers/controller/written.hpp"
 #include "bench/steppers/stepper/verify.hpp"
 #include "bench/target/target_rows.hpp"
+#include "glsum/bound.hpp"
+#include "glsum/design/held.hpp"
 #include "glsum/format/fixed.hpp"
 #include "glsum/registry.hpp"
 #include "tests/drive/plants.hpp"
@@ -205,6 +207,50 @@ TEST(FixedController, AGainThatIsHeldExactlyErrsByItsRoundings) {
         EXPECT_DOUBLE_EQ(stepped.error().per_sample, product);
         EXPECT_DOUBLE_EQ(stepped.error().direct, 0.25 * weighted + product + 0.5 * fixed.output_unit());
         EXPECT_DOUBLE_EQ(stepped.error().after(100), stepped.error().direct + 100.0 * product);
+    }
+}
+
+// And beside it what the sums are off: of gains that are held nearly, each by its own share, of an error of twice full
+// scale; of the filter its decay to 2^-30 and half a unit a step, as many steps as it remembers.
+TEST(FixedController, ItsBoundIsThatOfEachRounding) {
+    for (const double scale : {0.5, 2.0}) {
+        const ControllerSpec spec = spec_of(scale);
+        const FixedController stepped(spec);
+        const generate::FixedPid& fixed = stepped.numbers();
+        const generate::Factors factors = generate::factors_of(spec.controller);
+        const double full = 2.0 * scale;
+        const double product = 0.5 * fixed.output_unit() / std::pow(2.0, fixed.extra);
+        const double weighted = 0.5 * fixed.error_unit() + 0.5 * scale * 0x1p-30;
+        struct Line {
+            double off;   // of an error of 1
+            double most;  // of the sum
+            int bits;
+        };
+        const auto line = [&](const generate::SumOfController& sum) {
+            const glsum::Design design = generate::design_of<Sum>(sum, spec);
+            const bench::HostLine<Sum> run(design);
+            const auto held = glsum::design::held<glsum::Plain, glsum::Q31>(run.state());
+            double most = 0.0;
+            std::ranges::for_each(held.taps, [&](double tap) { most += std::fabs(tap); });
+            std::ranges::for_each(held.modes, [&](const auto& mode) { most += std::fabs(mode.weight) / mode.decay; });
+            return Line{glsum::error_bound<Sum>(design, run.state(), 1.0), most, run.state().scale.output_exponent};
+        };
+        const Line integral = line(generate::integral_sum(spec));
+        const Line derivative = line(generate::derivative_sum(spec));
+        const auto held = [](const auto& gain) { return gain.mantissa * gain.unit; };
+        const double ki = held(fixed.ki) * factors.integral;
+        const double per_sample =
+            ki * full * integral.off + std::fabs(ki - 0.5 * factors.integral) * full * integral.most + product;
+        EXPECT_NEAR(stepped.error().per_sample, per_sample, 1e-9 * per_sample);
+        const double kd = held(fixed.kd) * factors.derivative;
+        const double passes = std::ldexp(fixed.passes.mantissa, -fixed.passes.shift);
+        const double filtered = full * derivative.off + weighted * derivative.most +
+                                2.0 * full * derivative.most * 0x1p-30 +
+                                0.5 * fixed.error_unit(derivative.bits) / passes;
+        const double direct = held(fixed.kp) * weighted + std::fabs(held(fixed.kp) - 0.3) * full + product +
+                              0.5 * fixed.output_unit() + kd * filtered +
+                              std::fabs(kd - 0.02 * factors.derivative) * full * derivative.most + product;
+        EXPECT_NEAR(stepped.error().direct, direct, 1e-9 * direct);
     }
 }
 

@@ -14,7 +14,9 @@
 #include "bench/steppers/model/model_header.hpp"
 #include "bench/steppers/model/report.hpp"
 #include "bench/steppers/model/stepped_q31.hpp"
+#include "bench/sweep/host_line.hpp"
 #include "bench/target/target_rows.hpp"
+#include "glsum/bound.hpp"
 #include "tests/generate/board_here.hpp"
 #include "tests/generate/exact_sum.hpp"
 
@@ -127,6 +129,35 @@ TEST(FixedModel, StaysWithinItsBound) {
         EXPECT_NE(generate::make_model_header(spec, "own", "none", {})
                       .find("y is within " + base::rounded_up(stepped.error()) + " of exact arithmetic"),
                   std::string::npos);
+    }
+}
+
+// The sum of what each step rounds, by the formats alone: an increment's products to half of its unit and their factors
+// to 2^-31 of themselves, y to half of its unit where it is multiplied, the mean of two inputs down to a half.
+TEST(FixedModel, ItsBoundIsThatOfEachRounding) {
+    using Kernel = glsum::modes_plain_q31;
+    for (const ModelSpec& spec : {two_and_eight(), of_second_order(), of_first_order_lag(0.25)}) {
+        const generate::Swing swing = generate::swing_of(spec);
+        const FixedModel stepped(spec, swing);
+        const glsum::ModelDesign& numbers = stepped.design().design();
+        const double fed_back = 1.0 / (1.0 - stepped.design().loop_gain());
+        const double input = std::fabs(numbers.input);
+        const double output_scale = stepped.output_full_scale() / *spec.input_full_scale;
+        const double scale = std::exp2(std::ceil(std::log2(1.01 * fed_back * input * swing.increments)));
+        const double product = 0.5 * scale * 0x1p-31;
+        double each = product + input * (numbers.half_input ? 1.5 : 1.0) * 0x1p-31;
+        if (numbers.constant != 0.0) {
+            each += product + 1.5 * std::fabs(numbers.constant) * output_scale * 0x1p-31;
+        }
+        for (const glsum::PastTable& table : numbers.tables) {
+            const bench::HostLine<Kernel> sum(table.design());
+            const double unit = std::exp2(sum.state().scale.output_exponent - 31);
+            each += product + std::fabs(table.factor) * scale *
+                                  (unit + glsum::error_bound<Kernel>(table.design(), sum.state(), 1.0));
+        }
+        const double wanted = *spec.input_full_scale * (each * swing.output * fed_back + 0.5 * output_scale * 0x1p-31);
+        EXPECT_NEAR(stepped.error(), wanted, 1e-9 * wanted);
+        EXPECT_EQ(numbers.tables.empty(), spec.samples == 5000);  // with and without
     }
 }
 

@@ -140,6 +140,18 @@ TEST(Emulate, AFailureSaysHowItEndedAndItsLastWords) {
     EXPECT_EQ(much.message.find("100000"), std::string::npos);
 }
 
+// As shells say it: found, and no program.
+TEST(Emulate, WhatCannotBeginExitsWith127) {
+    const Script script("");
+    std::ofstream(script.path()) << "neither a program nor a script";
+    try {
+        qemu::emulate({script.path(), std::chrono::seconds(20)}, "a.elf", {}, "", [](const std::string&) {});
+        FAIL() << "expected a failure";
+    } catch (const glsum::Failure& failure) {
+        EXPECT_STREQ(failure.what(), "a.elf under the emulator exited with 127");
+    }
+}
+
 // What QEMU dies of it says in one line, and dumps all registers after it: of those the place, R15, is told.
 TEST(Emulate, OfAFatalErrorItsReasonAndItsPlaceAreTold) {
     const std::string registers =
