@@ -162,6 +162,18 @@ TEST(Merge, PutsPiecesInTheirOrderWhateverThatOfTheShards) {
     }
 }
 
+// Its date and machine are the whole's.
+TEST(Merge, WhereNoHostWasTimedTheFirstSpeaksForAll) {
+    for (const bool turned : {false, true}) {
+        std::vector<bench::NamedResults> shards = two_shards();
+        shards[1].results.context.erase("host_timing_order");
+        if (turned) {
+            std::swap(shards[0], shards[1]);
+        }
+        EXPECT_EQ(bench::merge(std::move(shards), false).context["date"], "day 1");
+    }
+}
+
 TEST(Merge, OfNothingIsNothing) {
     std::vector<bench::NamedResults> shards = two_shards();
     for (auto& shard : shards) {
