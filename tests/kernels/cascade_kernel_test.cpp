@@ -170,6 +170,23 @@ TYPED_TEST(CascadeKernelTest, EqualsTheStatedOrderBitForBit) {
     }
 }
 
+// Of any number of sections, however the loop over them is unrolled.
+TYPED_TEST(CascadeKernelTest, OfManySectionsEqualsTheStatedOrderBitForBit) {
+    std::vector<Mode> modes;
+    for (std::size_t count = 1; count <= 36; ++count) {
+        const double decay = 0.9 * std::pow(0.8, static_cast<double>(count - 1));
+        modes.insert(modes.begin(), {decay, -0.02 * decay});  // the slowest comes first
+        test::Line<TypeParam> line(design_of(0.5, 1, modes));
+        ASSERT_EQ(line.status(), Status::ok) << count;
+        Stated<TypeParam> stated(line.state());
+        std::mt19937_64 generator(count);
+        for (int k = 0; k < 200; ++k) {
+            const auto x = TypeParam::from_real(static_cast<double>(generator() >> 11) * 0x1p-52 - 1.0);
+            ASSERT_EQ(line.step(x), stated.step(x)) << count << " modes, k " << k;
+        }
+    }
+}
+
 // The worst record for a response h: its signs from the last sample on, so that the last sum is sum |h|.
 std::vector<double> worst_record(const Design& design, std::size_t samples) {
     const auto weights = reference::weights_of(design, samples);
