@@ -45,12 +45,12 @@ struct Simulated {
     double full_scale = 0.0;      ///< fixed point: what was taken
 };
 
-/// The output for an input sampled every `scheme.step_s`, zero before. A dead time counts in whole steps, rounded down
-/// to the sample that was there: choose a step that divides it. \throws glsum::Failure (bad input): a step that is not
-/// above 0, no kernel of that name, one that cannot do an order or a length of this model.
+/// The output for an input sampled every `scheme.step_s`, zero before. A dead time counts in whole steps, rounded up:
+/// the last sample that has come through acts. Choose a step that divides it. \throws glsum::Failure (bad input): a
+/// step that is not above 0, no kernel of that name, one that cannot do an order or a length of this model.
 [[nodiscard]] Simulated simulate(const Model& model, const Scheme& scheme, std::span<const double> input);
 
-/// Whether the dead time is a whole number of steps, to 1e-9 of a step.
+/// Whether the dead time is a whole number of steps, to 1e-9 of a step or of the dead time.
 [[nodiscard]] bool delay_fits(const Model& model, double step_s);
 
 /// The merged table of one side: sum_i c_i h^-order_i w_j^(order_i), j = 0 .. count - 1, oldest first or not. With
@@ -67,7 +67,7 @@ struct Excitation {
 };
 
 /// Samples at k step_s, k = 0 .. floor(until_s / step_s).
-/// \throws glsum::Failure (bad input): no such name, a record of less than two or more than 10^7 samples.
+/// \throws glsum::Failure (bad input): no such name, a record of less than two samples or more than 10^7 steps.
 [[nodiscard]] std::vector<double> make_input(const Excitation& excitation, double step_s, double until_s);
 
 /// The same as a log without an output, called as the input. \throws as `make_input`

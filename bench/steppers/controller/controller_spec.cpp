@@ -3,9 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <map>
-#include <mutex>
-#include <tuple>
 
 #include "base/failure.hpp"
 #include "glsum/design/modes.hpp"
@@ -14,7 +11,7 @@
 namespace generate {
 namespace {
 
-SumOfController search(double order, double max_error, std::size_t horizon) {
+SumOfController sum_within(double order, double max_error, std::size_t horizon) {
     if (!glsum::design::has_tail(order)) {
         return {order, static_cast<std::size_t>(order) + 1};  // a whole order's weights end
     }
@@ -27,17 +24,6 @@ SumOfController search(double order, double max_error, std::size_t horizon) {
     // A second near tap costs more than one more mode.
     const bool one_will_do = found->near_taps == 2 && glsum::design::least_near_taps(order) == 1;
     return {order, found->length() + (one_will_do ? 1 : 0)};
-}
-
-// Header, steppers, report and tests of one controller ask for the same sums, and a search over a million samples takes
-// long: each is made once.
-SumOfController sum_within(double order, double max_error, std::size_t horizon) {
-    static std::mutex mutex;
-    static std::map<std::tuple<double, double, std::size_t>, SumOfController> found;
-    const std::lock_guard lock(mutex);
-    const std::tuple asked(order, max_error, horizon);
-    const auto at = found.find(asked);
-    return at != found.end() ? at->second : found.emplace(asked, search(order, max_error, horizon)).first->second;
 }
 
 }  // namespace
