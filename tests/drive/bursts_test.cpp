@@ -8,15 +8,18 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <span>
 #include <sstream>
 
 #include "drive/log.hpp"
 
 namespace {
 
+using drive::Burst;
 using drive::Log;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 
 struct Sample {
     double time_s;
@@ -173,6 +176,100 @@ TEST(Bursts, ThatDoublesCannotHoldApartAreMerged) {
                       {1e16 + 4, 9}});
     EXPECT_FALSE(drive::order_stamps(log).spread);
     EXPECT_THAT(log.output, ElementsAre(2, 5, 8));
+}
+
+// Bursts of so many samples, stamped so.
+std::vector<Burst> bursts_at(const std::vector<double>& time_s, const std::vector<std::size_t>& sizes) {
+    std::vector<Burst> bursts;
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < time_s.size(); ++i) {
+        bursts.push_back({first, sizes[i], time_s[i]});
+        first += sizes[i];
+    }
+    return bursts;
+}
+
+std::vector<Burst> fours_at(const std::vector<double>& time_s) {
+    return bursts_at(time_s, std::vector<std::size_t>(time_s.size(), 4));
+}
+
+// Intervals of 1 s and 2 s in turn, the usual one 2 s: the line through bursts of four is t = 30/7 + 3/8 (k - 12), and
+// a burst alone between gaps, which no line goes through, stays and is as dense.
+TEST(Bursts, LieOnTheLineBetweenTheirGaps) {
+    const auto time_s = drive::spread(fours_at({0, 20, 21, 23, 24, 26, 27, 29, 49}));
+    ASSERT_EQ(time_s.size(), 36U);
+    for (std::size_t k = 0; k < 36; ++k) {
+        const auto sample = static_cast<double>(k);
+        const double expected_s = k < 4    ? 0.375 * sample
+                                  : k < 32 ? 20.0 + 30.0 / 7.0 + 0.375 * (sample - 16.0)
+                                           : 49.0 + 0.375 * (sample - 32.0);
+        EXPECT_NEAR(time_s[k], expected_s, 1e-12) << k;
+    }
+}
+
+// Of an even number of intervals the usual one is the longer of the middle two: of 1 s and 2 s no one is a gap.
+// Whatever follows the bursts is none of them.
+TEST(Bursts, HaveTheLongerOfTwoMiddleIntervalsAsUsual) {
+    const auto bursts = fours_at({0, 1, 3, 3.25, 3.5});
+    const auto time_s = drive::spread(std::span(bursts).first(3));
+    ASSERT_EQ(time_s.size(), 12U);
+    for (std::size_t k = 0; k < 12; ++k) {
+        EXPECT_NEAR(time_s[k], 4.0 / 3.0 + 0.375 * (static_cast<double>(k) - 4.0), 1e-12) << k;
+    }
+}
+
+// A line goes through an interval of 7/4 usual ones, and ends at a longer one.
+TEST(Bursts, GoOnOverAnIntervalOfSevenFourthsOfTheUsual) {
+    const auto over = drive::spread(fours_at({0, 4, 8, 15, 19, 23}));
+    ASSERT_EQ(over.size(), 24U);
+    for (std::size_t k = 0; k < 24; ++k) {
+        EXPECT_NEAR(over[k], 11.5 + 334.0 / 280.0 * (static_cast<double>(k) - 10.0), 1e-9) << k;
+    }
+    const auto apart = drive::spread(fours_at({0, 4, 8, 15.03125, 19.03125, 23.03125}));
+    ASSERT_EQ(apart.size(), 24U);
+    for (std::size_t k = 0; k < 24; ++k) {
+        EXPECT_NEAR(apart[k], static_cast<double>(k) + (k < 12 ? 0.0 : 3.03125), 1e-9) << k;
+    }
+}
+
+// Eight neighbours on either side even a burst out, together 17: what came late by half an interval moves those.
+TEST(Bursts, AreEvenedOutWithEightNeighboursOnEitherSide) {
+    std::vector<double> stamps(41);
+    for (std::size_t i = 0; i < stamps.size(); ++i) {
+        stamps[i] = static_cast<double>(i) + (i == 20 ? 0.5 : 0.0);
+    }
+    const auto time_s = drive::spread(bursts_at(stamps, std::vector<std::size_t>(41, 2)));
+    ASSERT_EQ(time_s.size(), 82U);
+    for (std::size_t i = 8; i < 33; ++i) {
+        const bool is_near = i >= 12 && i <= 28;
+        EXPECT_NEAR(time_s[2 * i], static_cast<double>(i) + (is_near ? 0.5 / 17.0 : 0.0), 1e-12) << i;
+    }
+}
+
+// From some tens of samples in 4 s to two: the bursts stay where they were stamped, and the last one is as dense as the
+// others usually are, those before an interval of 7/4 usual ones among them.
+TEST(Bursts, EndAsDenseAsIsUsual) {
+    const auto first_of_last = [](const std::vector<double>& stamps, const std::vector<std::size_t>& sizes) {
+        const auto time_s = drive::spread(bursts_at(stamps, sizes));
+        EXPECT_EQ(time_s[time_s.size() - 2], stamps.back());
+        return time_s.back() - stamps.back();
+    };
+    // 0.1 s twice, 0.175 s, 2 s twice.
+    EXPECT_NEAR(first_of_last({0, 4, 8, 15, 19, 23}, {40, 40, 40, 2, 2, 2}), 0.175, 1e-12);
+    // 0.1 s three times, 2 s three times.
+    EXPECT_NEAR(first_of_last({0, 4, 8, 12, 16, 20, 24}, {40, 40, 40, 2, 2, 2, 2}), 2.0, 1e-12);
+    // Up to 7/4 usual intervals a burst reaches to the next.
+    const auto time_s = drive::spread(bursts_at({0, 7, 11, 15, 19, 23, 27, 31}, {40, 40, 40, 40, 40, 2, 2, 2}));
+    EXPECT_EQ(time_s[40], 7.0);
+    EXPECT_NEAR(time_s[1], 7.0 / 40.0, 1e-12);
+    EXPECT_NEAR(time_s[41], 7.1, 1e-12);
+}
+
+// At 1e16 doubles are 2 apart, and a half goes to the even one: 1e16 + 1 to 1e16, 1e16 + 3 to 1e16 + 4.
+TEST(Bursts, AreNotSpreadWhereAnyTwoSamplesFallOnOneStamp) {
+    EXPECT_THAT(drive::spread(bursts_at({1e16, 1e16 + 2, 1e16 + 4}, {2, 1, 1})), IsEmpty());
+    EXPECT_THAT(drive::spread(bursts_at({1e16, 1e16 + 2, 1e16 + 4}, {1, 2, 1})), IsEmpty());
+    EXPECT_THAT(drive::spread(bursts_at({1e16, 1e16 + 2, 1e16 + 4}, {1, 1, 1})), ElementsAre(1e16, 1e16 + 2, 1e16 + 4));
 }
 
 // A released arm, whole degrees, stamps of reception: spread, the angle swings smoothly.

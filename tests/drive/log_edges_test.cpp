@@ -98,21 +98,70 @@ TEST(LogEdges, BurstsAreThoseOfWhichHalfRepeat) {
     };
     EXPECT_TRUE(spreads({2, 2, 2}));
     EXPECT_FALSE(spreads({3, 3}));
-    EXPECT_TRUE(spreads({3, 1, 2, 2}));              // 8 samples, 4 stamps
-    EXPECT_FALSE(spreads({3, 1, 2, 1}));             // 7 samples, 4 stamps
-    const auto differing = [](std::size_t bursts) {  // of which the first's samples differ
+    EXPECT_TRUE(spreads({3, 1, 2, 2}));   // 8 samples, 4 stamps
+    EXPECT_FALSE(spreads({3, 1, 2, 1}));  // 7 samples, 4 stamps
+    // Bursts of so many samples, of which the last's differ, behind so many samples alone.
+    const auto differing = [](std::size_t bursts, std::size_t size, std::size_t alone) {
         std::vector<double> time_s;
         std::vector<double> output;
-        for (std::size_t i = 0; i < bursts; ++i) {
-            time_s.insert(time_s.end(), 3, static_cast<double>(i));
-            output.insert(output.end(), 3, static_cast<double>(i));
+        for (std::size_t i = 0; i < bursts + alone; ++i) {
+            time_s.insert(time_s.end(), i < alone ? 1 : size, static_cast<double>(i));
+            output.insert(output.end(), i < alone ? 1 : size, static_cast<double>(i));
         }
-        output[2] = 7.0;
+        output.back() = 77.0;
         Log log = log_at(time_s, output);
         return drive::order_stamps(log).spread;
     };
-    EXPECT_TRUE(differing(9));
-    EXPECT_FALSE(differing(10));
+    EXPECT_TRUE(differing(9, 3, 0));
+    EXPECT_FALSE(differing(10, 3, 0));
+    EXPECT_TRUE(differing(9, 2, 0));
+    EXPECT_FALSE(differing(10, 2, 0));
+    EXPECT_TRUE(differing(9, 3, 3));  // what stands alone is no burst
+    EXPECT_FALSE(differing(10, 3, 3));
+}
+
+TEST(LogEdges, TheFirstOfWhatIsOddIsNamedWhereverItStands) {
+    // Of a pair the second is named, though longer bursts follow; of intervals the first may be a gap, and the usual
+    // one of 1, 1, 2, 3, 3 is 2.
+    Log repeated = log_at({0, 1, 1, 3, 3, 3, 4, 7, 10});
+    const auto bursts = drive::order_stamps(repeated);
+    EXPECT_EQ(bursts.repeated, 3U);
+    EXPECT_EQ(bursts.first_repeated, 4U);
+    EXPECT_EQ(bursts.usual_interval_s, 2.0);
+    Log late = log_at({0, 4, 5, 6, 7});
+    const auto gap = drive::order_stamps(late);
+    EXPECT_EQ(gap.missing, 3U);
+    EXPECT_EQ(gap.first_gap, 3U);
+}
+
+TEST(LogEdges, OneOddStampIsSaidToo) {
+    drive::StampReport report;
+    report.repeated = report.backward = report.missing = 1;
+    report.first_repeated = 3;
+    report.first_backward = 5;
+    report.first_gap = 7;
+    report.smallest_interval_s = 0.5;
+    report.usual_interval_s = 1.0;
+    report.largest_interval_s = 2.0;
+    EXPECT_EQ(
+        report.text(),
+        "intervals 0.5 to 2 s, usually 1 s; 1 repeated stamps, from line 3: their mean output stays; 1 stamps run "
+        "backward, from line 5: left out; about 1 samples missing, from line 7: the gaps are bridged");
+}
+
+TEST(LogEdges, WhatIsMadeOfALogKeepsItsNameAndItsWarnings) {
+    Log log = log_at({0, 1, 2, 2, 3, 6}, {0, 1, 2, 4, 4, 4});
+    log.warnings = {"l.csv: odd"};
+    const auto even = drive::resample(log, 1.0, drive::Hold::zero_order);
+    EXPECT_EQ(even.log.name, "l.csv");
+    EXPECT_THAT(even.log.warnings, ElementsAre("l.csv: odd"));
+    EXPECT_THAT(even.log.output, ElementsAre(0, 1, 3, 4, 4, 4, 4));
+    EXPECT_EQ(even.stamps.repeated, 1U);
+    EXPECT_EQ(even.stamps.missing, 2U);
+    EXPECT_EQ(even.stamps.first_gap, 7U);
+    drive::order_stamps(log);
+    EXPECT_EQ(log.name, "l.csv");
+    EXPECT_THAT(log.warnings, ElementsAre("l.csv: odd"));
 }
 
 // Beside a gap samples lie as far apart as they usually do, and no gap is one of exactly 1.75 usual intervals.
@@ -141,6 +190,7 @@ TEST(LogEdges, ACounterWrapsByNineTenthsOfItsRange) {
     };
     // 0.9 of 65536 are 58982.4.
     EXPECT_EQ(read(58982, 0), "accepted");
+    EXPECT_EQ(read(58982.4, 0), "accepted");
     EXPECT_THAT(read(58983, 0), HasSubstr("--counter-bits 16"));
     EXPECT_THAT(read(65535, 0), HasSubstr("--counter-bits 16"));
     EXPECT_EQ(read(65536, 0), "accepted");  // no counter of 16 bits
@@ -151,6 +201,8 @@ TEST(LogEdges, ACounterWrapsByNineTenthsOfItsRange) {
     EXPECT_EQ(read(3865470566, 0), "accepted");
     EXPECT_THAT(read(3865470567, 0), HasSubstr("--counter-bits 32"));
     EXPECT_THAT(read(-2147483648, 2147483647), HasSubstr("--counter-bits 32"));
+    // Whatever is no counter may jump.
+    EXPECT_NO_THROW((void)drive::parse_log("time_s,input,y\n0,1,65535\n1,1,0\n", "l.csv"));
     // Of a known width a step of half a turn is one, a longer one is a wrap; and so on, either way.
     const auto unwrapped = [](const std::string& counts) {
         std::string text = "time_s,input,counts\n";
@@ -179,6 +231,7 @@ TEST(LogEdges, UnitsAreDoubtedBeyondTheirBounds) {
     EXPECT_EQ(said("time_s,duty,y", "0,1"), "accepted");
     EXPECT_EQ(said("time_s,duty,y", "1.5,1"), "l.csv:2: duty: expected 0 to 1, found 1.5 (percent? divide by 100)");
     EXPECT_EQ(said("time_s,duty,y", "100,1"), "l.csv:2: duty: expected 0 to 1, found 100 (percent? divide by 100)");
+    EXPECT_EQ(said("time_s,duty,y", "1.005,1"), "l.csv:2: duty: expected 0 to 1, found 1.005 (percent? divide by 100)");
     EXPECT_EQ(said("time_s,duty,y", "101,1"), "l.csv:2: duty: expected 0 to 1, found 101");
     EXPECT_EQ(said("time_s,duty,y", "-1e-9,1"), "l.csv:2: duty: expected 0 to 1, found -1e-09");
     const auto warnings = [](double angle) {
@@ -189,6 +242,24 @@ TEST(LogEdges, UnitsAreDoubtedBeyondTheirBounds) {
     EXPECT_THAT(warnings(12.6),
                 ElementsAre("l.csv:2: angle_rad reaches 12.6: more than two turns; are these degrees?"));
     EXPECT_THAT(warnings(-12.6), ElementsAre(HasSubstr("reaches -12.6")));
+    EXPECT_THAT(drive::parse_log("time_s,input,counts\n0,1,0.5\n1,1,2\n", "l.csv", {.counts_per_unit = 1.0}).warnings,
+                ElementsAre("l.csv:2: counts: expected whole numbers, found 0.5"));
+    for (const double per_unit : {0.0, double{INFINITY}, double{NAN}}) {
+        EXPECT_THAT(refusal_of([&] {
+                        (void)drive::parse_log("time_s,input,counts\n0,1,0\n1,1,2\n", "l.csv",
+                                               {.counts_per_unit = per_unit});
+                    }),
+                    HasSubstr("--counts-per-unit: expected a number other than 0"));
+    }
+}
+
+TEST(LogEdges, FurtherInputsAndASimulatedOutputAreReadByName) {
+    const Log log = drive::parse_log("time_s,a,input,s,b,y\n0,1,2,3,4,5\n1,6,7,8,9,10\n", "l.csv",
+                                     {.more_inputs = {"b", "a"}, .simulated = "s"});
+    EXPECT_THAT(log.input, ElementsAre(2, 7));
+    EXPECT_THAT(log.more_inputs, ElementsAre(ElementsAre(4, 9), ElementsAre(1, 6)));
+    EXPECT_THAT(log.simulated, ElementsAre(3, 8));
+    EXPECT_THAT(log.output, ElementsAre(5, 10));
 }
 
 TEST(LogEdges, CentriesOfSecondsAreSince1970) {
@@ -248,6 +319,39 @@ TEST(LogEdges, ResamplingEndsAtTheLastStamp) {
     EXPECT_THAT(refusal_of([&] { (void)drive::resample(log, 1e-7, drive::Hold::linear); }),
                 HasSubstr("at most 10000000 samples"));
     EXPECT_THAT(refusal_of([&] { (void)drive::resample(log, INFINITY, drive::Hold::linear); }), Not("accepted"));
+}
+
+TEST(LogEdges, StepsAreNumbersAboveZero) {
+    const Log log = log_at({1.0, 1.5, 2.0});
+    for (const double step_s : {0.0, -1.0, double{INFINITY}, double{NAN}}) {
+        EXPECT_THAT(refusal_of([&] { (void)drive::resample(log, step_s, drive::Hold::linear); }),
+                    HasSubstr("l.csv: expected a step above 0 s"));
+    }
+}
+
+// What differs by rounding is what differs by less than 1e-9 of a step, at the end of a log and at each of its stamps.
+TEST(LogEdges, ABillionthOfAStepIsRounding) {
+    const auto samples = [](double to_s, drive::End end) {
+        return drive::resample(log_at({0.0, 1.0, to_s}), 1.0, drive::Hold::linear, end).log.time_s.size();
+    };
+    EXPECT_EQ(samples(2.0 - 0.995e-9, drive::End::within), 3U);
+    EXPECT_EQ(samples(2.0 - 1.005e-9, drive::End::within), 2U);
+    EXPECT_EQ(samples(2.0 + 0.995e-9, drive::End::behind), 3U);
+    EXPECT_EQ(samples(2.0 + 1.005e-9, drive::End::behind), 4U);
+    const auto at_once = [](double second_s) {
+        return drive::resample(log_at({0.0, second_s, 4.0, 8.0}), 4.0, drive::Hold::zero_order).log.output[0];
+    };
+    EXPECT_EQ(at_once(3.98e-9), 1.0);
+    EXPECT_EQ(at_once(4e-9), 1.0);
+    EXPECT_EQ(at_once(4.02e-9), 0.0);
+}
+
+// Also of stamps below 0.
+TEST(LogEdges, BehindItsLastStampALogStaysAsItIs) {
+    const auto behind =
+        drive::resample(log_at({-8.0, -6.0, -4.5}, {1.0, 2.0, 5.0}), 1.0, drive::Hold::linear, drive::End::behind).log;
+    EXPECT_THAT(behind.time_s, ElementsAre(-8.0, -7.0, -6.0, -5.0, -4.0));
+    EXPECT_THAT(behind.output, ElementsAre(1.0, 1.5, 2.0, 4.0, 5.0));
 }
 
 // What is shown of a wrong value is at most its first 60 characters, and of a fault what lies about it.

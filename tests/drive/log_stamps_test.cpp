@@ -7,6 +7,7 @@
 
 #include "base/failure.hpp"
 #include "drive/log.hpp"
+#include "drive/stamps.hpp"
 
 namespace {
 
@@ -59,6 +60,7 @@ TEST(LogStamps, TakeTheirUnitFromTheRowOfUnits) {
     EXPECT_THAT(read("time_s,y\nms,mm\n0,1\n10,2\n", {.time_unit = "ms"}).time_s, ElementsAre(0, 0.01));
     EXPECT_THAT(refusal("time,y\n[ticks],[V]\n0,1\n10,2\n"),
                 AllOf(HasSubstr("found '[ticks]' in the row of units"), HasSubstr("--time-unit")));
+    EXPECT_THAT(refusal("time,y,z\n[ms],[V]\n0,1,1\n10,2,1\n"), HasSubstr("l.csv:2: expected 3 fields"));
 }
 
 TEST(LogStamps, AnOptionDecidesTheUnit) {
@@ -97,6 +99,21 @@ TEST(LogStamps, DatesCountFromTheFirst) {
     EXPECT_THAT(refusal("time,y\n2024-05-01T12:00,1\n", {.time_unit = "ms"}), HasSubstr("found a date"));
 }
 
+// Each part has its two digits, and nothing stands for none.
+TEST(LogStamps, DatesHaveAllTheirDigits) {
+    for (const char* text :
+         {"2024-05-01T12:", "2024-05-01T12:5", "2024-05-01T12:xx", "2024-05-01T12:+02:00", "2024-05-01T12: +02",
+          "2024-05-01T12:00:", "2024-05-01T12:00:5", "2024-05-01T12:00: Z", "2024-05-01T12:00+", "2024-05-01T12:00+0",
+          "2024-05-01T12:00+x", "2024-05-01T12:00x", "2024-05-01T12:00+02:", "2024-05-01T12:00+02:0",
+          "2024-05-01T12:00+02:xx", "2024-05-01T:00", "2024-05-T12:00", "2024--01T12:00", "-05-01T12:00"}) {
+        EXPECT_FALSE(drive::looks_like_date(text)) << text;
+    }
+    // A field is part of a line: digits behind it are none of it.
+    const std::string_view line = "2024-05-01T12:00:00.25";
+    EXPECT_EQ(drive::date_of(line.substr(0, 21)).value().part, 0.2);
+    EXPECT_EQ(drive::date_of(line).value().part, 0.25);
+}
+
 TEST(LogStamps, TimesSince1970CountFromTheFirst) {
     const Log seconds = read("time_s,y\n1714564800.25,1\n1714564800.5,2\n1714564799,2\n");
     EXPECT_THAT(seconds.time_s, ElementsAre(0, 0.25, -1.25));
@@ -105,6 +122,13 @@ TEST(LogStamps, TimesSince1970CountFromTheFirst) {
     // Exact, though no double holds these numbers apart.
     EXPECT_THAT(read("t_ns,y\n1714564800123456789,1\n1714564800123456790,2\n").time_s, ElementsAre(0, 1e-9));
     EXPECT_THAT(read("time,y\n1.714564801e9,1\n1.714564802e9,2\n").time_s, ElementsAre(0, 1));
+    // Written out or not, before 1970 or after.
+    EXPECT_THAT(read("time_s,y\n1714564800.25,1\n1.7145648005e9,2\n-5.5,2\n").time_s,
+                ElementsAre(0, 0.25, -1714564805.75));
+    EXPECT_THAT(read("timestamp,y\n1714564800,1\n1714564801,2\n").warnings,
+                ElementsAre(HasSubstr("stamps in seconds since 1970, 0 s at the first")));
+    EXPECT_THAT(read("t_ms,y\n1714564800123,1\n1714564800133,2\n").warnings,
+                ElementsAre(HasSubstr("stamps in milliseconds since 1970, 0 s at the first")));
     // Thirteen digits are milliseconds of this century, or seconds in fifty thousand years.
     const Log by_size = read("timestamp,y\n1714564800123,1\n1714564800133,2\n");
     EXPECT_THAT(by_size.time_s, ElementsAre(0, 0.01));

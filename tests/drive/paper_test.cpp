@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <regex>
 
@@ -345,6 +346,58 @@ TEST(Pictures, AModelsTitleHasFourDigits) {
     EXPECT_THAT(drive::short_text(model), Not(HasSubstr("0.98319")));
     model.numerator = {{1.23456, 0.0}};
     EXPECT_THAT(drive::short_text(model), HasSubstr("1.235"));
+    drive::Model gain = drive::make_fopdt(2.3456789, 0.5, 0.0);
+    EXPECT_THAT(drive::short_text(gain), HasSubstr("2.346"));
+    EXPECT_THAT(drive::short_text(gain), Not(HasSubstr("2.3456")));
+}
+
+// The second panel is 1.3 times as wide as the root nearest to the axis by its angle, and as high as 1.6 times that
+// root, or as three times the sector is wide there.
+TEST(Pictures, TheSecondPanelHoldsTheNearestRootAndTheSector) {
+    const auto second = [](double limit_rad, const std::vector<std::complex<double>>& roots) {
+        drive::StabilityVerdict judged;
+        judged.base_order = 0.01;
+        judged.limit_rad = limit_rad;
+        judged.roots = roots;
+        judged.verdict = drive::Stability::stable;
+        judged.smallest_angle_rad = 1.0;
+        const auto script = drive::picture_of_roots(judged, "m").script;
+        static const std::regex ranges("xrange \\[([^:]*):([^\\]]*)\\]\nset yrange \\[([^:]*):([^\\]]*)\\]");
+        std::sregex_iterator at(script.begin(), script.end(), ranges);
+        ++at;
+        std::vector<double> found;
+        for (std::size_t i = 1; i < at->size(); ++i) {
+            found.push_back(std::stod((*at)[i]));
+        }
+        return found;
+    };
+    const auto expect = [](const std::vector<double>& found, double right, double height) {
+        ASSERT_EQ(found.size(), 4U);
+        EXPECT_NEAR(found[0], -0.05 * right, 1e-4);
+        EXPECT_NEAR(found[1], right, 1e-4);
+        EXPECT_NEAR(found[2], -height, 1e-4);
+        EXPECT_NEAR(found[3], height, 1e-4);
+    };
+    // The nearest by its angle is not the first, nor the smallest, nor the last.
+    const std::vector<std::complex<double>> roots = {std::polar(5.0, 1.0), std::polar(2.0, -0.4), std::polar(1.0, 2.0)};
+    expect(second(0.1, roots), 2.6, 1.6 * 2.0 * std::sin(0.4));
+    expect(second(0.2, roots), 2.6, 3.0 * 2.6 * std::sin(0.2));
+    // What lies to the left is shown as high as at 1.5 rad.
+    expect(second(0.1, {std::polar(2.0, 2.5)}), 2.6, 1.6 * 2.0 * std::sin(1.5));
+}
+
+// Three of up to 28 letters side by side, or two of up to 47: 850 in all, 7.5 a letter and 70 for the line.
+TEST(Pictures, TitlesHaveRoomForTheirLetters) {
+    const auto curve = [](std::size_t letters) {
+        return drive::Curve{std::string(letters, 'x'), {0.0, 1.0}, {1.0, 2.0}};
+    };
+    const auto script = [&](std::size_t letters) {
+        return drive::picture_of_curves({curve(3), curve(letters), curve(5)}, "t", "u").script;
+    };
+    EXPECT_THAT(script(28), HasSubstr("maxcols 3 width 2\nset bmargin 5\n"));
+    EXPECT_THAT(script(29), HasSubstr("maxcols 2 width 2\nset bmargin 6\n"));
+    EXPECT_THAT(script(47), HasSubstr("maxcols 2 width 2\nset bmargin 6\n"));
+    EXPECT_THAT(script(48), HasSubstr("maxcols 1 width 2\nset bmargin 7\n"));
 }
 
 }  // namespace

@@ -48,6 +48,13 @@ TEST(Driver, StartsAMotorThatStandsEachTimeAnew) {
                   {{0.0, 0.0, 0.0}, {1.5, 0.5, 0.0}, {2.0, 0.0, 0.0}, {4.5, 0.75, 0.0}});
     // It turns just as the next command comes: with that one.
     expect_pieces(built, {{1.0, 0.25}, {1.5, 0.5}}, {{0.0, 0.0, 0.0}, {1.5, 0.5, 0.0}});
+    // Off before or just as it would turn, and never on again.
+    expect_pieces(built, {{1.0, 0.25}, {1.25, 0.0}}, {{0.0, 0.0, 0.0}});
+    expect_pieces(built, {{1.0, 0.25}, {1.5, 0.0}}, {{0.0, 0.0, 0.0}});
+    // No duty is off where there is no threshold, too.
+    built.threshold = 0.0;
+    expect_pieces(built, {{0.0, 0.25}, {1.0, 0.0}, {2.0, 0.25}},
+                  {{0.0, 0.0, 0.0}, {0.5, 0.25, 0.0}, {1.0, 0.0, 0.0}, {2.5, 0.25, 0.0}});
 }
 
 TEST(Driver, GoesFromLevelToLevelByItsSlope) {

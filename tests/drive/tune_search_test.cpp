@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <complex>
 #include <random>
 
 #include "base/failure.hpp"
@@ -224,6 +225,31 @@ TEST(Search, RanksWhatKeepsGainsFromBeingAnAnswer) {
     }
 }
 
+// The three gains are weighed by what they make of the frequency that is asked: D = (1 - e^(-jwh)) / h is 2 sin(wh / 2)
+// / h there, and the derivative's filter takes its part.
+TEST(Search, WeighsGainsWhereItIsAsked) {
+    const tune::SampledPlant plant(plants::fopdt(), 0.01, "plant");
+    const tune::Search search(plant, 0.05, 20.0);
+    const double w = 4.0;
+    const double size = 2.0 * std::sin(0.5 * w * 0.01) / 0.01;
+    const std::complex<double> difference = (1.0 - std::polar(1.0, -w * 0.01)) / 0.01;
+    const double integral = 0.3 * std::pow(size, -0.8);
+    const double derivative = 0.5 * std::pow(size, 0.6) / std::abs(1.0 + 0.05 * difference);
+    const auto trouble = [&](double kp, double ki, double kd) {
+        const drive::Gains gains{
+            .kp = kp, .ki = ki, .kd = kd, .filter_s = 0.05, .integral_order = 0.8, .derivative_order = 0.6};
+        return search.trouble_of({{}, {}, 100.0}, gains, w).size;
+    };
+    const double all = 0.2 + integral + derivative;
+    EXPECT_NEAR(trouble(-0.2, 0.3, 0.5), 1e5 * (1.0 + 0.2 / all), 1e-4);
+    EXPECT_NEAR(trouble(0.2, -0.3, 0.5), 1e5 * (1.0 + integral / all + 1e-6), 1e-4);
+    EXPECT_NEAR(trouble(0.2, 0.3, -0.5), 1e5 * (1.0 + derivative / all), 1e-4);
+    // A billionth of them all is rounding.
+    const double rounding = 1e-9 * (0.2 + integral) * 0.5 / derivative;
+    EXPECT_LT(trouble(0.2, 0.3, -0.995 * rounding), 1e5);
+    EXPECT_GT(trouble(0.2, 0.3, -1.005 * rounding), 1e5);
+}
+
 TEST(Search, TheSweepHasTheLastWord) {
     const tune::Wish wish{.crossover = 2.0, .margin_rad = 1.0, .sensitivity = 1.6};
     tune::Margins margins;
@@ -240,6 +266,11 @@ TEST(Search, TheSweepHasTheLastWord) {
         EXPECT_TRUE(is_met(1.0, 2.0 * (1.0 + side * 0.000995), 1.6));
         EXPECT_FALSE(is_met(1.0, 2.0 * (1.0 + side * 0.001005), 1.6));
     }
+    // At the limits themselves it is not.
+    EXPECT_FALSE(is_met(1.0, 2.0, 1.0005 * 1.6));
+    margins.sensitivity = 1.6;
+    margins.phase_deg = 0.0;
+    EXPECT_FALSE(tune::meets({.crossover = 2.0, .margin_rad = 0.01, .sensitivity = 1.6}, margins));
     EXPECT_TRUE(is_met(1.0, 2.0, 1.6 * 1.000499));
     EXPECT_FALSE(is_met(1.0, 2.0, 1.6 * 1.000501));
     // Without a margin whatever the loop has.
@@ -265,6 +296,7 @@ TEST(Search, IsNeverWorseThanWhatItIsToldOf) {
         return search.best(of, tune::Orders::integer, tune::Found{{.kp = 77.0}, flat, iae, 0});
     };
     EXPECT_EQ(beside(1.001 * alone->iae, true, wish)->gains.kp, alone->gains.kp);
+    EXPECT_EQ(beside(alone->iae, true, wish)->gains.kp, alone->gains.kp);
     const auto better = beside(0.999 * alone->iae, true, wish);
     EXPECT_EQ(better->gains.kp, 77.0);
     EXPECT_EQ(better->iae, 0.999 * alone->iae);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 #include "base/failure.hpp"
 #include "bench/sweep/signals.hpp"
@@ -95,6 +96,66 @@ TEST(WholeRecord, AgreesWithTheSumsOfOneSampleAtATime) {
         ASSERT_NEAR(weights[0] * record[k] + memory.past(), sums[k], 1e-15) << k;
         memory.push(record[k]);
     }
+}
+
+// Of whole numbers, up to 128 weights of which are summed directly, every sum is exact; and nothing before or behind
+// the record is looked at.
+TEST(WholeRecord, UpTo128WeightsWholeNumbersStayWhole) {
+    std::vector<double> around(400, 1e200);
+    std::vector<double> weights(300, 1e200);
+    const auto record = std::span(around).subspan(50, 300);
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        record[k] = static_cast<double>(k * k % 101) - 50.0;
+    }
+    for (std::size_t j = 0; j < 128; ++j) {
+        weights[j] = static_cast<double>(j * j * j % 127) - 60.0;
+    }
+    for (const std::size_t taps : {1, 2, 9, 16, 128}) {
+        for (const std::size_t samples : {1, 7, 16, 128, 129, 300}) {
+            const auto sums = whole_record_sums(std::span(weights).first(taps), record.first(samples));
+            ASSERT_EQ(sums.size(), samples);
+            for (std::size_t k = 0; k < samples; ++k) {
+                double sum = 0.0;
+                for (std::size_t j = 0; j < taps && j <= k; ++j) {
+                    sum += weights[j] * record[k - j];
+                }
+                ASSERT_EQ(sums[k], sum) << taps << ' ' << samples << ' ' << k;
+            }
+        }
+    }
+    EXPECT_EQ(drive::record_weights(0.5, 3), (std::vector{1.0, -0.5, -0.125}));
+}
+
+// 144 samples with 114 weights are a convolution of 257, one more than a transform of 256 holds: what would come round
+// falls on the first sum.
+TEST(WholeRecord, NothingComesRoundFromTheEnd) {
+    const auto sums = whole_record_sums(std::vector<double>(130, 1.0), std::vector<double>(160, 1.0));
+    ASSERT_EQ(sums.size(), 160U);
+    for (std::size_t k = 0; k < 160; ++k) {
+        EXPECT_NEAR(sums[k], static_cast<double>(std::min<std::size_t>(k + 1, 130)), 1e-9) << k;
+    }
+}
+
+TEST(WholeRecord, HasTheBoundOfItsFormula) {
+    constexpr double u = 0x1.0p-53;
+    // Without a transform: 2 |w_0| + 3 |w_1| + 4 |w_2|, by the largest sample.
+    EXPECT_EQ(whole_record_error_bound(std::vector{1.0, -2.0, 3.0}, std::vector{4.0, -5.0, 1.0, 2.0}), u * 20.0 * 5.0);
+    EXPECT_EQ(whole_record_error_bound(std::vector{1.0, -2.0, 3.0}, std::vector{0.0, 0.0}), 0.0);
+    // With one: 16 weights of 3 so, and 114 of 3 by the lesser of their sum and of their norm times the record's.
+    const std::vector<double> weights(130, 3.0);
+    const double near = 3.0 * 152.0;  // 2 + 3 + ... + 17
+    const auto bits = [](std::size_t convolved) {
+        return std::log2(static_cast<double>(RealTransform::fast_length(convolved)));
+    };
+    for (const std::size_t samples : {159, 160}) {  // 256 is a fast length, 257 is none
+        const double even_reach = 3.0 * std::sqrt(114.0) * 0.5 * std::sqrt(static_cast<double>(samples));
+        EXPECT_NEAR(whole_record_error_bound(weights, std::vector<double>(samples, -0.5)) / u,
+                    near * 0.5 + 17.0 * 3.0 * 114.0 * 0.5 + bits(samples + 97) * even_reach, 1e-9);
+    }
+    std::vector<double> impulse(160, 0.0);
+    impulse[7] = 5.0;
+    const double reach = 3.0 * std::sqrt(114.0) * 5.0;
+    EXPECT_NEAR(whole_record_error_bound(weights, impulse) / u, near * 5.0 + 17.0 * reach + bits(257) * reach, 1e-9);
 }
 
 TEST(WholeRecord, RefusesWhatIsNoNumber) {
