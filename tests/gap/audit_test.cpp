@@ -271,6 +271,24 @@ TEST(Clipped, WouldNotShowAmongCoarseReadings) {
     EXPECT_TRUE(gap::audit({record_of(noisy(400, 12)), record_of(clipped(100, 10, 9.0))}).may_clip);
 }
 
+// 100 pairs of equal readings, the highest behind them: with a single one besides, 100 of 200 repeat the one before,
+// with two 100 of 201.
+TEST(Clipped, WouldShowWhereLessThanHalfRepeats) {
+    const auto shows = [](int singles) {
+        std::vector<double> values;
+        for (int i = 0; i < 200; ++i) {
+            values.push_back(0.01 * (i / 2));
+        }
+        for (int i = 0; i < singles; ++i) {
+            values.push_back(2.0 + i);
+        }
+        values.push_back(9.0);
+        return gap::ends_would_show(record_of(values));
+    };
+    EXPECT_FALSE(shows(1));
+    EXPECT_TRUE(shows(2));
+}
+
 TEST(Clipped, DoNotCountWhereFiftyOthersDo) {
     const auto left = [](std::size_t count) {
         const auto counts = gap::without_ends({std::vector<char>(400, 1)}, {record_of(clipped(0, count, 9.0))});

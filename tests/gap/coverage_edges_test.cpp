@@ -214,6 +214,71 @@ TEST(CoverageEdges, LevelsAreBetweenThoseOfTraining) {
     EXPECT_THAT(told(train(0.3), validate(200, 0.6505)), Not(hole));
 }
 
+// --- In other units, and at the edges themselves.
+
+// Everything goes by the spans, whatever they are.
+TEST(CoverageEdges, AreOfTheSpanInAnyUnit) {
+    for (const double unit : {0.125, 8.0}) {
+        const auto in_units = [&](Values values) {
+            for (double& value : values) {
+                value *= unit;
+            }
+            return values;
+        };
+        const Values rise = in_units(path({0.0, 1.0}));
+        EXPECT_FALSE(lacks_falls(rise, in_units(path({0.0, 1.0, 0.9005})))) << unit;
+        EXPECT_TRUE(lacks_falls(rise, in_units(path({0.0, 1.0, 0.8995})))) << unit;
+        const Values falls = in_units(path({0.0, 1.0, 0.89}));
+        EXPECT_TRUE(lacks_falls(in_units(path({0.0, 0.5, 0.4701, 1.0})), falls)) << unit;
+        EXPECT_FALSE(lacks_falls(in_units(path({0.0, 0.5, 0.4699, 1.0})), falls)) << unit;
+        for (const double hole : {0.199, 0.201}) {
+            Values train;
+            Values validate(303, 0.5);
+            for (int i = 0; i <= 100; ++i) {
+                train.push_back(0.4 * i / 100.0);
+                train.push_back(0.4 + hole + (0.6 - hole) * i / 100.0);
+                train.push_back(0.0);
+            }
+            const auto found = told(driven(in_units(train)), driven(in_units(validate)));
+            EXPECT_EQ(std::ranges::any_of(found, [](const auto& one) { return one.starts_with("input between"); }),
+                      hole > 0.2)
+                << unit;
+        }
+    }
+}
+
+// A tenth is enough of a fall, and a quarter of one to know it; a twentieth beyond is none, nor a hole of a fifth.
+TEST(CoverageEdges, AreWithinWhatIsKnown) {
+    EXPECT_TRUE(lacks_falls(path({0.0, 10.0}), path({0.0, 10.0, 9.0})));
+    EXPECT_FALSE(lacks_falls(path({0.0, 10.0, 9.0}), path({0.0, 10.0, 6.0})));
+    const auto inputs = [](const Values& train, const Values& validate) {
+        const auto repeated = [](const Values& levels) {
+            Values input(300);
+            for (std::size_t i = 0; i < input.size(); ++i) {
+                input[i] = levels[i % levels.size()];
+            }
+            return driven(input);
+        };
+        auto all = told(repeated(train), repeated(validate));
+        std::erase_if(all, [](const std::string& one) { return !one.starts_with("input"); });
+        return all;
+    };
+    EXPECT_THAT(inputs({0.0, 4.0, 8.0, 12.0, 16.0, 19.0}, {0.0, 20.0}), ElementsAre());
+    EXPECT_THAT(inputs({1.0, 4.0, 8.0, 12.0, 16.0, 20.0}, {0.0, 20.0}), ElementsAre());
+    EXPECT_THAT(inputs({0.0, 2.0, 4.0, 6.0, 8.0, 10.0}, {3.0}), ElementsAre());
+    // The first level may be the one that is far from the others, in a single reading.
+    Values first(300, 8.0);
+    first.front() = 0.0;
+    first.back() = 10.0;
+    EXPECT_THAT(told(driven(first), driven(Values(300, 4.0))), Contains("input between 0 and 8"));
+    // A hundredth of 299 readings are two.
+    Values high(299, 0.0);
+    std::fill_n(high.begin(), 3, 2.0);
+    Values known(299, 0.0);
+    known.back() = 1.0;
+    EXPECT_THAT(told(driven(known), driven(high)), Contains("input above 1"));
+}
+
 // --- Frequencies.
 
 // Waves of whole periods, so many in 58.1 s: 0.10 Hz, 0.29 Hz and 1.0 Hz, each in a band of its own. The first band
@@ -280,6 +345,20 @@ TEST(CoverageEdges, FrequenciesAreBesideWhatTrainingHas) {
     EXPECT_THAT(frequencies({waves({0.1424, 0.0, 1.0})}, asked), ElementsAre("between 0.15 and 0.49 Hz"));
     EXPECT_THAT(frequencies({waves({1.0, 0.0, 0.1405})}, asked), ElementsAre("faster than 0.15 Hz"));
     EXPECT_THAT(frequencies({waves({1.0, 0.0, 0.1424})}, asked), ElementsAre("between 0.15 and 0.49 Hz"));
+}
+
+// Stamps may begin anywhere.
+TEST(CoverageEdges, FrequenciesAreThoseOfAnyTime) {
+    const auto later = [](gap::Record record) {
+        for (double& t : record.time_s) {
+            t += 1000.0;
+        }
+        return record;
+    };
+    EXPECT_THAT(frequencies({later(waves({1.0, 0.0, 0.0}))}, later(waves({1.0, 1.0, 0.0}))),
+                ElementsAre("faster than 0.15 Hz"));
+    EXPECT_THAT(frequencies({later(waves({1.0, 0.0, 1.0}))}, later(waves({1.0, 1.0, 1.0}))),
+                ElementsAre("between 0.15 and 0.49 Hz"));
 }
 
 }  // namespace

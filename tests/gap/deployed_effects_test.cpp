@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "gap/drive/effect.hpp"
@@ -34,6 +36,18 @@ TEST(DeployedEffects, FixedPointIsOfItsBits) {
     expect(deployed("fixed_point", {15.0, 0.0, 0.5}), {0.5, 0.0, "ring_plain_q15", false});
     expect(deployed("fixed_point", {31.0, 1.0, 0.25}), {0.25, 0.0, "ring_plain_q31", true});
     expect(deployed("fixed_point", {15.0, 1.0, 0.0}), {0.0, 0.0, "ring_plain_q15", true});
+}
+
+// As files name them.
+TEST(DeployedEffects, FixedPointIsReadByItsName) {
+    const gap::Effect& effect = gap::effect_named("fixed_point");
+    for (const auto& [name, bits] : {std::pair("q31", 31.0), std::pair("q15", 15.0)}) {
+        const std::vector<double> read = effect.from_contract(effect, {{"format", std::string(name)}});
+        EXPECT_EQ(read.at(0), bits);
+        EXPECT_EQ(std::get<std::string>(
+                      effect.to_contract(effect, std::vector<gap::Fitted>{{bits, bits, bits}, {}, {}}).at(0).value),
+                  name);
+    }
 }
 
 // Also between whole numbers of taps, in double.

@@ -234,4 +234,16 @@ TEST(WhitenerOf, IsOfWhatCounts) {
     EXPECT_NEAR(gap::whitener_of(made.study, none).stationary_deviation, 0.1, 1e-6);
 }
 
+// Numbers that the validation told cost what those of events do.
+TEST(Likelihood, PaysForWhatTheValidationSettled) {
+    const Made made;
+    gap::Candidate candidate;
+    candidate.own.resize(1);
+    const auto ranked_with = [&](std::size_t settled) {
+        return gap::validated(made.study, candidate, white(), nullptr, true, settled);
+    };
+    EXPECT_EQ(ranked_with(2).settled, 2U);
+    EXPECT_NEAR(ranked_with(2).penalty - ranked_with(0).penalty, 2.0 * 0.5 * std::log(100.0), 1e-9);
+}
+
 }  // namespace

@@ -111,4 +111,26 @@ TEST(MissedCounts, AreAskedByTheMedianOfTheSteps) {
     EXPECT_NEAR(guess_of(count, [&](std::size_t i) { return residuals[i]; }).at(0), before(at), 40.0 * gap_test::h);
 }
 
+// Where nothing is noisy neighbours tell: half of the size, 0.4 % more or less. Of 100 samples behind the first is
+// that, the second nine tenths and the others 1.
+TEST(MissedCounts, AreHalfOfTheirSizeAtOnce) {
+    const auto with_first = [](double first) {
+        return guess_of(150, [&](std::size_t i) { return i < 50 ? 0.0 : i == 50 ? first : i == 51 ? 0.9 : 1.0; });
+    };
+    // first = half of (first + 0.9 + 98) / 100
+    const double half = 0.5 * 98.9 / 99.5;
+    EXPECT_NEAR(with_first(1.004 * half)[0], before(50), 1e-9);
+    EXPECT_EQ(with_first(0.996 * half), Values(6, 0.0));
+}
+
+// None is before the first sample. Of noise that goes up and down by 3 about 1 even many samples tell little, so that
+// the place goes by the sums: whose ends cancel, or are low.
+TEST(MissedCounts, AreBehindTheFirstSample) {
+    const auto about_one = [](std::size_t count, double first) {
+        return guess_of(count, [&](std::size_t i) { return 1.0 + (i % 2 == 0 ? first : -first); })[0];
+    };
+    EXPECT_NEAR(about_one(101, -3.0), before(1), 1e-9);
+    EXPECT_NEAR(about_one(100, 3.0), before(2), 1e-9);
+}
+
 }  // namespace

@@ -110,4 +110,21 @@ TEST_F(DoubtOfEvents, IsOfEventsAlone) {
     EXPECT_EQ(doubt(somewhere_, {5.5, 20.0}), "");
 }
 
+// 100 s at 10 Hz: the input steps to 8 at 10 s and falls a little at 60 s, where something happens. As a move it is met
+// to half an interval, as is the step; else the step is 50 s away, and 60 s of 100 lie as near.
+TEST(ChanceOfMeeting, IsOfMovesOfThreeHundredthsOfTheInput) {
+    const auto chance = [](double share) {
+        gap::Record record;
+        record.usual_interval_s = 0.1;
+        for (int i = 0; i <= 1000; ++i) {
+            record.time_s.push_back(0.1 * i);
+            record.input.push_back(i < 100 ? 0.0 : i < 600 ? 8.0 : 8.0 - share * 8.0);
+            record.output.push_back(0.0);
+        }
+        return gap::chance_of_meeting(record, 60.0, 0.0);
+    };
+    EXPECT_NEAR(chance(0.02985), 0.6, 1e-9);
+    EXPECT_NEAR(chance(0.03015), 0.002, 1e-9);
+}
+
 }  // namespace

@@ -123,4 +123,71 @@ TEST(PlotSizes, AreThoseOfAScreenAndOfAPhone) {
     EXPECT_THAT(boxes(110.0), ElementsAre("0 0 1100 110", "0 0 400 110"));
 }
 
+// 1026 px of time between margins of 64 and 10, 200 px of output between 8 and 34: here 1026 s from -14 s on, -1 to 4.
+TEST(PlotAxes, StandWhereTheirFormulaeSay) {
+    const gap::PlotOf plot{"left", 242.0, {{"line", {-1.0, 4.0}}}};
+    const std::string svg = gap::to_svg(plot, {-14.0, 1012.0});
+    const std::string screen = svg.substr(0, svg.find("phone"));
+    using testing::ElementsAre;
+    EXPECT_THAT(all_between(screen, "class=\"grid\" d=\"", "\"/>"),
+                ElementsAre("M64.0 208.0H1090.0", "M64.0 168.0H1090.0", "M64.0 128.0H1090.0", "M64.0 88.0H1090.0",
+                            "M64.0 48.0H1090.0", "M64.0 8.0H1090.0"));
+    // Left of the grid by 6 and a line of text's half below it; below the drawing by 16. A zero has no sign. At 12 px
+    // from the end of the drawing half a label still finds room.
+    EXPECT_THAT(
+        all_between(screen, "<text ", "</text>"),
+        ElementsAre(
+            "x=\"58.0\" y=\"212.0\" text-anchor=\"end\">-1", "x=\"58.0\" y=\"172.0\" text-anchor=\"end\">0",
+            "x=\"58.0\" y=\"132.0\" text-anchor=\"end\">1", "x=\"58.0\" y=\"92.0\" text-anchor=\"end\">2",
+            "x=\"58.0\" y=\"52.0\" text-anchor=\"end\">3", "x=\"58.0\" y=\"12.0\" text-anchor=\"end\">4",
+            "x=\"78.0\" y=\"224.0\" text-anchor=\"middle\">0 s", "x=\"278.0\" y=\"224.0\" text-anchor=\"middle\">200",
+            "x=\"478.0\" y=\"224.0\" text-anchor=\"middle\">400", "x=\"678.0\" y=\"224.0\" text-anchor=\"middle\">600",
+            "x=\"878.0\" y=\"224.0\" text-anchor=\"middle\">800",
+            "x=\"1078.0\" y=\"224.0\" text-anchor=\"middle\">1000"));
+    EXPECT_THAT(gap::to_svg(plot, {-14.1, 1011.9}),
+                testing::HasSubstr("x=\"1100.0\" y=\"224.0\" text-anchor=\"end\">1000"));
+    // Between -0.5 and 4.5, too, zero has none.
+    EXPECT_THAT(gap::to_svg({"left", 242.0, {{"line", {-0.5, 4.5}}}}, {0.0, 1.0}),
+                testing::AllOf(testing::HasSubstr(">0</text>"), testing::Not(testing::HasSubstr(">-0<"))));
+    // What never moves lies at the bottom of a span of 1.
+    const std::string flat = gap::to_svg({"left", 242.0, {{"line", {3.0, 3.0}}}}, {0.0, 1.0});
+    EXPECT_THAT(all_between(flat.substr(0, flat.find("phone")), "class=\"grid\" d=\"M64.0 ", "H"),
+                ElementsAre("208.0", "168.0", "128.0", "88.0", "48.0", "8.0"));
+}
+
+// Steps of the output are round ones of at least a sixth of it, a half where it is low.
+TEST(PlotAxes, HaveStepsOfASixthOrAHalf) {
+    const auto marks = [](double height, double most) {
+        const std::string svg = gap::to_svg({"left", height, {{"line", {0.0, most}}}}, {0.0, 1.1});
+        return all_between(svg.substr(0, svg.find("phone")), "text-anchor=\"end\">", "</text>");
+    };
+    using testing::ElementsAre;
+    EXPECT_THAT(marks(300.0, 5.97), ElementsAre("0", "1", "2", "3", "4", "5"));
+    EXPECT_THAT(marks(300.0, 6.03), ElementsAre("0", "2", "4", "6"));
+    EXPECT_THAT(marks(120.0, 1.99), ElementsAre("0", "1"));
+    EXPECT_THAT(marks(120.0, 2.01), ElementsAre("0", "2"));
+}
+
+// A part of the time is as dark as its share, 0.3 for the whole; below 0.01 it is left out.
+TEST(PlotShades, AreAsWideAsTheirPartsAndAsDarkAsTheirShares) {
+    const auto rects = [](std::vector<double> shade) {
+        const std::string svg = gap::to_svg({"left", 242.0, {{"line", {0.0, 1.0}}}, std::move(shade)}, {7.0, 9.0});
+        return all_between(svg.substr(0, svg.find("phone")), "<rect class=\"shade\" ", "/>");
+    };
+    using testing::ElementsAre;
+    const std::string first = "x=\"64.0\" y=\"8.0\" width=\"342.0\" height=\"200.0\" opacity=";
+    const std::string last = "x=\"748.0\" y=\"8.0\" width=\"342.0\" height=\"200.0\" opacity=";
+    EXPECT_THAT(rects({0.5, 0.0, 1.0}), ElementsAre(first + "\"0.15\"", last + "\"0.30\""));
+    EXPECT_THAT(rects({0.9837, 0.0, 0.0}), ElementsAre(first + "\"0.30\""));
+    EXPECT_THAT(rects({0.9831, 0.0, 0.0}), ElementsAre(first + "\"0.29\""));
+    EXPECT_THAT(rects({0.01 / 0.3 * 1.005, 0.0, 0.01 / 0.3 * 0.995}), ElementsAre(first + "\"0.01\""));
+}
+
+// What lasts no time lies in its first part.
+TEST(PlotShades, OfOneStampAreInTheFirstPart) {
+    std::vector<double> wanted(60, 0.0);
+    wanted.front() = 1.0;
+    EXPECT_EQ(gap::shade_of({2.0}, {5.0}), wanted);
+}
+
 }  // namespace

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "gap/drive/cost.hpp"
 #include "gap/drive/fit.hpp"
@@ -111,6 +112,72 @@ TEST(Settle, LeavesAThresholdThatMayBeNone) {
         EXPECT_EQ(told.numbers, 0U) << left_at;
         EXPECT_EQ(told.trained.lasting[0][0].value, left_at);
     }
+}
+
+// A given model and a threshold that is known to be one, without noise: training has the levels 0, 0.4, `upper` and
+// 1.2, validation a ramp through all of them.
+struct Given {
+    std::vector<gap::Record> records;
+    gap::Study train;
+    gap::Study judge;
+    Given(double upper, double truth) : train(blank()), judge(blank()) {
+        for (const bool ramp : {false, true}) {
+            gap::Record& record = records.emplace_back();
+            record.name = "given";
+            record.usual_interval_s = 0.1;
+            for (int i = 0; i < 400; ++i) {
+                record.time_s.push_back(0.1 * i);
+                record.input.push_back(ramp ? 0.003 * i : i < 100 ? 0.0 : i < 200 ? 0.4 : i < 300 ? upper : 1.2);
+                record.output.push_back(0.0);
+            }
+        }
+        for (std::size_t r = 0; r < 2; ++r) {
+            gap::Study& study = r == 0 ? train : judge;
+            study.courses.emplace_back(records[r], 1);
+            study.counts = gap::all_count({records[r]});
+            gap::Scenario scenario;
+            scenario.model = gap::model_of(study.base.form);
+            gap::effect_named("start_up_threshold").add_to(scenario, std::vector{truth, 1.0, 0.0});
+            records[r].output = gap::simulate(scenario, study.courses[0]);
+        }
+        train.scales = judge.scales = gap::scales_of(gap::model_of(train.base.form), {records[0]}, {});
+    }
+    static gap::Study blank() {
+        return {{gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)), false}, {}, {}, {}, 0.01, 0.001, 0};
+    }
+    [[nodiscard]] gap::Settled settled(double left_at) const {
+        const gap::Effect& threshold = gap::effect_named("start_up_threshold");
+        gap::Candidate trained;
+        trained.effects = {&threshold};
+        trained.lasting = {gap::parameters_of(threshold, train.scales, 0)};
+        const double values[] = {left_at, 1.0, 0.0};
+        for (std::size_t n = 0; n < 3; ++n) {
+            trained.lasting[0][n].value = values[n];
+        }
+        trained.own.resize(1);
+        return gap::settle(train, judge, trained);
+    }
+};
+
+// To a level of the ramp and a half of a hundredth of the stretch.
+TEST(SettleByHand, FindsTheThresholdOnARamp) {
+    for (const double truth : {0.45, 0.6, 0.7512}) {
+        const gap::Settled told = Given(0.8, truth).settled(0.5);
+        EXPECT_EQ(told.numbers, 1U);
+        EXPECT_NEAR(told.trained.lasting[0][0].value, truth, 0.005) << truth;
+        EXPECT_EQ(told.trained.lasting[0][1].value, 1.0);
+    }
+}
+
+// The stretch is as many hundredths of the range, of 0.95 of the greatest input, as training says nothing of.
+TEST(SettleByHand, StaysWhereTrainingSaysNothing) {
+    const double part = 0.01 * 0.95 * 1.2;
+    EXPECT_NEAR(Given(0.8, 0.4035).settled(0.5).trained.lasting[0][0].value, 0.5 - 8.0 * part, 1e-9);
+    EXPECT_NEAR(Given(0.8, 0.7995).settled(0.5).trained.lasting[0][0].value, 0.5 + 26.0 * part, 1e-9);
+    // From one level to the next it is no wider than a hundredth; from 0 on it may be none; above all there is one.
+    EXPECT_EQ(Given(0.42, 0.41).settled(0.41).numbers, 0U);
+    EXPECT_EQ(Given(0.45, 0.42).settled(0.42).numbers, 1U);
+    EXPECT_EQ(Given(0.8, 0.3).settled(0.2).numbers, 0U);
 }
 
 }  // namespace

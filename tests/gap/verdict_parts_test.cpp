@@ -152,6 +152,9 @@ TEST(VerdictFile, SaysWhatEachCauseTakes) {
     drift.gap_without = 0.05;  // others hide it: nothing, not less
     of.alternatives = {{drift}};
     EXPECT_THAT(gap::to_text(verdict_of(of)), HasSubstr("takes 0 % of the squared gap\n"));
+    drift.gap_before = 0.0;  // of nothing there is no share
+    of.alternatives = {{drift}};
+    EXPECT_THAT(gap::to_text(verdict_of(of)), Not(HasSubstr("takes")));
 }
 
 // A word has no interval, a number may have none, a list one for each.
