@@ -55,6 +55,21 @@ TEST(BdfWeights, OfWholeOrdersEndAndOfOrderZeroAreOne) {
     EXPECT_TRUE(bdf_weights(3, 0.5, 0).empty());
 }
 
+// However few are asked for: a list that is cut at its last weight keeps it.
+TEST(BdfWeights, OfWholeOrdersOverIncrementsAreTheFrontOfALongerList) {
+    for (const double order : {1.0, 2.0, 3.0}) {
+        for (unsigned steps = 2; steps <= 4; ++steps) {
+            const auto all = bdf_increment_weights(steps, order, 30);
+            for (std::size_t count = 1; count < all.size(); ++count) {
+                EXPECT_EQ(bdf_increment_weights(steps, order, count),
+                          std::vector<double>(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count)))
+                    << order << ", " << steps << ", " << count;
+            }
+        }
+    }
+    EXPECT_NEAR(bdf_increment_weights(2, 1.0, 2)[1], -1.0 / 3, 1e-15);  // (3 - 4z + z^2) / 3 over 1 - z
+}
+
 // 1 / P = 2 / ((1 - z)(3 - z)): w_j = 1 - 3^-(j+1). It sums a signal up, with half its weight lost at the start.
 TEST(BdfWeights, OfOrderMinusOneIntegrate) {
     const auto a = bdf_weights(2, -1.0, 100);

@@ -88,7 +88,7 @@ std::vector<double> bdf_weights(unsigned steps, double order, std::size_t count)
 std::vector<double> bdf_increment_weights(unsigned steps, double order, std::size_t count) {
     // P(1) = 0: behind the last weight of a whole order v > 0 the sums are 0.
     const bool ends = order > 0.0 && std::floor(order) == order;
-    const std::size_t last = ends ? count_of_nonzero(steps, order, count) - 1 : count;
+    const std::size_t last = ends ? steps * static_cast<std::size_t>(order) : count;
     std::vector<double> weights;
     weights.reserve(count);
     DoubleDouble running{0.0, 0.0};
