@@ -10,7 +10,8 @@
 
 namespace base {
 
-/// Letters to change, insert, drop or exchange with their neighbour.
+/// How many letters are to be changed, inserted or dropped, or neighbours exchanged; what is exchanged stays as it is:
+/// three from "ca" to "abc".
 inline std::size_t letters_between(const std::string& from, const std::string& to) {
     std::vector<std::vector<std::size_t>> steps(from.size() + 1, std::vector<std::size_t>(to.size() + 1));
     for (std::size_t i = 0; i <= from.size(); ++i) {

@@ -93,7 +93,7 @@ private:
                 below = middle;
             }
         }
-        const std::size_t from = std::max(fails, meets > longest_scan ? meets - longest_scan : 1);
+        const std::size_t from = std::max(fails + longest_scan, meets) - longest_scan;
         reach_.shortest = scan(from, meets, limit_).value_or(meets);
     }
 

@@ -144,7 +144,7 @@ private:
             return 0;
         }
         if (round == 0) {
-            return std::min<std::size_t>(32, fits + (fails - fits) / 2);
+            return std::min<std::size_t>(32, fails / 2);
         }
         double share = std::numeric_limits<double>::infinity();
         if (limits.max_cost && last.cost.limited > 0.0) {
@@ -154,9 +154,8 @@ private:
             share = std::min(share, *limits.max_bytes / last.cost.bytes);
         }
         std::size_t taps = fits + (fails - fits) / 2;
-        if (round % 3 != 2 && std::isfinite(share) && last.taps != 0) {
-            const double guess = std::min(1e6, static_cast<double>(last.taps) * share);
-            taps = static_cast<std::size_t>(guess) + (last.taps == static_cast<std::size_t>(guess) ? 1 : 0);
+        if (round % 3 != 2 && std::isfinite(share)) {
+            taps = static_cast<std::size_t>(std::min(1e6, static_cast<double>(last.taps) * share));
         }
         return std::clamp(taps, fits + 1, fails - 1);
     }

@@ -11,6 +11,7 @@
 #include "bench/gate/host_time.hpp"
 #include "bench/gate/row_table.hpp"
 #include "bench/rows/counters.hpp"
+#include "bench/rows/median.hpp"
 
 namespace bench::gate {
 namespace {
@@ -38,11 +39,6 @@ bool is_of_the_clock(const std::string& counter) {
     return facts != nullptr && facts->layer == CounterLayer::host_time;
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
-}
-
 // Repeated host times, by the gate's statistics; the first rule of host times names the anchor.
 void add_times(const RowTable& a, const RowTable& b, const std::string& name, const Rules& rules,
                std::vector<Pair>& pairs) {
@@ -54,8 +50,8 @@ void add_times(const RowTable& a, const RowTable& b, const std::string& name, co
     if (times_a.empty() || times_b.empty()) {
         return;
     }
-    pair.a = median(times_a);
-    pair.b = median(times_b);
+    pair.a = median_of(times_a);
+    pair.b = median_of(times_b);
     const auto rule = std::find_if(rules.begin(), rules.end(), [&](const Rule& candidate) {
         return candidate.layer == Layer::host_time && candidate.wants_row(name);
     });

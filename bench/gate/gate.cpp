@@ -12,6 +12,7 @@
 
 #include "base/glob.hpp"
 #include "bench/gate/host_time.hpp"
+#include "bench/gate/percent.hpp"
 #include "bench/gate/row_table.hpp"
 #include "bench/gate/shared_targets.hpp"
 #include "bench/rows/key.hpp"
@@ -268,7 +269,7 @@ private:
             return;
         }
         finding.change = relative_change(then, *now);
-        const std::string change = finding.change ? fmt::format(" ({:+.3g} %)", 100.0 * *finding.change) : "";
+        const std::string change = finding.change ? " (" + percent(*finding.change, 3) + ")" : "";
         finding.what = fmt::format("{} -> {}{}", then, *now, change);
         for (const Rule* rule : {fails, warns}) {
             if (rule != nullptr && rule->excess(then, *now) > 0.0) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "bench/gate/percent.hpp"
 #include "bench/rows/key.hpp"
 
 namespace bench::gate {
@@ -15,11 +16,6 @@ namespace {
 std::string shared_by(const Finding& finding) {
     const auto key = parse_any_key(finding.row);
     return key ? fmt::format("{} {} {}", key->model, key->kernel, key->aspect) : finding.row;
-}
-
-std::string percent(double change) {
-    const double value = 100.0 * change;
-    return value > -99.95 && value < 99.95 ? fmt::format("{:+.2g} %", value) : fmt::format("{:+.0f} %", value);
 }
 
 struct RegistryLine {
@@ -65,8 +61,8 @@ std::string FindingGroup::what() const {
     }
     const auto [least, most] = std::minmax_element(
         findings.begin(), findings.end(), [](const Finding* a, const Finding* b) { return *a->change < *b->change; });
-    const std::string from = percent(*(*least)->change);
-    const std::string to = percent(*(*most)->change);
+    const std::string from = percent(*(*least)->change, 2);
+    const std::string to = percent(*(*most)->change, 2);
     return from == to ? fmt::format("{} in {} rows", to, findings.size())
                       : fmt::format("{} to {} in {} rows", from, to, findings.size());
 }

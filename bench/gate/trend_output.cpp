@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "bench/gate/percent.hpp"
 #include "bench/gate/trend.hpp"
 #include "bench/rows/row.hpp"
 
 namespace bench::gate {
 namespace {
 
-std::string percent(double log_ratio) { return fmt::format("{:+.3g} %", 100.0 * std::expm1(log_ratio)); }
+std::string change_of(double log_ratio) { return percent(std::expm1(log_ratio), 3); }
 
 const char* verdict_of(const Change& change) {
     return change.better > 0 && change.worse > 0 ? "mixed"
@@ -21,10 +22,10 @@ const char* verdict_of(const Change& change) {
 std::string line_of(const Change& change) {
     const bool has_ratio = change.rows > change.without_ratio;
     const std::string range = has_ratio && change.highest > change.lowest
-                                  ? fmt::format("  ({} to {})", percent(change.lowest), percent(change.highest))
+                                  ? fmt::format("  ({} to {})", change_of(change.lowest), change_of(change.highest))
                                   : "";
     std::string line = fmt::format("  {:>3}  {:<26} {:<26} {:>10} {:>11}  {:<6}{}", change.run + 1, change.kernel,
-                                   change.counter, has_ratio ? percent(change.log_ratio) : "from/to 0",
+                                   change.counter, has_ratio ? change_of(change.log_ratio) : "from/to 0",
                                    fmt::format("{} of {}", change.rows, change.of), verdict_of(change), range);
     line.erase(line.find_last_not_of(' ') + 1);
     return line + "\n";

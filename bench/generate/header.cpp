@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "base/failure.hpp"
 #include "bench/choose/counted_order.hpp"
 #include "bench/generate/kernel_text.hpp"
 #include "bench/generate/opening.hpp"
@@ -14,9 +13,6 @@
 
 namespace generate {
 namespace {
-
-using glsum::Exit;
-using glsum::Failure;
 
 // A prime number of inputs, repeated: no length of the past is a multiple of it by design.
 constexpr std::size_t check_samples = 37;
@@ -32,10 +28,7 @@ std::vector<double> check_signal() { return bench::make_signal("noise", check_sa
 std::string format_word(const std::string& kernel) { return std::string(bench::facts_of(kernel).format); }
 
 std::string make_header(const Spec& spec) {
-    if (!is_identifier(spec.prefix)) {
-        throw Failure(Exit::bad_input,
-                      fmt::format("--prefix: expected letters, digits and underscores, found {}", spec.prefix));
-    }
+    check_prefix(spec.prefix);
     HeaderText text = kernel_text(spec);
     Facts& facts = text.facts;
     Places& places = text.places;

@@ -19,6 +19,7 @@ struct Spec {
     std::size_t taps;              ///< L >= 1; of a kernel with modes its near taps and two for each mode
     std::optional<double> step_s;  ///< gives the factor h^-v, where it is known
     std::string prefix = "glsum";  ///< of every identifier
+    std::string part = {};         ///< stands behind it, in a header of several sums
     std::string licence = {};      ///< what the comment ends with; nothing where it is empty
     std::size_t horizon = 5000;    ///< samples that a design with modes is for
     std::optional<glsum::design::FittedFilter> fitted = {};  ///< in place of the order's own weights, with `step_s`

@@ -85,10 +85,11 @@ HeaderText text_of(const Spec& spec) {
     using Accumulator = typename Format::Accumulator;
     const glsum::CatalogueEntry& kernel = *glsum::find_kernel(K::name());
     constexpr bool in_software = std::is_same_v<Accumulator, double>;
-    const std::string name = fmt::format("{}_{}", spec.prefix, kernel.format);
+    const std::string prefix = spec.prefix + spec.part;
+    const std::string name = fmt::format("{}_{}", prefix, kernel.format);
     const std::string call = name + (kernel.fused ? "_fused_" : "_");
     HeaderText text;
-    text.places = {{"prefix", spec.prefix},
+    text.places = {{"prefix", prefix},
                    {"name", name},
                    {"NAME", upper(name)},
                    {"f", std::string(kernel.format)},

@@ -7,6 +7,7 @@
 
 #include "bench/report/best.hpp"
 #include "bench/rows/key.hpp"
+#include "bench/rows/median.hpp"
 #include "glsum/catalogue.hpp"
 
 namespace bench::report {
@@ -28,9 +29,8 @@ std::string spread(const std::vector<Gain>& gains, double limit, const Cost& cos
     if (factors.empty()) {
         return fmt::format("   {:>14} {:>14} {:>14}", "none", "none", "none");
     }
-    std::sort(factors.begin(), factors.end());
-    const double median = (factors[(factors.size() - 1) / 2] + factors[factors.size() / 2]) / 2.0;
-    return fmt::format("   {:>14.1f} {:>14.1f} {:>14.1f}", factors.front(), median, factors.back());
+    const auto [smallest, largest] = std::ranges::minmax(factors);
+    return fmt::format("   {:>14.1f} {:>14.1f} {:>14.1f}", smallest, median_of(factors), largest);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "bench/rows/counters.hpp"
 #include "bench/rows/csv.hpp"
 #include "bench/rows/key.hpp"
+#include "bench/rows/median.hpp"
 
 namespace bench::report {
 namespace {
@@ -54,12 +55,6 @@ Rows rows_by_name(const std::vector<Json>& rows) {
     return named;
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
-}
-
 }  // namespace
 
 double Difference::size() const {
@@ -89,8 +84,8 @@ std::vector<Difference> differences(const std::vector<Json>& a, const std::vecto
         for (const auto& [counter, values] : row.counters) {
             const auto same = other->second->counters.find(counter);
             if (same != other->second->counters.end()) {
-                const double one = median(values);
-                const double two = median(same->second);
+                const double one = median_of(values);
+                const double two = median_of(same->second);
                 if (one != two) {
                     found.push_back({name, counter, one, two, ""});
                 }

@@ -9,6 +9,7 @@
 #include "base/gnuplot.hpp"
 #include "bench/report/best.hpp"
 #include "bench/report/classic.hpp"
+#include "bench/rows/median.hpp"
 
 namespace bench::report {
 namespace {
@@ -156,8 +157,7 @@ public:
             }
         }
         if (!ratios.empty()) {
-            std::ranges::sort(ratios);
-            const double median = ratios[ratios.size() / 2];
+            const double median = median_of(std::move(ratios));
             parts_.push_back(
                 fmt::format("{}: {:.{}f} times", base::gnuplot_text(cost.title), median, median < 10.0 ? 1 : 0));
         }

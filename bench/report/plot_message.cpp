@@ -43,13 +43,16 @@ std::string plot_message(const std::vector<Group>& groups) {
     LeastByOrder left;
     double most_terms = 0.0;
     for (const Group& group : groups) {
-        const double terms = taps_number(group.taps).value_or(0.0);
+        const auto terms = taps_number(group.taps);
+        if (!terms) {
+            continue;
+        }
         for (const Entry& entry : group.entries) {
-            if (is_window(group.taps) && terms == longest) {
+            if (is_window(group.taps) && *terms == longest) {
                 keep_least(forgotten, group.order, entry.truncation_error_max);
-            } else if (!is_window(group.taps) && terms < shortest && entry.fault.empty()) {
+            } else if (!is_window(group.taps) && *terms < shortest && entry.fault.empty() && entry.error_max) {
                 keep_least(left, group.order, entry.error_max);
-                most_terms = std::max(most_terms, terms);
+                most_terms = std::max(most_terms, *terms);
             }
         }
     }

@@ -1,12 +1,12 @@
 #include "bench/rows/groups.hpp"
 
-#include <algorithm>
 #include <set>
 #include <unordered_map>
 #include <utility>
 
 #include "bench/rows/front.hpp"
 #include "bench/rows/key.hpp"
+#include "bench/rows/median.hpp"
 #include "glsum/catalogue.hpp"
 
 namespace bench {
@@ -27,12 +27,7 @@ std::optional<double> median(const std::vector<const Json*>& repetitions, Counte
             values.push_back(*value);
         }
     }
-    if (values.empty()) {
-        return std::nullopt;
-    }
-    std::sort(values.begin(), values.end());
-    const std::size_t half = values.size() / 2;
-    return values.size() % 2 == 1 ? values[half] : (values[half - 1] + values[half]) / 2;
+    return values.empty() ? std::nullopt : std::optional(median_of(std::move(values)));
 }
 
 void add_row(Entry& entry, const RowKey& key, const Json& row) {

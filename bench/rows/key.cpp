@@ -35,14 +35,16 @@ bool is_number(std::string_view text) {
 
 // "600", "full" or "2+7".
 bool is_length(std::string_view text) {
-    return text == "full" || (has_only(text, "+") && text.size() <= 18 && text.front() != '+' &&
-                              text.find_first_not_of("0123456789+") == text.npos);
+    return text == "full" ||
+           (!text.empty() && text.size() <= 18 && text.find_first_not_of("0123456789+") == text.npos &&
+            text.front() != '+' && text.back() != '+' && text.find("++") == text.npos);
 }
 
-// "0.05..80": two numbers.
+// "0.05..80": two numbers, and two dots between.
 bool is_band(std::string_view text) {
     const std::size_t dots = text.find("..");
-    return dots != text.npos && is_number(text.substr(0, dots)) && is_number(text.substr(dots + 2));
+    return dots != text.npos && text.find("...") == text.npos && is_number(text.substr(0, dots)) &&
+           is_number(text.substr(dots + 2));
 }
 
 // A part of a name: where it stands in the key, what is written before it, what it may be.

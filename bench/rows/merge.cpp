@@ -76,7 +76,10 @@ Described describe(NamedResults& file) {
         }
         described.rows_of_pieces.emplace_back(number(pair[0], "a piece"), number(pair[1], "a number of rows"));
         const std::size_t more = described.rows_of_pieces.back().second;
-        rows = more > ResultLimits::rows ? ResultLimits::rows + 1 : std::min(rows + more, ResultLimits::rows + 1);
+        if (more > ResultLimits::rows - rows) {
+            throw refuse(fmt::format("context.shard: expected at most {} rows, found more", ResultLimits::rows));
+        }
+        rows += more;
     }
     if (rows != file.results.rows.size()) {
         throw refuse(

@@ -39,19 +39,20 @@ std::string_view not_a_finite_number(std::string_view text, std::size_t position
     return {};
 }
 
+// \param position  of the letter that is wrong, counted from 1
 [[noreturn]] void refuse_broken(const std::string& text, const std::string& name, std::size_t position) {
     const std::size_t last = text.find_last_not_of(" \t\r\n");
     if (last == std::string::npos) {
         refuse(fmt::format("{}: expected a result file, found an empty one", name));
     }
-    const std::size_t line = line_of(text, position == 0 ? 0 : position - 1);
+    const std::size_t line = line_of(text, position - 1);
     if (position > last + 1) {
         refuse(
             fmt::format("{}:{}: the file ends in the middle; expected the rest of its JSON (a copy or a run that was "
                         "cut off?)",
                         name, line));
     }
-    if (const std::string_view word = not_a_finite_number(text, position == 0 ? 0 : position - 1); !word.empty()) {
+    if (const std::string_view word = not_a_finite_number(text, position - 1); !word.empty()) {
         refuse(fmt::format("{}:{}: expected a finite number, found {}", name, line, word));
     }
     const std::size_t from = position < 12 ? 0 : position - 12;

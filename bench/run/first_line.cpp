@@ -7,13 +7,12 @@ namespace bench {
 
 std::string first_line(const std::string& command) {
     const std::unique_ptr<FILE, int (*)(FILE*)> pipe(popen(command.c_str(), "r"), pclose);
-    char line[1024] = "";
-    if (pipe && std::fgets(line, sizeof line, pipe.get()) == nullptr) {
-        return "";
+    const auto next = [&] { return pipe ? std::fgetc(pipe.get()) : EOF; };
+    std::string line;
+    for (int c = next(); c != EOF && c != '\n'; c = next()) {
+        line += static_cast<char>(c);
     }
-    std::string text(line);
-    text.erase(text.find_last_not_of('\n') + 1);
-    return text;
+    return line;
 }
 
 }  // namespace bench

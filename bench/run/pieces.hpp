@@ -12,9 +12,8 @@ namespace bench {
 
 /// What is measured in one go because it shares its costly part:
 ///   accuracy  one order and signal, all kernels and lengths: they are held against one exact sum
-///   target    one kernel and length on one machine, all orders: they share their counts of instructions; with modes,
-///   one kernel host      all timings: rows of one run are compared by ratio, so none is taken elsewhere or at another
-///   time
+///   target    one kernel and length on one machine, or one kernel with modes: all orders, which share their counts
+///   host      all timings: rows of one run are compared by ratio, so none is taken elsewhere or at another time
 /// The rows of a run are those of its pieces, one piece after the other.
 struct Piece {
     enum class Kind { accuracy, target, host };

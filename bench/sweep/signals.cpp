@@ -76,10 +76,12 @@ std::vector<double> step_response(std::size_t samples, double h_s) {
 
 std::vector<double> drive(std::size_t samples, double h_s) {
     constexpr double counts_per_unit = 1000.0 / 8.0;  // 45 degrees is an eighth of a turn
-    constexpr std::size_t longest = 50000;            // 50 s of 1 ms: long after the response has come to rest
+    constexpr double rest_s = 20.0;                   // the count changes no more after 3 s
+    h_s = std::min(h_s, rest_s);
     const auto finer = static_cast<std::size_t>(std::ceil(h_s / step_s * (1.0 - 1e-9)));
-    const std::size_t wanted = samples == 0 ? 0 : (samples - 1) * finer + 1;
-    const std::vector<double> fine = step_response(std::min(wanted, longest), h_s / static_cast<double>(finer));
+    const double fine_s = h_s / static_cast<double>(finer);
+    const double needed = std::min(static_cast<double>(samples * finer), rest_s / fine_s);
+    const std::vector<double> fine = step_response(static_cast<std::size_t>(needed), fine_s);
     std::vector<double> y(samples);
     double peak = 0.0;
     for (std::size_t k = 0; k < samples; ++k) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <stdexcept>
-#include <vector>
 
 namespace generate {
 namespace {
@@ -44,18 +43,18 @@ const Words::value_type* word_at(const Words& words, std::string_view text, std:
 
 std::string in_c99(std::string_view text, const Words& words) {
     std::string result;
-    std::vector<bool> casts;  // whether each angle that is open is a cast's
+    std::size_t casts = 0;  // that are open
     for (std::size_t at = 0; at < text.size();) {
         const Words::value_type* word = word_at(words, text, at);
         word = word != nullptr ? word : word_at(common, text, at);
         if (word != nullptr) {
             if (word->first == "static_cast<") {
-                casts.push_back(true);
+                ++casts;
             }
             result += word->second;
             at += word->first.size();
-        } else if (text[at] == '>' && !casts.empty()) {
-            casts.pop_back();
+        } else if (text[at] == '>' && casts > 0) {
+            --casts;
             result += ')';
             ++at;
         } else {

@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "base/failure.hpp"
+
 namespace generate {
 
 std::string fill(std::string_view text, const Places& places) {
@@ -66,8 +68,14 @@ std::string fingerprint(std::string_view text) {
 
 bool is_identifier(const std::string& text) {
     return !text.empty() && text.size() <= 60 && std::isdigit(static_cast<unsigned char>(text[0])) == 0 &&
-           std::all_of(text.begin(), text.end(),
-                       [](unsigned char c) { return c < 0x80 && (std::isalnum(c) != 0 || c == '_'); });
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
+}
+
+void check_prefix(const std::string& prefix) {
+    if (!is_identifier(prefix)) {
+        throw glsum::Failure(glsum::Exit::bad_input,
+                             fmt::format("--prefix: expected letters, digits and underscores, found {}", prefix));
+    }
 }
 
 std::string prefix_of_file(const std::filesystem::path& file) {

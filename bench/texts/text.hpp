@@ -34,6 +34,9 @@ using Places = std::map<std::string, std::string, std::less<>>;
 /// Of C, of at most 60 letters, so that there is room behind it.
 [[nodiscard]] bool is_identifier(const std::string& text);
 
+/// What every header's identifiers begin with. \throws glsum::Failure (bad input) where it is no identifier
+void check_prefix(const std::string& prefix);
+
 /// The prefix of a header in this file: its name, so that two files of one program go together, and one that is made
 /// again for another design keeps its callers.
 [[nodiscard]] std::string prefix_of_file(const std::filesystem::path& file);

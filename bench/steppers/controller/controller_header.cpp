@@ -21,13 +21,14 @@ namespace {
 constexpr std::size_t steps = 37 * 16;
 
 std::string sum_header(const ControllerSpec& spec, const char* kernel, const SumOfController& of,
-                       const std::string& prefix, const std::string& licence) {
+                       const std::string& prefix, const char* part, const std::string& licence) {
     Spec sum;
     sum.kernel = kernel;
     sum.order = of.order;
     sum.taps = of.taps;
     sum.step_s = spec.controller.sample_time_s;
     sum.prefix = prefix;
+    sum.part = part;
     sum.licence = licence;
     sum.horizon = spec.horizon;
     return make_header(sum);
@@ -161,15 +162,16 @@ Around around_q31(const ControllerSpec& spec, const std::string& prefix) {
 
 std::string make_controller_header(const ControllerSpec& spec, const std::string& prefix, const std::string& licence,
                                    const std::vector<std::string>& lines) {
+    check_prefix(prefix);
     const drive::Fopid& controller = spec.controller;
     const drive::Gains& gains = controller.gains;
     const std::string format = spec.format();
     const std::string name = upper(prefix + "_" + format);
     const std::string integral =
-        sum_header(spec, integral_kernel(spec), integral_sum(spec), prefix + "_integral", licence);
+        sum_header(spec, integral_kernel(spec), integral_sum(spec), prefix, "_integral", licence);
     const bool derives = gains.kd != 0.0;
     const std::string derivative =
-        derives ? sum_header(spec, derivative_kernel(spec), derivative_sum(spec), prefix + "_derivative", licence) : "";
+        derives ? sum_header(spec, derivative_kernel(spec), derivative_sum(spec), prefix, "_derivative", licence) : "";
     Around around = spec.input_full_scale ? around_q31(spec, prefix) : around_f32(spec, prefix);
     Places& places = around.places;
     places.merge(Places{

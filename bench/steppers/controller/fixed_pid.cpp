@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/failure.hpp"
 #include "bench/steppers/controller/controller_spec.hpp"
@@ -18,7 +19,10 @@ constexpr int gain_bits = 28;   // a mantissa is in [2^28, 2^29)
 constexpr int least_extra = 8;  // else what is rounded shows in the output
 
 // 2^-bits is what a mantissa of 1 stands for, as output full scales an error's. A gain of 0 may become 1 of them.
-int bits_of(double gain) { return gain_bits - (gain == 0.0 ? 0 : std::max(-40, std::ilogb(gain))); }
+int bits_of(double gain) {
+    constexpr double largest = std::numeric_limits<double>::max();  // stands for what is infinite, or no number
+    return gain_bits - (gain == 0.0 ? 0 : std::max(-40, std::ilogb(std::fmin(std::fabs(gain), largest))));
+}
 
 // What such a gain's product can reach whatever its mantissa, in full scales of the output.
 double reach(int bits) { return std::ldexp(1.0, 31 - bits); }
@@ -54,17 +58,13 @@ FixedPid fixed_pid(const drive::Fopid& controller, double input_full_scale, int 
     const drive::Gains& gains = controller.gains;
     Part parts[] = {part(fixed.kp, gains.kp, 1.0, 0), part(fixed.ki, gains.ki, factors.integral, integral),
                     part(fixed.kd, gains.kd, factors.derivative, derivative)};
-    double moves =
-        0.0;  // full scales of the output, by an error of full scale; and at most, added to the integral's own
-    double most = 1.0;
+    double moves = 0.0;  // full scales of the output, by an error of full scale
+    double most = 1.0;   // and at most, added to the integral's own
     for (const Part& one : parts) {
         moves += std::fabs(one.scaled);
         most += reach(one.bits);
     }
-    fixed.extra = 29 - std::ilogb(1.01 * most);  // most 2^(31 + extra) <= 2^61
-    for (const Part& one : parts) {
-        fixed.extra = std::min(fixed.extra, one.bits);
-    }
+    fixed.extra = 29 - std::ilogb(most);  // most is four powers of two, and most 2^(31 + extra) <= 2^61 (1 - 1/16)
     if (fixed.extra < least_extra) {
         refuse(
             fmt::format("--format q31: expected gains by which an error of full scale moves the output by less than "
@@ -75,7 +75,7 @@ FixedPid fixed_pid(const drive::Fopid& controller, double input_full_scale, int 
         const double scale = one.power * fixed.error_unit(one.exponent) / fixed.output_unit();
         one.gain->unit = std::ldexp(1.0, -one.bits) / scale;
         one.gain->mantissa = glsum::round_to_integer<std::int32_t>(one.value / one.gain->unit);
-        one.gain->shift = std::min(62, one.bits - fixed.extra);
+        one.gain->shift = one.bits - fixed.extra;
     }
     fixed.weight = glsum::round_to_integer<std::int32_t>(std::ldexp(controller.setpoint_weight, 30));
     fixed.passes = glsum::to_fixed(factors.passes);

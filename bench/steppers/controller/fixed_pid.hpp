@@ -12,7 +12,7 @@ namespace generate {
 struct FixedGain {
     std::int32_t mantissa = 0;
     double unit = 0.0;  ///< the gain, without its power of h, of mantissa 1
-    int shift = 0;      ///< from its products to the integral's units, in [0, 62]
+    int shift = 0;      ///< from its products to the integral's units, in [2, 60]
 };
 
 /// The numbers of kernels/glsum/model/pid_q31.h.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "base/failure.hpp"
@@ -40,10 +41,10 @@ private:
 class FullController {
 public:
     FullController(const drive::Fopid& controller, std::size_t count)
-        : weight_(controller.setpoint_weight),
-          integral_(1.0 - controller.gains.integral_order, count),
-          derivative_(controller.gains.derivative_order, controller.gains.kd != 0.0 ? count : 1),
-          derives_(controller.gains.kd != 0.0) {
+        : weight_(controller.setpoint_weight), integral_(1.0 - controller.gains.integral_order, count) {
+        if (controller.gains.kd != 0.0) {
+            derivative_.emplace(controller.gains.derivative_order, count);
+        }
         const Factors factors = factors_of(controller);
         pid_ = {controller.gains.kp,
                 controller.gains.ki * factors.integral,
@@ -61,15 +62,14 @@ public:
     double step(double setpoint, double measured) {
         const double weighted = glsum_pid_product(weight_, setpoint) - measured;
         const double integral = integral_.step(setpoint - measured);
-        return glsum_pid_step(&pid_, weighted, integral, derives_ ? derivative_.step(weighted) : 0.0);
+        return glsum_pid_step(&pid_, weighted, integral, derivative_ ? derivative_->step(weighted) : 0.0);
     }
 
 private:
     glsum_pid pid_{};
     double weight_;
     FullSum integral_;
-    FullSum derivative_;
-    bool derives_;
+    std::optional<FullSum> derivative_;
 };
 
 // The plant's output in a loop with whatever puts out u for set point and reading.

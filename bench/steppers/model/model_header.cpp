@@ -40,6 +40,7 @@ std::string past_header(const ModelSpec& spec, const glsum::PastTable& table, co
     sum.order = 0.0;
     sum.taps = table.design().taps;
     sum.prefix = prefix;
+    sum.part = "_past";
     sum.licence = licence;
     sum.past_of_model = true;
     sum.fitted = glsum::design::FittedFilter{
@@ -122,8 +123,8 @@ std::string code_f32(const ModelSpec& spec, const std::string& prefix, const std
                   {"steps", std::to_string(steps)},
                   {"hash", fmt::format("UINT64_C(0x{:016X})", hash.value())}};
     places["body"] = fill(body_of(numbers, spec.compensated, has_past), places);
-    std::string code = has_past ? past_header(spec, numbers.tables[0], prefix + "_past", licence)
-                                : "#include <stdint.h>\n#include <string.h>\n";
+    std::string code =
+        has_past ? past_header(spec, numbers.tables[0], prefix, licence) : "#include <stdint.h>\n#include <string.h>\n";
     return code + floating_guard(prefix + "_f32") + fill(model_text, places);
 }
 
@@ -172,8 +173,8 @@ std::string code_q31(const ModelSpec& spec, FixedModel& stepped, const std::stri
         {"Rounded", "@prefix@_q31_rounded"}, {"round_shift(", "@prefix@_q31_round_shift("}, {"state.", "S->"}};
     places["times"] = fill(shared("model times", words) + shared("model times signed", words), places);
     places["body"] = fill(fixed_body_of(numbers, has_past), places);
-    std::string code = has_past ? past_header(spec, numbers.tables[0], prefix + "_past", licence)
-                                : "#include <stdint.h>\n#include <string.h>\n";
+    std::string code =
+        has_past ? past_header(spec, numbers.tables[0], prefix, licence) : "#include <stdint.h>\n#include <string.h>\n";
     return code + fill(model_q31_text, places);
 }
 
@@ -181,6 +182,7 @@ std::string code_q31(const ModelSpec& spec, FixedModel& stepped, const std::stri
 
 std::string make_model_header(const ModelSpec& spec, const std::string& prefix, const std::string& licence,
                               const std::vector<std::string>& lines) {
+    check_prefix(prefix);
     const std::string format = spec.format();
     std::string code;
     std::string promise;

@@ -100,7 +100,7 @@ std::string cost_table(const std::vector<std::pair<std::string, StepCost>>& rows
     return text + fmt::format(
                       "\n  a step on the {}; cycles of the timing model for {}; bytes of an instance,\n"
                       "  of the tables and of the step's code\n",
-                      rows.empty() ? "" : rows.front().second.where, core);
+                      rows.front().second.where, core);
 }
 
 }  // namespace generate

@@ -49,7 +49,7 @@ struct OnTarget {
 /// On one line.
 [[nodiscard]] std::string to_text(const CheckedBits& checked);
 
-/// A line for each named cost, under a heading, and what the columns are.
+/// A line for each named cost, under a heading, and what the columns are. \pre there is a cost
 [[nodiscard]] std::string cost_table(const std::vector<std::pair<std::string, StepCost>>& rows,
                                      const std::string& core);
 
