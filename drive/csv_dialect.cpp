@@ -17,6 +17,7 @@ namespace {
 // Lines that the separator is found by.
 constexpr std::size_t looked_at = 64;
 
+// The likeliest first: blanks last, as they part wherever tabs do.
 constexpr std::array<std::pair<Separator, const char*>, 4> separators = {{{Separator::comma, "comma"},
                                                                           {Separator::semicolon, "semicolon"},
                                                                           {Separator::tab, "tab"},
@@ -62,11 +63,6 @@ Reading read_with(std::pair<Separator, const char*> separator, const std::vector
     }
     reading.shows += fields.size() > 3 ? ", ..." : "";
     return reading;
-}
-
-bool same_by_blanks_or_tabs(const Reading& a, const Reading& b) {
-    return (a.separator == Separator::tab && b.separator == Separator::blank) ||
-           (a.separator == Separator::blank && b.separator == Separator::tab);
 }
 
 }  // namespace
@@ -153,7 +149,7 @@ Separator find_separator(std::string_view text, const std::string& name) {
         readings.push_back(std::move(reading));
     }
     const Reading* best = nullptr;
-    const Reading* as_good = nullptr;
+    const Reading* as_good = nullptr;  // the first after it; behind tabs only blanks are, which is no other reading
     for (const Reading& reading : readings) {
         if (!reading.splits() || (any_even && !reading.even)) {
             continue;
@@ -161,8 +157,8 @@ Separator find_separator(std::string_view text, const std::string& name) {
         if (best == nullptr || reading.has_more_numbers_than(*best)) {
             best = &reading;
             as_good = nullptr;
-        } else if (!best->has_more_numbers_than(reading) && best->numbers > 0 &&
-                   !same_by_blanks_or_tabs(*best, reading)) {
+        } else if (as_good == nullptr && best->numbers > 0 && !best->has_more_numbers_than(reading) &&
+                   best->separator != Separator::tab) {
             as_good = &reading;
         }
     }

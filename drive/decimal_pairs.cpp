@@ -48,7 +48,7 @@ void add_readings(const std::vector<Field>& fields, std::size_t at, std::size_t 
 
 std::vector<Field> joined_pairs(const std::vector<Field>& fields) {
     std::vector<Field> joined;
-    for (std::size_t i = 0; i + 1 < fields.size(); i += 2) {
+    for (std::size_t i = 0; i < fields.size(); i += 2) {
         joined.push_back({from_first_to_last(fields[i], fields[i + 1]), false});
     }
     return joined;

@@ -22,7 +22,7 @@ Form::Form(Kind kind, const Model& start) : kind_(kind), shape_(start) {
         // The time constant of the mean: a_1 / a_0, shared by two.
         double first = 0.0;
         for (const Term& term : start.denominator) {
-            first = std::fabs(term.order - 1.0) < 0.5 && term.order > 0.0 ? term.coefficient : first;
+            first = std::fabs(term.order - 1.0) < 0.5 ? term.coefficient : first;
         }
         const double constant = constant_coefficient(start.denominator);
         double time_constant_s = constant != 0.0 ? first / constant : first;

@@ -63,7 +63,7 @@ void InverseLaplace::at(double t, std::span<double> values) {
         last_exponent_ = exponent;
     }
     const double place = (std::scalbn(t, -exponent) - 1.0) * static_cast<double>(last_->pieces);
-    const auto index = std::min(static_cast<std::size_t>(place), last_->pieces - 1);
+    const auto index = static_cast<std::size_t>(place);  // below the number of pieces, a power of two: exactly
     const double x = 2.0 * (place - static_cast<double>(index)) - 1.0;
     for (std::size_t f = 0; f < values.size(); ++f) {
         const std::array<double, nodes>& c = last_->coefficients[index * count_ + f];

@@ -6,6 +6,7 @@
 
 #include "base/failure.hpp"
 #include "drive/closed_loop.hpp"
+#include "drive/over_log.hpp"
 
 namespace drive {
 namespace {
@@ -17,14 +18,12 @@ namespace {
 Record to_record(const Log& log, const std::optional<Model>& controller) {
     Record record;
     record.name = log.name;
-    for (const double t : log.time_s) {
-        record.time_s.push_back(t - log.time_s.front());
-    }
     record.output = log.output;
     if (record.output.size() < 8) {
         refuse(
             fmt::format("{}: expected at least 8 samples to identify from, found {}", log.name, record.output.size()));
     }
+    record.time_s = from_start(log).time_s;
     record.controller = controller;
     if (controller) {
         record.reference = log.reference.empty() ? recover_reference(*controller, record.time_s, log.input, log.output)

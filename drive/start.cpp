@@ -173,8 +173,10 @@ Model search_start(Kind kind, const std::vector<Record>& records) {
     constexpr int points = 400;
     const double step_s = longest_s / points;
     std::vector<RoughRecord> rough;
+    std::size_t most = 0;
     for (const Record& record : records) {
         rough.emplace_back(record, step_s);
+        most = std::max(most, rough.back().output().size());
     }
     // What swings has to be met within a part of its period: the lightest damping rings for some three of them.
     const std::vector<double> dampings =
@@ -188,7 +190,7 @@ Model search_start(Kind kind, const std::vector<Record>& records) {
     for (int i = 0; i < constants; ++i) {
         const double now_s = longest_s * std::pow(0.003, static_cast<double>(i) / (constants - 1));
         for (const double damped : dampings) {
-            std::vector<double> step(points + 2);
+            std::vector<double> step(most);
             for (std::size_t k = 0; k < step.size(); ++k) {
                 step[k] = unit_step(kind != Kind::fopdt, damped, static_cast<double>(k) * step_s / now_s);
             }

@@ -29,8 +29,8 @@ const std::array<Named, 6>& named_units() {
 }
 
 std::string_view without_brackets(std::string_view word) {
-    const bool has_brackets = word.size() >= 2 && ((word.front() == '[' && word.back() == ']') ||
-                                                   (word.front() == '(' && word.back() == ')'));
+    const bool has_brackets =
+        !word.empty() && ((word.front() == '[' && word.back() == ']') || (word.front() == '(' && word.back() == ')'));
     return has_brackets ? trimmed(word.substr(1, word.size() - 2)) : word;
 }
 

@@ -214,11 +214,8 @@ private:
         const bool upward = mode_ == Mode::up;
         if (!moves()) {
             note(t, mode_ == Mode::stuck ? EventKind::breaks_loose : EventKind::leaves_stop, 0.0);
-            choose_mode(t);
-            // Free to move, though only just: the torque that freed it says whereto.
-            if (!moves()) {
-                mode_ = torque(state_, t) > 0.0 ? Mode::up : Mode::down;
-            }
+            // The torque that freed it says whereto.
+            mode_ = torque(state_, t) > 0.0 ? Mode::up : Mode::down;
             return;
         }
         const double stop = upward ? stand_.upper_stop_rad : stand_.lower_stop_rad;

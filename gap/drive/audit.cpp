@@ -98,26 +98,21 @@ double held_share_of(const std::vector<Record>& records, double quantum) {
         const std::vector<double>& z = record.output;
         const auto [low, high] = std::minmax_element(z.begin(), z.end());
         count += static_cast<double>(z.size());
-        for (std::size_t i = 1; i < z.size(); ++i) {
-            if (z[i] != z[i - 1] || z[i] == *low || z[i] == *high) {
-                continue;
+        // By stretches of readings that are the same.
+        for (std::size_t from = 0; from < z.size();) {
+            std::size_t to = from + 1;
+            while (to < z.size() && z[to] == z[from]) {
+                ++to;
             }
-            std::size_t end = i;
-            while (end + 1 < z.size() && z[end + 1] == z[i]) {
-                ++end;
-            }
-            if (end + near >= z.size() || i < near + 1) {
-                i = end;
-                continue;
-            }
+            const bool within = z[from] != *low && z[from] != *high && from >= near && to + near <= z.size();
             // Before and after the stretch every sample moved by more than a quantum makes.
-            bool moves = std::fabs(z[end + 1] - z[i]) > 2.5 * quantum;
+            bool moves = within && std::fabs(z[to] - z[from]) > 2.5 * quantum;
             for (std::size_t k = 1; k < near / 2; ++k) {
-                moves = moves && std::fabs(z[i - 1 - k] - z[i - k]) > 0.0 &&
-                        (quantum > 0.0 || std::fabs(z[end + k + 1] - z[end + k]) > 0.0);
+                moves = moves && std::fabs(z[from - k] - z[from + 1 - k]) > 0.0 &&
+                        (quantum > 0.0 || std::fabs(z[to + k] - z[to + k - 1]) > 0.0);
             }
-            held += moves ? static_cast<double>(end - i + 1) : 0.0;
-            i = end;
+            held += moves ? static_cast<double>(to - from - 1) : 0.0;
+            from = to;
         }
     }
     return held > 0.002 * count ? held / count : 0.0;

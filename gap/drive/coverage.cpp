@@ -145,7 +145,7 @@ void add_levels(std::vector<std::string>& all, const Records& train, const Recor
     }
 }
 
-// The mean square of an output in each band, its ends' difference and its window taken off; the mean of several
+// What an output's mean square in each band is in proportion to, its ends' difference taken off; the mean of several
 // records by their lengths. \param edges  Hz, rising
 std::vector<double> squares_by_band(const Records& records, const std::vector<double>& edges) {
     std::vector<double> squares(edges.size() - 1, 0.0);
@@ -161,9 +161,8 @@ std::vector<double> squares_by_band(const Records& records, const std::vector<do
             mean += values[i] / static_cast<double>(size);
         }
         for (std::size_t i = 0; i < size; ++i) {
-            // Hann's window, of unit mean square.
-            values[i] = (values[i] - mean) * std::sqrt(2.0 / 3.0) *
-                        (1.0 - std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / last));
+            // Hann's window.
+            values[i] = (values[i] - mean) * (1.0 - std::cos(2.0 * std::numbers::pi * static_cast<double>(i) / last));
         }
         Eigen::FFT<double> fft;
         std::vector<std::complex<double>> spectrum;

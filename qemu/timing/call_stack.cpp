@@ -60,8 +60,7 @@ void CallStack::land(std::uint32_t address) {
 void CallStack::leave(const Decoded& last, std::uint32_t address, std::uint32_t next) {
     sequential_ = address + last.bytes;
     const bool jumps = next != sequential_;
-    called_ = jumps && (last.branch == Branch::call || (last.branch == Branch::indirect && last.write_count > 0 &&
-                                                        last.writes[0].reg == registers::lr));
+    called_ = jumps && last.is_call();
     unwound_ =
         jumps && std::any_of(unwinding_.restorers.begin(), unwinding_.restorers.end(),
                              [&](const AddressRange& range) { return range.begin <= address && address < range.end; });

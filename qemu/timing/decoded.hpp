@@ -118,6 +118,11 @@ struct Decoded {
     }
     [[nodiscard]] bool is_load() const { return kind == Kind::load || kind == Kind::load_multiple; }
     [[nodiscard]] bool is_store() const { return kind == Kind::store || kind == Kind::store_multiple; }
+    /// BL, or BLX of a register. A jump may also load LR, with PC: that is none.
+    [[nodiscard]] bool is_call() const {
+        return branch == Branch::call ||
+               (branch == Branch::indirect && writes[0].reg == registers::lr && writes[0].source == Source::result);
+    }
     [[nodiscard]] bool is_fp_arithmetic() const { return kind >= Kind::fp_add && kind <= Kind::fp_convert; }
 };
 

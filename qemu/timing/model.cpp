@@ -26,9 +26,9 @@ Pipeline::Pipeline(const Figures& figures, std::int64_t longest_fetch, Effects o
     // later.
     fetch_memory_ = static_cast<std::int32_t>(static_cast<std::int64_t>(fetch_queue_ + 1) * (1 + longest_fetch));
     fp_memory_ = static_cast<std::int32_t>(
-        2 + std::max({f.fp_bar_after_mac, f.fp_younger_bar_after_mac, f.fp_fma_bar_after_mla, f.fp_load_bar_after_mac,
-                      f.fp_overwrite_bar_after_mac, f.fp_mac_bar_after_load, f.fp_mac_bar_after_store,
-                      f.fp_chain_across_transfer, f.fp_move_spacing, f.branch_flags_known_after}));
+        std::max({f.fp_bar_after_mac, f.fp_younger_bar_after_mac, f.fp_fma_bar_after_mla, f.fp_load_bar_after_mac,
+                  f.fp_overwrite_bar_after_mac, f.fp_mac_bar_after_load, f.fp_mac_bar_after_store,
+                  f.fp_chain_across_transfer, f.fp_move_spacing, f.branch_flags_known_after}));
 }
 
 void Pipeline::hold_next(Effect effect, std::int32_t until) {

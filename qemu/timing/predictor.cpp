@@ -26,15 +26,13 @@ int& Predictor::counter_of(std::uint32_t address, Entry& entry) {
 
 Prediction Predictor::meet(const Decoded& branch, std::uint32_t address, std::uint32_t next) {
     const bool taken = next != address + branch.bytes;
-    const bool calls = branch.branch == Branch::call || (branch.branch == Branch::indirect && branch.write_count > 0 &&
-                                                         branch.writes[0].reg == registers::lr);
     if (taken && branch.branch == Branch::back && !branch.in_it_block && held_ > 0) {
         const bool right = returns_[newest_] == next;
         newest_ = (newest_ + returns_.size() - 1) % returns_.size();
         --held_;
         return right ? Prediction::right : Prediction::wrong;
     }
-    if (calls && taken && !returns_.empty()) {
+    if (branch.is_call() && taken && !returns_.empty()) {
         newest_ = (newest_ + 1) % returns_.size();
         returns_[newest_] = address + branch.bytes;
         held_ = std::min(held_ + 1, returns_.size());

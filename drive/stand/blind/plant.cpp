@@ -62,13 +62,12 @@ std::vector<Level> levels_of(const Plant& plant, const Stand& effects, const Unl
     std::vector<Level> levels{{0.0, 0.0}};
     double played = 0.0;
     double before = 0.0;
-    bool falls = false;
     for (std::size_t i = 0; i < held.time_s.size(); ++i) {
         double u = held.input[i];
         if (i > 0 && u == held.input[i - 1]) {
             continue;
         }
-        falls = u < before;
+        const bool falls = u < before;
         before = u;
         const double delay_s = plant.delay_s + effects.extra_delay_s +
                                unlisted.delay_at_rest_s * std::clamp(1.0 - u / plant.full_input, 0.0, 1.0);

@@ -39,7 +39,7 @@ std::vector<double> speeds(const Remainder& of) {
     std::vector<double> speed(record.size());
     const std::size_t reach = std::max<std::size_t>(1, record.size() / 2000);
     for (std::size_t i = 0; i < speed.size(); ++i) {
-        const std::size_t from = i < reach ? 0 : i - reach;
+        const std::size_t from = i - std::min(i, reach);
         const std::size_t to = std::min(speed.size() - 1, i + reach);
         speed[i] = (of.simulated[to] - of.simulated[from]) / (record.time_s[to] - record.time_s[from]);
     }

@@ -16,22 +16,45 @@ constexpr std::size_t most_segments = 16;
 constexpr std::size_t levels = 5;        // where there are many
 constexpr std::size_t most_levels = 12;  // that stand for themselves
 
-// Squares of the residuals; ones where all are zero, so that shares exist.
-std::vector<std::vector<double>> squares_of(const std::vector<std::vector<double>>& residuals) {
+// What residuals are shared out by, of each record: their squares and, of the same sum by Parseval's equation, those of
+// their spectrum.
+struct Squares {
+    std::vector<std::vector<double>> in_time;
+    std::vector<std::vector<double>> by_frequency;
+};
+
+std::vector<double> squared_spectrum_of(const std::vector<double>& residuals) {
+    Eigen::FFT<double> fft;
+    std::vector<std::complex<double>> spectrum;
+    fft.fwd(spectrum, residuals);
+    std::vector<double> squares;
+    for (const std::complex<double>& line : spectrum) {
+        squares.push_back(std::norm(line) / static_cast<double>(residuals.size()));
+    }
+    return squares;
+}
+
+// Ones where no record has a gap, so that shares exist.
+Squares squares_of(const std::vector<std::vector<double>>& residuals) {
     double sum = 0.0;
-    std::vector<std::vector<double>> squares = residuals;
-    for (auto& record : squares) {
+    Squares all{residuals, {}};
+    for (auto& record : all.in_time) {
         for (double& value : record) {
             value *= value;
             sum += value;
         }
     }
     if (!(sum > 0.0)) {
-        for (auto& record : squares) {
+        for (auto& record : all.in_time) {
             std::fill(record.begin(), record.end(), 1.0);
         }
+        all.by_frequency = all.in_time;
+        return all;
     }
-    return squares;
+    for (const auto& record : residuals) {
+        all.by_frequency.push_back(squared_spectrum_of(record));
+    }
+    return all;
 }
 
 void normalise(std::vector<Share>& shares) {
@@ -52,9 +75,6 @@ std::vector<std::pair<std::size_t, std::string>> level_moves_of(const Record& re
     const double small = 0.02 * (*high - *low) * (1.0 - 1e-9);
     const std::size_t quiet = std::max<std::size_t>(3, record.size() / 200);
     std::vector<std::pair<std::size_t, std::string>> moves;
-    if (!(*high > *low)) {
-        return moves;
-    }
     std::optional<double> rest;
     for (std::size_t i = 0; i < record.size();) {
         std::size_t end = i;
@@ -124,7 +144,7 @@ std::vector<Share> bands_of(const std::vector<Record>& records) {
     }
     // A period in each record lies above the constant's band, whatever is rounded.
     lowest_hz *= 1.0 - 1e-9;
-    const int count = std::max(1, static_cast<int>(std::lround(2.0 * std::log10(highest_hz / lowest_hz))));
+    const int count = static_cast<int>(std::lround(2.0 * std::log10(highest_hz / lowest_hz)));
     std::vector<Share> bands = {{0.0, lowest_hz, 0.0, ""}};
     for (int band = 1; band <= count; ++band) {
         const double to_hz = band == count
@@ -135,19 +155,12 @@ std::vector<Share> bands_of(const std::vector<Record>& records) {
     return bands;
 }
 
-// By Parseval's equation the bands' energies are the squares' sum.
-void add_bands(std::vector<Share>& bands, const Record& record, std::vector<double> residuals) {
-    if (std::all_of(residuals.begin(), residuals.end(), [](double value) { return value == 0.0; })) {
-        residuals.front() = 1.0;  // as much of each frequency
-    }
-    Eigen::FFT<double> fft;
-    std::vector<std::complex<double>> spectrum;
-    fft.fwd(spectrum, residuals);
-    const std::size_t size = residuals.size();
+void add_bands(std::vector<Share>& bands, const Record& record, const std::vector<double>& squares) {
+    const std::size_t size = squares.size();
     for (std::size_t k = 0; k < size; ++k) {
         const double hz = rate_of(record) * static_cast<double>(std::min(k, size - k)) / static_cast<double>(size);
         auto band = std::find_if(bands.begin(), bands.end(), [&](const Share& share) { return hz < share.to; });
-        (band == bands.end() ? bands.back() : *band).share += std::norm(spectrum[k]) / static_cast<double>(size);
+        (band == bands.end() ? bands.back() : *band).share += squares[k];
     }
 }
 
@@ -184,9 +197,6 @@ std::vector<Share> by_level(const std::vector<Record>& records, const std::vecto
         all.insert(all.end(), values(record).begin(), values(record).end());
     }
     const auto [low, high] = std::minmax_element(all.begin(), all.end());
-    if (!(*high > *low)) {
-        return {{*low, *high, 1.0, ""}};
-    }
     std::vector<Share> shares = few_levels(all, *high - *low);
     if (shares.empty()) {
         shares = even_levels(*low, *high);
@@ -196,7 +206,7 @@ std::vector<Share> by_level(const std::vector<Record>& records, const std::vecto
         for (const double at : values(records[r])) {
             const auto above = std::upper_bound(shares.begin(), shares.end(), at,
                                                 [](double value, const Share& share) { return value < share.from; });
-            (above == shares.begin() ? shares.front() : *std::prev(above)).share += *square++;
+            std::prev(above)->share += *square++;
         }
     }
     normalise(shares);
@@ -229,7 +239,7 @@ Where locate(std::vector<Record> records, std::vector<std::vector<double>> resid
     for (std::size_t r = 0; r < counts.size(); ++r) {
         cut(records[r], residuals[r], counts[r]);
     }
-    const std::vector<std::vector<double>> squares = squares_of(residuals);
+    const auto [squares, by_frequency] = squares_of(residuals);
     Where where;
     where.frequency = bands_of(records);
     for (std::size_t r = 0; r < records.size(); ++r) {
@@ -239,7 +249,7 @@ Where locate(std::vector<Record> records, std::vector<std::vector<double>> resid
             }
             where.time.push_back(share);
         }
-        add_bands(where.frequency, records[r], residuals[r]);
+        add_bands(where.frequency, records[r], by_frequency[r]);
     }
     normalise(where.time);
     normalise(where.frequency);
@@ -254,12 +264,11 @@ Where locate(std::vector<Record> records, std::vector<std::vector<double>> resid
         // Over about a fiftieth of the record the output must have moved by a hundredth of its range.
         const std::size_t reach = std::max<std::size_t>(1, record.size() / 100);
         for (std::size_t i = 0; i < record.size(); ++i) {
-            const std::size_t from = i < reach ? 0 : i - reach;
+            const std::size_t from = i - std::min(i, reach);
             const std::size_t to = std::min(record.size() - 1, i + reach);
             const double moved = record.output[to] - record.output[from];
-            double& direction = std::fabs(moved) < 0.01 * (*high - *low) ? where.still
-                                : moved > 0.0                            ? where.rising
-                                                                         : where.falling;
+            const bool still = moved == 0.0 || std::fabs(moved) < 0.01 * (*high - *low);
+            double& direction = still ? where.still : moved > 0.0 ? where.rising : where.falling;
             direction += squares[r][i];
             sum += squares[r][i];
         }

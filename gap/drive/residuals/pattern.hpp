@@ -22,8 +22,9 @@ struct Burst {
 
 struct Wave {
     double hz = 0.0;
-    double over_neighbours =
-        0.0;  ///< power of its line over the median of fifteen below or above, the greater; 0: too short a record
+    /// Power of its line over the median of the third to the fifteenth below or above, the greater; 0: too short a
+    /// record.
+    double over_neighbours = 0.0;
     double share = 0.0;  ///< of the squares, the mean left out
 };
 
