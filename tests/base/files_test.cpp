@@ -6,7 +6,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -165,6 +167,61 @@ TEST(Files, AFolderForResultsIsNewOrEmpty) {
     base::write_file(path / "a", "");
     EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { base::check_new_or_empty(path); }),
               path.string() + ": expected a folder that is new or empty, found files in it");
+}
+
+// A folder of its own, in which scratch folders are made meanwhile.
+class ScratchFolder : public testing::Test {
+protected:
+    void SetUp() override {
+        if (const char* const before = std::getenv("TMPDIR")) {
+            before_ = before;
+        }
+        setenv("TMPDIR", outer_.file("").c_str(), 1);
+    }
+    void TearDown() override {
+        if (before_) {
+            setenv("TMPDIR", before_->c_str(), 1);
+        } else {
+            unsetenv("TMPDIR");
+        }
+    }
+    const base::Scratch outer_;
+
+private:
+    std::optional<std::string> before_;
+};
+
+TEST_F(ScratchFolder, IsNewAndEmptyAndGoesWithWhatIsInIt) {
+    std::filesystem::path made;
+    {
+        const base::Scratch one;
+        const base::Scratch other;
+        made = one.file("a").parent_path();
+        EXPECT_NE(made, other.file("a").parent_path());
+        EXPECT_EQ(made.parent_path(), outer_.file("a").parent_path());
+        EXPECT_EQ(made.filename().string().find("glsum-" + std::to_string(getpid()) + "-"), 0U);
+        EXPECT_EQ(files_in(made), 0);
+        std::filesystem::create_directory(one.file("b"));
+        base::write_file(one.file("b") / "a", "x");
+    }
+    EXPECT_FALSE(std::filesystem::exists(made));
+    EXPECT_EQ(files_in(outer_.file("")), 0);
+}
+
+// Of runs that were killed nothing stays; of those at work, and of others' folders, all does.
+TEST_F(ScratchFolder, OfAKilledRunIsRemoved) {
+    const std::string alive = "glsum-" + std::to_string(getppid()) + "-aaaaaa";
+    for (const std::string& name : {alive, std::string("glsum-999999999-aaaaaa"), std::string("glsum-mine"),
+                                    std::string("other-999999999-aaaaaa")}) {
+        std::filesystem::create_directory(outer_.file(name.c_str()));
+        base::write_file(outer_.file(name.c_str()) / "a", "x");
+    }
+    { const base::Scratch swept; }
+    EXPECT_FALSE(std::filesystem::exists(outer_.file("glsum-999999999-aaaaaa")));
+    EXPECT_TRUE(std::filesystem::exists(outer_.file(alive.c_str()) / "a"));
+    EXPECT_TRUE(std::filesystem::exists(outer_.file("glsum-mine") / "a"));
+    EXPECT_TRUE(std::filesystem::exists(outer_.file("other-999999999-aaaaaa") / "a"));
+    EXPECT_EQ(files_in(outer_.file("")), 3);
 }
 
 }  // namespace

@@ -4,7 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -196,6 +199,134 @@ TEST(CompareTable, SumsEachCounterAndNamesTheLargestChanges) {
     EXPECT_NE(to_table(comparison, 4).find("(3 of 3)"), std::string::npos);
     EXPECT_NE(to_table(comparison, 4).find("one bytes: 8 -> 16, x2 worse\n"), std::string::npos);
     EXPECT_EQ(to_table(Comparison{}, 9).find("largest"), std::string::npos);
+}
+
+// A run of the host times of kernels, repetition by repetition.
+Results run_of_times(const std::map<std::string, std::vector<double>>& kernels) {
+    Results made = run(1e-3, 50.0, 100.0, "GNU 12.2.0", "own");
+    made.rows.clear();
+    for (const auto& [kernel, times] : kernels) {
+        for (std::size_t i = 0; i < times.size(); ++i) {
+            Json host = bench::make_row("gl/" + kernel + "/order:0.5/taps:50/host", 100);
+            host["repetition_index"] = i;
+            host["cpu_time"] = times[i];
+            made.rows.push_back(host);
+        }
+    }
+    return made;
+}
+
+Pair pair_of_times(const std::map<std::string, std::vector<double>>& a,
+                   const std::map<std::string, std::vector<double>>& b, const std::string& kernel = "a") {
+    for (const Pair& pair :
+         compare(run_of_times(a), run_of_times(b), parse_rules(rules_text, "rules"), {"*"}, {"*"}).pairs) {
+        if (pair.row == "gl/" + kernel + "/order:0.5/taps:50/host") {
+            return pair;
+        }
+    }
+    ADD_FAILURE() << kernel;
+    return {};
+}
+
+// The middle of an odd number of repetitions, the mean of the middle two of an even one.
+TEST(CompareTimes, AreMediansOfTheirRepetitions) {
+    const Pair odd = pair_of_times({{"a", {30.0, 10.0, 24.0}}}, {{"a", {12.0}}});
+    EXPECT_EQ(odd.a, 24.0);
+    EXPECT_EQ(odd.b, 12.0);
+    EXPECT_NEAR(odd.log_ratio, std::log(0.5), 1e-15);
+    EXPECT_EQ(odd.better, 0);  // nobody judges single times
+    const Pair even = pair_of_times({{"a", {50.0, 10.0, 30.0, 20.0}}}, {{"a", {6.0, 2.0}}});
+    EXPECT_EQ(even.a, 25.0);
+    EXPECT_EQ(even.b, 4.0);
+}
+
+// Twenty repetitions of the kernel and of the anchor in both runs, each longer than nothing.
+TEST(CompareTimes, AreHeldToTheAnchorWhereEnoughWereRepeated) {
+    using Times = std::vector<double>;
+    const auto is_held = [](const Times& a, const Times& anchor_a, const Times& b, const Times& anchor_b) {
+        return pair_of_times({{"a", a}, {"anchor", anchor_a}}, {{"a", b}, {"anchor", anchor_b}}).to_anchor;
+    };
+    const Times enough(20, 100.0);
+    const Times few(19, 100.0);
+    Times nothing = enough;
+    nothing[4] = 0.0;
+    EXPECT_TRUE(is_held(enough, enough, enough, enough));
+    for (const Times& other : {few, nothing}) {
+        EXPECT_FALSE(is_held(other, enough, enough, enough));
+        EXPECT_FALSE(is_held(enough, other, enough, enough));
+        EXPECT_FALSE(is_held(enough, enough, other, enough));
+        EXPECT_FALSE(is_held(enough, enough, enough, other));
+    }
+    EXPECT_FALSE(pair_of_times({{"a", enough}}, {{"a", enough}, {"anchor", enough}}).to_anchor);
+    EXPECT_FALSE(pair_of_times({{"a", enough}, {"anchor", enough}}, {{"a", enough}}).to_anchor);
+    // An anchor to itself would never change.
+    EXPECT_FALSE(pair_of_times({{"anchor", enough}}, {{"anchor", enough}}, "anchor").to_anchor);
+}
+
+// The interval decides, and one that ends at no change at all decides nothing.
+TEST(CompareTimes, AreBetterOrWorseWhereTheIntervalLeavesOneOut) {
+    const std::vector<double> anchor(20, 10.0);
+    for (const auto& [now, better] : {std::pair(90.0, 1), std::pair(100.0, 0), std::pair(110.0, -1)}) {
+        const Pair pair = pair_of_times({{"a", std::vector<double>(20, 100.0)}, {"anchor", anchor}},
+                                        {{"a", std::vector<double>(20, now)}, {"anchor", anchor}});
+        EXPECT_EQ(pair.better, better);
+        EXPECT_NEAR(pair.log_ratio, std::log(now / 100.0), 1e-12);
+        EXPECT_NEAR(pair.low, pair.log_ratio, 1e-12);
+        EXPECT_NEAR(pair.high, pair.log_ratio, 1e-12);
+    }
+}
+
+// From 0 or to 0 there is no ratio, but a better and a worse.
+TEST(Compare, OfNothingThereIsNoRatio) {
+    const auto pair_of_errors = [](double before, double after) {
+        const Comparison found =
+            compare(run(before, 50.0, 100.0, "GNU 12.2.0", "own"), run(after, 50.0, 100.0, "GNU 12.2.0", "own"),
+                    parse_rules(rules_text, "rules"), {"gl/a/*"}, {"error_max"});
+        EXPECT_EQ(found.pairs.size(), 1U);
+        EXPECT_FALSE(Json::parse(to_json(found)).at("pairs").at(0).contains("ratio"));
+        return found.pairs.at(0);
+    };
+    const Pair from = pair_of_errors(0.0, 3.0);
+    EXPECT_EQ(from.log_ratio, 0.0);
+    EXPECT_EQ(from.low, 0.0);
+    EXPECT_EQ(from.high, 0.0);
+    EXPECT_EQ(from.better, -1);
+    const Pair to = pair_of_errors(3.0, 0.0);
+    EXPECT_EQ(to.log_ratio, 0.0);
+    EXPECT_EQ(to.better, 1);
+}
+
+// A row that is wrong in one of them is not compared; globs choose rows and counters.
+TEST(Compare, ComparesWhatIsRightInBothAndAskedFor) {
+    const Rules rules = parse_rules(rules_text, "rules");
+    const Results good = run(1e-3, 50.0, 100.0, "GNU 12.2.0", "only_here");
+    Results bad = run(1e-3, 50.0, 100.0, "GNU 12.2.0", "only_there");
+    bench::mark_error(bad.rows.front(), "wrong");
+    const auto name = bad.rows.front().at("name").get<std::string>();
+    for (const bool first : {true, false}) {
+        const Comparison found = compare(first ? bad : good, first ? good : bad, rules, {"gl/a/*"}, {"*"});
+        EXPECT_EQ(found.wrong, std::vector<std::string>{name}) << first;
+        EXPECT_TRUE(found.only_a.empty()) << first;
+        EXPECT_TRUE(found.only_b.empty()) << first;
+        for (const Pair& pair : found.pairs) {
+            EXPECT_EQ(pair.row, "gl/a/order:0.5/taps:50/host") << first;
+        }
+    }
+    const Comparison errors = compare(good, good, rules, {"*"}, {"error_*"});
+    ASSERT_EQ(errors.pairs.size(), 1U);
+    EXPECT_EQ(errors.pairs[0].counter, "error_max");
+    EXPECT_EQ(errors.pairs[0].better, 0);
+}
+
+TEST(Compare, WhatIsNoNumberInOneOfThemIsNotCompared) {
+    const Rules rules = parse_rules(rules_text, "rules");
+    const Results good = run(1e-3, 50.0, 100.0, "GNU 12.2.0", "only_here");
+    Results text = good;
+    text.rows.front()["error_max"] = "small";
+    EXPECT_TRUE(compare(good, text, rules, {"*"}, {"error_*"}).pairs.empty());
+    EXPECT_TRUE(compare(text, good, rules, {"*"}, {"error_*"}).pairs.empty());
+    text.rows.front().erase("error_max");
+    EXPECT_TRUE(compare(good, text, rules, {"*"}, {"error_*"}).pairs.empty());
 }
 
 }  // namespace

@@ -47,6 +47,21 @@ TEST(Counters, AreFoundByTheirNamesAndAFamilyByItsBeginning) {
     EXPECT_TRUE(bench::is_measured("stall_load_use"));
 }
 
+// Of Google Benchmark's own fields a time is judged as the host's, and the others by nobody.
+TEST(Counters, OfBookkeepingOnlyTimesAreJudged) {
+    for (const CounterFacts& facts : bench::counter_table()) {
+        if (facts.role != bench::Role::counter) {
+            const bool is_time = facts.name == "real_time" || facts.name == "cpu_time";
+            EXPECT_EQ(facts.role == bench::Role::time, is_time) << facts.name;
+            EXPECT_EQ(facts.better, is_time ? bench::Better::lower : bench::Better::neither) << facts.name;
+            EXPECT_EQ(facts.layer, is_time ? bench::CounterLayer::host_time : bench::CounterLayer::none) << facts.name;
+        }
+    }
+    // A family's members begin as it does; a name that sorts before all of them is none.
+    EXPECT_EQ(bench::find_counter("stall_"), &bench::facts_of(bench::CounterFamily::stall));
+    EXPECT_EQ(bench::find_counter("a"), nullptr);
+}
+
 // A row with every counter of the table, and one of the family.
 Json row_of_all(double value) {
     Json row = bench::make_row("gl/a_b_c/order:0.5/taps:50/accuracy/signal:step", 1);

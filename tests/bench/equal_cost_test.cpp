@@ -71,6 +71,11 @@ TEST(Oustaloup, AboveOneADifferenceGoesBefore) {
         before = x;
     }
     EXPECT_EQ(Oustaloup::multiplications(5), 11u);
+    // Just above 1, too.
+    Oustaloup barely(1.0078125, h, 2, {0.1, 2000.0}, Mapping::tustin);
+    Oustaloup rest(0.0078125, h, 2, {0.1, 2000.0}, Mapping::tustin);
+    EXPECT_EQ(barely.step(3.0), rest.step(3.0));
+    EXPECT_EQ(barely.step(4.0), rest.step(1.0));
 }
 
 TEST(Oustaloup, RefusesWhatItCannotBe) {
@@ -86,6 +91,9 @@ TEST(Oustaloup, RefusesWhatItCannotBe) {
     EXPECT_THROW(Oustaloup(0.5, h, 0, {0.1, 100.0}, Mapping::matched), std::invalid_argument);
     EXPECT_THROW(Oustaloup(0.5, 0.0, 3, {0.1, 100.0}, Mapping::matched), std::invalid_argument);
     EXPECT_THROW(Oustaloup(0.5, h, 3, {100.0, 0.1}, Mapping::matched), std::invalid_argument);
+    EXPECT_THROW(Oustaloup(0.5, h, 3, {100.0, 100.0}, Mapping::matched), std::invalid_argument);
+    EXPECT_THROW(Oustaloup(0.5, h, 3, {0.0, 100.0}, Mapping::matched), std::invalid_argument);
+    EXPECT_THROW(Oustaloup(0.5, h, 3, {0.1, 100.0}, Mapping::impulse_invariant), std::invalid_argument);
 }
 
 TEST(EqualCost, EachWayIsThereAtEachCostAndNoneCostsMore) {
@@ -234,6 +242,77 @@ TEST(EqualCost, IsMeasuredAtTheDocumentedCostsAndOrders) {
     EXPECT_EQ(wanted.orders, (std::vector<double>{0.2, 0.5, 0.9, 1.5, -0.5}));
     EXPECT_EQ(wanted.samples, 5000U);
     EXPECT_EQ(wanted.jobs, 1U);
+}
+
+// A row's filter, made again of the band and the mapping that it says, errs as much as the row says.
+TEST(EqualCost, ARowsFilterErrsAsItSays) {
+    bench::EqualCost wanted;
+    wanted.costs = {6};
+    wanted.orders = {1.0, 0.5};  // of whole orders there is none
+    wanted.signals = {"step", "noise"};
+    wanted.samples = 40;
+    // Of order 1/2: a_j = a_(j-1) (1 - 1.5/j), and h^(1/2) times the derivative.
+    const auto sums_of = [&](const char* signal) {
+        bench::FilterTarget target{bench::make_signal(signal, wanted.samples, 2020), {}, 0.0};
+        for (std::size_t k = 0; k < wanted.samples; ++k) {
+            double sum = 0.0;
+            double weight = 1.0;
+            for (std::size_t j = 0; j <= k; ++j) {
+                sum += weight * target.record[k - j];
+                weight *= 1.0 - 1.5 / static_cast<double>(j + 1);
+            }
+            target.wanted.emplace_back(k, sum);
+            target.peak = std::max(target.peak, std::fabs(sum));
+        }
+        return target;
+    };
+    const bench::FilterTarget of_step = sums_of("step");
+    bench::FilterTarget derivative{of_step.record, {}, of_step.peak};
+    bench::FilterTarget late = derivative;
+    for (std::size_t k = 1; k < wanted.samples; ++k) {  // of so few samples all are looked at
+        const double exact = 0.9 / std::sqrt(std::numbers::pi * static_cast<double>(k));
+        derivative.wanted.emplace_back(k, exact);
+        if (k >= wanted.samples / 2) {
+            late.wanted.emplace_back(k, exact);
+        }
+    }
+    const auto filter_of = [](const bench::Json& row, const std::string& begin) {
+        const bool matched = row.at(begin + "mapping") == "matched";
+        EXPECT_TRUE(matched || row.at(begin + "mapping") == "Tustin") << row;
+        return Oustaloup(0.5, h, 2,
+                         {row.at(begin + "low_rad_s").get<double>(), row.at(begin + "high_rad_s").get<double>()},
+                         matched ? Mapping::matched : Mapping::tustin);
+    };
+    const auto expect_error = [](const bench::Json& row, const char* counter, double error) {
+        EXPECT_GT(error, 0.0) << counter;
+        EXPECT_NEAR(row.at(counter).get<double>() / error, 1.0, 1e-6) << counter << ' ' << row;
+    };
+    const auto rows = bench::measure_filters(wanted);
+    ASSERT_EQ(rows.size(), 3U);
+    const std::string where = "/order:0.5/poles:2/accuracy/signal:";
+    EXPECT_EQ(rows[0].at("name"), "filter/oustaloup_f64" + where + "step");
+    EXPECT_EQ(rows[1].at("name"), "filter/oustaloupown_f64" + where + "step");
+    EXPECT_EQ(rows[2].at("name"), "filter/oustaloup_f64" + where + "noise");
+    for (const bench::Json& row : rows) {
+        EXPECT_EQ(row.at("macs_per_sample"), 5) << row;  // two for a pole, one for the gain
+        EXPECT_EQ(row.at("cost"), 6) << row;
+        EXPECT_EQ(row.at("iterations"), 40) << row;
+    }
+    expect_error(rows[0], "error_max", bench::error_of(filter_of(rows[0], ""), of_step));
+    expect_error(rows[2], "error_max", bench::error_of(filter_of(rows[2], ""), sums_of("noise")));
+    expect_error(rows[0], "derivative_error_max", bench::error_of(filter_of(rows[0], ""), derivative));
+    expect_error(rows[0], "derivative_error_late_max", bench::error_of(filter_of(rows[0], ""), late));
+    EXPECT_FALSE(rows[2].contains("derivative_error_max"));  // noise has no formula
+    // Tuned to the derivative itself, and apart to its second half.
+    expect_error(rows[1], "derivative_error_max", bench::error_of(filter_of(rows[1], ""), derivative));
+    expect_error(rows[1], "derivative_error_late_max", bench::error_of(filter_of(rows[1], "late_"), late));
+    EXPECT_FALSE(rows[1].contains("error_max"));
+    EXPECT_LE(rows[1].at("derivative_error_max").get<double>(), rows[0].at("derivative_error_max").get<double>());
+    EXPECT_LE(rows[1].at("derivative_error_late_max").get<double>(),
+              rows[0].at("derivative_error_late_max").get<double>());
+    for (const char* same : {"mapping", "low_rad_s", "high_rad_s"}) {
+        EXPECT_EQ(rows[0].at(same), rows[2].at(same)) << same;  // one filter for all signals
+    }
 }
 
 // A line for each cost and way that has all signals of its table, the largest error behind them, the full memory last.

@@ -284,4 +284,36 @@ TEST(GateOutputs, AKernelIsOneLine) {
     EXPECT_THAT(to_annotations(made), HasSubstr("::error title=glsum gate%3A rows::gl/lost_one_f32/*: lost\n"));
 }
 
+// Of several rows the least and the most, once where they read the same; from a hundred per cent on in whole ones.
+TEST(GateOutputs, SeveralRowsAreToldByTheirLeastAndTheirMost) {
+    const auto told = [](const std::vector<double>& changes) {
+        Verdict made;
+        for (std::size_t i = 0; i < changes.size(); ++i) {
+            const std::string row = "gl/ring_plain_f32/order:0.5/taps:" + std::to_string(50 + i) + "/m7:one";
+            made.findings.push_back(
+                finding(Level::fail, Layer::model_cycles, row.c_str(), "model_cycles_per_sample", "more", "moved"));
+            made.findings.back().change = changes[i];
+        }
+        return groups_of(made, Level::fail).at(0).what();
+    };
+    EXPECT_EQ(told({0.0234, 0.0231}), "+2.3 % in 2 rows");
+    EXPECT_EQ(told({0.25, -0.13, 0.5}), "-13 % to +50 % in 3 rows");
+    for (const double hundred : {0.995, 0.9994, 1.004}) {
+        EXPECT_EQ(told({hundred, 0.98}), "+98 % to +100 % in 2 rows") << hundred;
+        EXPECT_EQ(told({-hundred, -0.98}), "-100 % to -98 % in 2 rows") << hundred;
+    }
+    EXPECT_EQ(told({0.9949, -0.9949}), "-99 % to +99 % in 2 rows");
+    EXPECT_EQ(told({12.34, 0.0}), "+0 % to +1234 % in 2 rows");
+}
+
+// Of control characters XML has three; the last of them is just before the blank.
+TEST(GateOutputs, JUnitHasNoControlCharacters) {
+    Verdict made = verdict();
+    made.findings[1].what =
+        "a\x01"
+        "b\x1f"
+        "c d";
+    EXPECT_THAT(to_junit(made), HasSubstr("code_bytes: a?b?c d (exact)"));
+}
+
 }  // namespace

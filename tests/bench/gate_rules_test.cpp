@@ -5,8 +5,8 @@
 #include <string>
 
 #include "base/build_info.hpp"
-#include "base/failure.hpp"
 #include "bench/gate/rules.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -33,14 +33,7 @@ std::string changed(const std::string& from, const std::string& to) {
 }
 
 std::string refusal(const std::string& text) {
-    try {
-        (void)parse_rules(text, "t.toml");
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
-        return failure.what();
-    }
-    ADD_FAILURE() << "not refused: " << text;
-    return "";
+    return test::refusal(glsum::Exit::bad_input, [&] { (void)parse_rules(text, "t.toml"); });
 }
 
 TEST(GateRules, AreReadAsWritten) {
@@ -166,6 +159,42 @@ TEST(GateRules, AllowAsMuchAsTheySayAndNoMore) {
     EXPECT_EQ(rule.excess(8.0, 10.0), 0.0);
     EXPECT_EQ(rule.excess(8.0, 5.0), 1.0);
     EXPECT_EQ(rule.excess(8.0, 11.0), 1.0);
+}
+
+TEST(GateRules, OfTimesWantLessOfThem) {
+    const std::string times = changed("\"accuracy\"", "\"host_time\"") + "anchor = \"peer_std_f32\"\n";
+    EXPECT_EQ(parse_rules(times, "t.toml")[0].better, Better::lower);
+    std::string more = times;
+    more.replace(more.find("\"lower\""), 7, "\"higher\"");
+    EXPECT_THAT(refusal(more), HasSubstr("t.toml:5:10: better: expected lower for times"));
+}
+
+TEST(GateRules, RefuseAListWithNothingInIt) {
+    EXPECT_THAT(refusal(changed("\"error_rms\"", "\"\"")), HasSubstr("t.toml:4:26: counters: expected a text"));
+    EXPECT_THAT(refusal(changed("[\"error_max\", \"error_rms\"]", "[]")), HasSubstr("at least one glob"));
+    EXPECT_THAT(refusal("rule = [1]\n"), HasSubstr("expected rules"));
+    EXPECT_THAT(refusal(good + "[other]\n"), HasSubstr("found the key other"));
+}
+
+TEST(GateRules, AreAThousandAtMost) {
+    const auto rules_of = [](int count) {
+        std::string text;
+        for (int i = 0; i < count; ++i) {
+            text += good;
+        }
+        return text;
+    };
+    EXPECT_EQ(parse_rules(rules_of(1000), "t.toml").size(), 1000U);
+    EXPECT_THAT(refusal(rules_of(1001)), HasSubstr("expected at most 1000 rules"));
+}
+
+// The first rule that wants both the row and the counter tells which way is better.
+TEST(GateRules, TellTheBetterWayOfARowAndACounter) {
+    const Rules rules = parse_rules(good + changed("\"lower\"", "\"higher\""), "t.toml");
+    const std::string row = "gl/a/order:1/taps:2/accuracy/signal:step";
+    EXPECT_EQ(better_of(rules, row, "error_max"), Better::lower);
+    EXPECT_FALSE(better_of(rules, row, "error_mean"));
+    EXPECT_FALSE(better_of(rules, "gl/a/order:1/taps:2/m7:count", "error_max"));
 }
 
 }  // namespace

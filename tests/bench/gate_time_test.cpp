@@ -1,7 +1,9 @@
 // Host time by statistics, on made-up machines: a quiet one, one whose neighbours come and go, one that is always busy.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
 #include "bench/gate/host_time.hpp"
 
@@ -85,6 +87,70 @@ TEST(GateTime, CodeThatDidNotChangeTellsWhetherTheMachineDid) {
     EXPECT_NEAR(bench::gate::movement(run(1, 200, 0.0), few), 0.3, 0.02);  // 4 quiet and 6 disturbed of the fastest ten
     EXPECT_NEAR(bench::gate::movement(few, run(1, 200, 0.0)), 0.3, 0.02);
     EXPECT_NEAR(bench::gate::movement(run(1, 200, 0.0), run(2, 200, 0.0, 0.9)), 1.0 / 0.9 - 1.0, 0.02);
+}
+
+// Two at least count, and their mean: of 20 repetitions 100 and 120.
+TEST(GateTime, OfFewRepetitionsTheTwoFastestCount) {
+    const std::vector<double> anchor(20, 10.0);
+    Timing after{std::vector<double>(20, 500.0), anchor};
+    after.kernel[3] = 120.0;
+    after.kernel[11] = 100.0;
+    EXPECT_NEAR(bench::gate::time_change({std::vector<double>(20, 100.0), anchor}, after, 0.99).estimate, 0.1, 1e-12);
+}
+
+// However much the times scatter: what disturbs kernel and anchor alike leaves their ratio alone, in every redrawn run.
+TEST(GateTime, WhatDisturbsBothAlikeDoesNotWidenTheInterval) {
+    Timing before;
+    Timing after;
+    for (int i = 0; i < 40; ++i) {
+        before.anchor.push_back(10.0 + i * 7 % 40);
+        before.kernel.push_back(5.0 * before.anchor.back());
+        after.anchor.push_back(20.0 + i * 11 % 40);
+        after.kernel.push_back(6.0 * after.anchor.back());
+    }
+    const auto change = bench::gate::time_change(before, after, 0.99);
+    EXPECT_NEAR(change.estimate, 0.2, 1e-12);
+    EXPECT_NEAR(change.low, 0.2, 1e-12);
+    EXPECT_NEAR(change.high, 0.2, 1e-12);
+}
+
+// Of a confidence of one half both bounds are the median; of more they lie on either side of it.
+TEST(GateTime, BothBoundsAreAsFarFromTheEndsOfTheRedrawnRuns) {
+    const Timing before = run(1, 50, 0.5);
+    const Timing after = run(2, 50, 0.5);
+    const auto median = bench::gate::time_change(before, after, 0.5);
+    EXPECT_EQ(median.low, median.high);
+    double low = median.low;
+    double high = median.high;
+    for (const double confidence : {0.75, 0.9, 0.99}) {
+        const auto change = bench::gate::time_change(before, after, confidence);
+        EXPECT_LT(change.low, low) << confidence;
+        EXPECT_GT(change.high, high) << confidence;
+        low = change.low;
+        high = change.high;
+    }
+}
+
+// The hundredth and the twentieth of 400 repetitions are the fastest 4 and 20, of 396 the fastest 3 and 19.
+TEST(GateTime, MovementIsOfTheHundredthOrTheTwentiethWhicheverIsMore) {
+    const auto moved = [](std::size_t repetitions, const std::vector<double>& fastest, double rest) {
+        const std::vector<double> anchor(repetitions, 10.0);
+        Timing now{std::vector<double>(repetitions, rest), anchor};
+        std::copy(fastest.begin(), fastest.end(), now.kernel.begin());
+        const Timing before{std::vector<double>(repetitions, 100.0), anchor};
+        const double there = bench::gate::movement(before, now);
+        EXPECT_NEAR(bench::gate::movement(now, before), there, 1e-12);  // either way
+        return there;
+    };
+    EXPECT_NEAR(moved(400, {40.0, 50.0, 50.0, 60.0}, 100.0), 1.0, 1e-12);  // half of 100
+    EXPECT_NEAR(moved(396, {40.0, 50.0, 60.0}, 100.0), 1.0, 1e-12);
+    std::vector<double> twenty(20, 130.0);
+    std::fill_n(twenty.begin(), 4, 100.0);
+    EXPECT_NEAR(moved(400, twenty, 1000.0), 0.24, 1e-12);  // (4 * 100 + 16 * 130) / 20 = 124
+    std::vector<double> nineteen(19, 119.0);
+    std::fill_n(nineteen.begin(), 3, 100.0);
+    EXPECT_NEAR(moved(396, nineteen, 1000.0), 0.16, 1e-12);  // (3 * 100 + 16 * 119) / 19 = 116
+    EXPECT_EQ(moved(100, {}, 100.0), 0.0);
 }
 
 }  // namespace

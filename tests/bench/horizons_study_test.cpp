@@ -194,6 +194,32 @@ TEST(HorizonCase, ThePictureHasAPanelForEachOrderAndErrorWithEachWaysMultiplicat
     EXPECT_GT(picture.height, 3U * 230U);
 }
 
+// Over it stands the most that a window and modes take over the longest horizon, of any order and error.
+TEST(HorizonCase, ThePictureSaysWhatTheLongestHorizonTakes) {
+    HorizonCase shorter = made(9e-5, 1e-5);
+    shorter.modes->modes.resize(6);
+    HorizonCase longer = made(9e-5, 1e-5);  // 2 + 2 * 3 coefficients, the first for nothing
+    longer.samples = 5000;
+    longer.window = 400;
+    HorizonCase other = longer;
+    other.order = 0.9;
+    other.window = 300;
+    other.modes->modes.resize(4);
+    HorizonCase without = longer;
+    without.window = 200;
+    without.modes.reset();
+    const base::Picture picture = bench::picture_of({0.5, 0.9}, {shorter, longer, other, without});
+    EXPECT_NE(picture.script.find("title \"Over 5000 samples a window takes up to 400 multiplications a sample, near "
+                                  "taps and modes at most 9\\n"),
+              std::string::npos)
+        << picture.script;
+    EXPECT_NE(picture.script.find("set multiplot layout 3,2 "), std::string::npos);
+    EXPECT_NE(picture.script.find("set yrange [3:10000]"), std::string::npos);  // to twice the longest horizon
+    // Panels of 260 by 230 pixels.
+    EXPECT_EQ(bench::picture_of({0.5, 0.7, 0.9}, {longer}).width, picture.width + 260U);
+    EXPECT_EQ(bench::picture_of({0.5}, {longer}).height, picture.height);
+}
+
 // Margins and what lies between panels take as many pixels however many panels there are, and leave most to these.
 TEST(HorizonCase, ThePicturesMarginsDoNotGrowWithIt) {
     struct Layout {

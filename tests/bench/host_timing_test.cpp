@@ -29,6 +29,7 @@ TEST(HostTiming, RepetitionsKeepTheirNameAndOrder) {
     const bench::HostTiming timing = bench::time_on_host(cases, 1000, 3, {});
     ASSERT_EQ(timing.rows.size(), 4U * 3U + 4U * 4U);  // mean, median, stddev and cv of each
     std::map<std::string, int> repetitions;
+    std::map<std::string, std::string> rows_of;
     std::vector<std::string> order;
     for (const bench::Json& row : timing.rows) {
         const std::string name = row.at("run_name").get<std::string>();
@@ -38,6 +39,8 @@ TEST(HostTiming, RepetitionsKeepTheirNameAndOrder) {
         // How often it ran is not in the name: only what an aggregate is of.
         EXPECT_EQ(row.at("name"),
                   row.at("run_type") == "iteration" ? name : name + '_' + row.at("aggregate_name").get<std::string>());
+        rows_of[name] +=
+            row.at("run_type") == "iteration" ? std::to_string(row.at("repetition_index").get<int>()) : "a";
         if (row.at("run_type") == "iteration") {
             ++repetitions[name];
             // Some 2 ms, in whole turns of the ring.
@@ -64,6 +67,7 @@ TEST(HostTiming, RepetitionsKeepTheirNameAndOrder) {
                          "gl/peer_std_f32/order:0.5/taps:50/host", "gl/null/order:0.5/taps:1/host"}));
     for (const auto& [name, count] : repetitions) {
         EXPECT_EQ(count, 3) << name;
+        EXPECT_EQ(rows_of[name], "012aaaa") << name;  // its repetitions one after the other, then what sums them up
     }
     const bench::Json& kernel = timing.rows.front();
     EXPECT_EQ(kernel.at("macs_per_sample"), 49.0);  // a_0 = 1 needs none
@@ -116,10 +120,26 @@ TEST(HostTiming, OfASweepEachCaseOnceAtItsFirstOrder) {
     EXPECT_TRUE(bench::time_on_host(sweep, quick).rows.empty());
 }
 
+// No order above 2 has weights: such a case is a row that says so, and no time.
+TEST(HostTiming, WhatCannotBePreparedSaysWhy) {
+    for (const unsigned repetitions : {1U, 2U}) {
+        const bench::HostTiming timing =
+            bench::time_on_host({bench::Timed{"ring_plain_f32", {9}, 2.5}}, 100, repetitions, quick);
+        ASSERT_FALSE(timing.rows.empty());
+        for (const bench::Json& row : timing.rows) {
+            EXPECT_EQ(row.at("error_message"), "the order is not in (-2, 2]") << row;
+            EXPECT_FALSE(row.contains("cycles_per_sample"));
+        }
+    }
+}
+
 TEST(HostTiming, AFlagThatIsNoneIsRefused) {
     const std::vector<bench::Timed> one = {{"null", {1}, 0.5}};
     EXPECT_THROW((void)bench::time_on_host(one, 100, 1, {"--no_such_flag"}), glsum::Failure);
+    testing::internal::CaptureStderr();
     EXPECT_THROW((void)bench::time_on_host(one, 100, 1, {"--benchmark_filter=nothing_is_called_so"}), glsum::Failure);
+    // The refusal says it all: what Google Benchmark writes beside it would be told twice.
+    EXPECT_EQ(testing::internal::GetCapturedStderr().find("Failed to match"), std::string::npos);
     EXPECT_EQ(bench::time_on_host(one, 100, 1, {"--benchmark_min_time=0.0001", "--benchmark_filter=."}).rows.size(),
               1U);
 }

@@ -5,15 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <numeric>
 #include <set>
 
-#include "base/failure.hpp"
 #include "bench/run/pieces.hpp"
 #include "bench/run/run.hpp"
 #include "bench/sweep/signals.hpp"
 #include "bench/target/target_plan.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -79,6 +80,65 @@ TEST(Pieces, OnlyOfTheTargetsThatAreWanted) {
     EXPECT_EQ(bench::make_pieces(only).size(), 4U * 7 + 6U * 4);
     only.targets = {"host"};
     EXPECT_EQ(bench::make_pieces(only).size(), 4U * 7 + 1);
+}
+
+// The exact sums go with the square of the record; a kernel's own with the record, its lengths and how many there are.
+TEST(Pieces, OfAccuracyCostTheExactSumsAndEachKernelsTaps) {
+    bench::Sweep one = sweep();
+    one.targets = {};
+    const auto cost = [&](std::size_t samples, std::size_t kernels, std::size_t taps) {
+        one.samples = samples;
+        one.kernels.assign(kernels, "ring_plain_f32");
+        one.lengths = {{taps}, {3 * taps}};
+        return bench::make_pieces(one).front().cost;
+    };
+    const double exact = cost(1000, 0, 100);
+    EXPECT_GT(exact, 0.0);
+    EXPECT_NEAR(cost(3000, 0, 100), 9.0 * exact, 1e-12 * exact);
+    const double kernels = cost(1000, 2, 100) - exact;
+    EXPECT_GT(kernels, 0.0);
+    EXPECT_NEAR(cost(1000, 6, 100), exact + 3.0 * kernels, 1e-9 * exact);
+    EXPECT_NEAR(cost(1000, 2, 500), exact + 5.0 * kernels, 1e-9 * exact);
+    EXPECT_NEAR(cost(3000, 2, 100), 9.0 * exact + 3.0 * kernels, 1e-9 * exact);
+    for (const bench::Piece& piece : bench::make_pieces(one)) {
+        EXPECT_EQ(piece.cost, bench::make_pieces(one).front().cost) << piece.number;
+    }
+}
+
+TEST(Pieces, OfATargetCostWhatThePlanSays) {
+    bench::Sweep one = sweep();
+    one.targets = {"m7"};
+    const std::vector<bench::Piece> pieces = bench::make_pieces(one);
+    const std::vector<double> costs = bench::piece_costs(bench::make_target_plan(one));
+    const std::size_t first = pieces.size() - costs.size();
+    for (std::size_t i = 0; i < costs.size(); ++i) {
+        const bench::Piece& piece = pieces.at(first + i);
+        EXPECT_EQ(piece.kind, bench::Piece::Kind::target);
+        EXPECT_EQ(piece.number, i);
+        EXPECT_EQ(piece.machine, base::machine_called("m7"));
+        EXPECT_NEAR(piece.cost / pieces[first].cost, costs[i] / costs[0], 1e-12 * costs[i] / costs[0]) << i;
+    }
+}
+
+// A timing for each kernel or peer and each length; of repetitions each takes its part.
+TEST(Pieces, OfTheHostCostItsTimings) {
+    bench::Sweep one = sweep();
+    one.targets = {"host"};
+    const auto cost = [&](std::size_t kernels, std::size_t peers, std::size_t lengths, unsigned repetitions) {
+        one.kernels.assign(kernels, "ring_plain_f32");
+        one.peers.assign(peers, "peer_std_f32");
+        one.lengths.assign(lengths, {50});
+        one.repetitions = repetitions;
+        return bench::make_pieces(one).back().cost;
+    };
+    const double single = cost(1, 0, 1, 1);
+    EXPECT_GT(single, 0.0);
+    EXPECT_NEAR(cost(3, 2, 4, 1), 20.0 * single, 1e-12 * single);
+    const double twice = cost(1, 0, 1, 2);
+    EXPECT_GT(twice, 0.0);
+    EXPECT_NEAR(cost(1, 0, 1, 10), 5.0 * twice, 1e-12 * single);
+    EXPECT_NEAR(cost(3, 2, 4, 2), 20.0 * twice, 1e-12 * single);
+    EXPECT_LT(twice, single);  // of a single one Google Benchmark looks for the number of iterations
 }
 
 TEST(Pieces, PartsOfAPlanAreThePlan) {
@@ -184,17 +244,16 @@ TEST(Merge, OfNothingIsNothing) {
     EXPECT_TRUE(bench::merge(std::move(shards), false).rows.empty());
 }
 
-void expect_refused(const std::function<void(std::vector<bench::NamedResults>&)>& change, glsum::Exit status,
-                    const std::string& words) {
+using Change = std::function<void(std::vector<bench::NamedResults>&)>;
+
+std::string refusal_of(const Change& change, glsum::Exit status) {
     std::vector<bench::NamedResults> shards = two_shards();
     change(shards);
-    try {
-        (void)bench::merge(std::move(shards), false);
-        ADD_FAILURE() << "not refused: " << words;
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), status) << failure.what();
-        EXPECT_THAT(failure.what(), HasSubstr(words));
-    }
+    return test::refusal(status, [&] { (void)bench::merge(std::move(shards), false); });
+}
+
+void expect_refused(const Change& change, glsum::Exit status, const std::string& words) {
+    EXPECT_THAT(refusal_of(change, status), HasSubstr(words));
 }
 
 TEST(Merge, RefusesWhatIsNotAllOfOneSweep) {
@@ -261,6 +320,46 @@ TEST(Merge, RefusesADamagedShard) {
     }
 }
 
+// Ten of those that are missing are named; of long values the first 200 letters are shown.
+TEST(Merge, MessagesAreOfAReadableLength) {
+    using Shards = std::vector<bench::NamedResults>;
+    using glsum::Exit;
+    const auto missing = [](std::size_t count) {
+        return [count](Shards& s) {
+            s.pop_back();
+            s[0].results.context["shard"]["count"] = count;
+        };
+    };
+    const std::string ten = "missing: shard 2/11, 3/11, 4/11, 5/11, 6/11, 7/11, 8/11, 9/11, 10/11, 11/11";
+    EXPECT_EQ(refusal_of(missing(11), Exit::bad_input), ten);
+    std::string more = ten;
+    for (std::size_t at = 0; (at = more.find("/11", at)) != std::string::npos;) {
+        more[at + 2] = '2';
+    }
+    EXPECT_EQ(refusal_of(missing(12), Exit::bad_input), more + ", ...");
+    EXPECT_EQ(
+        refusal_of([](Shards& s) { s[0].results.context["commit"] = std::string(250, 'd'); }, Exit::not_comparable),
+        "commit differs: \"" + std::string(199, 'd') + " in first.json, \"c\" in second.json");
+    expect_refused([](Shards& s) { s[0].results.context["shard"]["index"] = 0; }, Exit::bad_input,
+                   "first.json: context.shard: expected one of at most 10000, found 0/2");
+    expect_refused(missing(10'000), Exit::bad_input, "missing: shard 2/10000, ");
+    expect_refused(missing(10'001), Exit::bad_input, "expected one of at most 10000, found 1/10001");
+}
+
+TEST(Merge, AShardListsAtMostTheRowsThatAFileMayHave) {
+    const auto listing = [](std::size_t one, std::size_t other) {
+        return [=](std::vector<bench::NamedResults>& s) {
+            s[1].results.context["shard"]["rows_of_pieces"] = {{0, one}, {2, other}};
+        };
+    };
+    expect_refused(listing(999'999, 1), glsum::Exit::bad_input,
+                   "second.json: expected the 1000000 rows that context.shard lists, found 2");
+    for (const std::size_t more : {std::size_t{2}, std::size_t{3'000'000}, std::size_t{INT64_MAX}}) {
+        expect_refused(listing(999'999, more), glsum::Exit::bad_input,
+                       "second.json: context.shard: expected at most 1000000 rows, found more");
+    }
+}
+
 TEST(Merge, MixedHostsAreMarked) {
     std::vector<bench::NamedResults> shards = two_shards();
     shards[1].results.context["cpu"] = "y";
@@ -282,6 +381,8 @@ TEST(Run, ShardsAreTheWhole) {
     const std::vector<std::string> quick = {"--benchmark_min_time=0.0001"};
     const bench::Results whole = bench::measure(small, std::nullopt, {}, quick);
     EXPECT_FALSE(whole.context.contains("shard"));
+    EXPECT_EQ(whole.context.at("host_timing_order"), "0.5");  // what the timing says of itself
+    EXPECT_TRUE(whole.context.contains("cycle_counter"));
     ASSERT_EQ(whole.rows.size(), 4U * 4U + 4U);
     std::vector<bench::NamedResults> shards;
     for (const std::size_t index : {1U, 2U}) {

@@ -11,29 +11,23 @@
 #include <optional>
 #include <string>
 
-#include "base/failure.hpp"
 #include "base/gnuplot.hpp"
 #include "bench/report/curves.hpp"
 #include "bench/report/plot_message.hpp"
 #include "bench/studies/equal_cost.hpp"
 #include "tests/bench/pretend_gnuplot.hpp"
+#include "tests/count_of.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
 using bench::Entry;
 using bench::Group;
+using test::count_of;
 using testing::HasSubstr;
 using testing::Not;
 
 class Drawing : public PretendGnuplot {};
-
-std::size_t count_of(const std::string& text, const std::string& part) {
-    std::size_t count = 0;
-    for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + part.size())) {
-        ++count;
-    }
-    return count;
-}
 
 TEST_F(Drawing, IsMadeTwiceAndPublishedWhole) {
     base::draw({"plot sin(x)", 321, 123}, stem());
@@ -64,6 +58,18 @@ TEST_F(Drawing, AGnuplotThatFailsOrDrawsNothingIsAnError) {
     pretend("cat >/dev/null");
     EXPECT_EQ(status(), glsum::Exit::check_failed);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "picture.svg"));
+}
+
+// A script that is longer than what a pipe holds, and nobody to read it: an error, and no end by a signal.
+TEST_F(Drawing, AGnuplotThatDoesNotReadIsAnError) {
+    pretend("exit 0");
+    EXPECT_EQ(test::refusal(glsum::Exit::missing, [&] { base::draw({std::string(1 << 20, '#')}, stem()); }),
+              (folder_ / "picture.svg").string() + ": gnuplot failed (Debian package gnuplot-nox)");
+}
+
+TEST_F(Drawing, OfNoSizeIsTwiceAsWideAsHigh) {
+    base::draw({"plot sin(x)"}, stem());
+    EXPECT_THAT(sent(), HasSubstr("set terminal svg size 1200,600 "));
 }
 
 TEST(Gnuplot, SeesNoTextThatCouldEndAStringAndLeavesRoomAroundValues) {
@@ -171,6 +177,26 @@ TEST(PlotMessage, SaysWhatTheLongestWindowForgetsAndShortDesignsLeave) {
         "taps and modes errs by 1e-05 to 0.0001\\n");
 }
 
+// "full" does not tell how long it is, and what is no length is neither long nor short.
+TEST(PlotMessage, IsOfLengthsThatAreNumbers) {
+    const Group window{"0.5", "50", {entry("a_f32", 0.5, {}, 0.5)}};
+    const Group full{"0.5", "full", {entry("a_f32", 0.5, {}, 0.5)}};
+    const Group design{"0.5", "2+7", {entry("c_f32", 1e-3, {}, 0.0)}};
+    EXPECT_NE(bench::plot_message({window, full, design}), "");
+    EXPECT_EQ(bench::plot_message({full, design}), "");
+    for (const char* taps : {"5+", "+", "2+many", "2+99999999999"}) {
+        EXPECT_EQ(bench::plot_message({window, {"0.5", taps, {entry("c_f32", 1e-3, {}, 0.0)}}}), "") << taps;
+    }
+}
+
+// One that was only timed is not among the best.
+TEST(PlotMessage, IsOfDesignsWhoseErrorIsKnown) {
+    EXPECT_THAT(bench::plot_message({{"0.5", "50", {entry("a_f32", 0.5, {}, 0.5)}},
+                                     {"0.5", "2+7", {entry("c_f32", 1e-3, {}, 0.0)}},
+                                     {"0.5", "2+30", {entry("d_f32", {}, {}, 0.0)}}}),
+                HasSubstr("the best of at most 9 taps and modes errs by 0.001 to 0.001"));
+}
+
 // Their points are faint; the line is the best window's, and no line joins a design with modes.
 TEST_F(Drawing, OfMoreKernelsThanColoursHasForEachFormatTheBestWindowAsALine) {
     Group many{"0.5", "50", {}};
@@ -242,6 +268,39 @@ TEST_F(Drawing, OfEqualCostHasAPanelForEachOrderAndSignal) {
     EXPECT_EQ(count_of(text, "set yrange [1e-3:1]"), 2U);
 }
 
+// Over the picture stands which three ways err least at the highest cost, in how many of the panels that have any.
+TEST_F(Drawing, OfEqualCostSaysWhoErrsLeast) {
+    bench::EqualCost wanted;
+    wanted.costs = {16, 24};
+    wanted.orders = {0.5, 0.9};
+    wanted.signals = {"step", "ramp", "sine1", "noise"};
+    std::vector<bench::Json> rows;
+    const auto add = [&](const char* way, std::size_t cost, const char* order, const char* signal, double error) {
+        rows.push_back(bench::make_row(std::string("gl/k/order:") + order + "/taps:17/accuracy/signal:" + signal, 300));
+        rows.back()["way"] = way;
+        rows.back()["cost"] = cost;
+        rows.back()["error_max"] = error;
+    };
+    for (const char* signal : {"step", "ramp", "sine1"}) {
+        add("shift_plain_f64", 16, "0.5", signal, 1e-9);  // of another cost
+        add("shift_plain_f64", 24, "0.5", signal, 0.25);
+        add("modes_plain_f64", 24, "0.5", signal, 0.125);
+        add("mirror_multi_f64", 24, "0.5", signal, 1e-15);  // the full memory is no way to save
+        add("oustaloupown_f64", 24, "0.5", signal, 1e-12);  // nor is what knows the derivative
+    }
+    add("shift_plain_f64", 24, "0.9", "step", 0.125);
+    add("modes_plain_f64", 24, "0.9", "step", 0.25);
+    add("nested_plain_f64", 24, "0.9", "ramp", 0.25);
+    add("oustaloup_f64", 24, "0.9", "sine1", 0.25);
+    bench::plot_equal_cost(wanted, rows, stem());
+    const std::string text = sent();
+    EXPECT_THAT(text, HasSubstr("title \"Of 6 panels, at 24 multiplications a sample, the least error is that of modes "
+                                "in 3, Oustaloup's filter in 1, logarithmic memory in 1\\n"));
+    EXPECT_THAT(text, HasSubstr("set multiplot layout 2,4 "));
+    EXPECT_THAT(text, HasSubstr(" size 1200,550 "));  // panels of 230 by 210 pixels
+    EXPECT_THAT(text, HasSubstr("set xrange [13:27]"));
+}
+
 // A panel for each order and cost: every ranked point by its format, and those on the front as steps, the cheapest
 // first.
 TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
@@ -296,6 +355,61 @@ TEST_F(Drawing, OfCostsHasTheFrontDrawnIn) {
         }
         EXPECT_EQ(count_of(text, "set xlabel \"" + label + "\""), 2U) << label;
     }
+}
+
+// Logarithmic axes have no zero: what is free or exact is on a front, and not drawn.
+TEST_F(Drawing, OfCostsHasNothingThatIsFreeOrExact) {
+    Entry exact = entry("ring_plain_f32", 0.0, 0.0, 0.0);
+    exact.host_ns = 20.0;
+    Entry gift = entry("ring_plain_q15", 0.25, 0.25, 0.0);
+    gift.host_ns = 0.0;
+    Entry other = entry("shift_plain_f32", 0.5, 0.5, 0.0);
+    other.host_ns = 10.0;
+    const std::vector<Group> all = {{"0.5", "50", {exact, gift, other}}};
+    const auto costs = bench::report::costs_of(all);
+    bench::report::plot_costs(stem(), bench::report::curve_points(all, costs), costs);
+    const std::string text = sent();
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n1.000000e+01 5.000000e-01\nEOD\n"));
+    EXPECT_THAT(text, Not(HasSubstr("0.000000e+00")));
+    EXPECT_THAT(text, Not(HasSubstr("title \"q15\"")));
+}
+
+// Of more kernels than 200 the first are drawn: a format that only another one has is not in the key.
+TEST_F(Drawing, OfErrorsHasTheFirst200Kernels) {
+    Group many{"0.5", "50", {}};
+    for (int i = 0; i < 199; ++i) {
+        many.entries.push_back(entry(("k" + std::to_string(i)).c_str(), 0.5, {}, 0.125));
+    }
+    many.entries.push_back(entry("ring_plain_q15", 0.5, {}, 0.125));
+    many.entries.push_back(entry("ring_plain_f32", 0.5, {}, 0.125));
+    bench::plot_error({many}, {}, stem());
+    const std::string text = sent();
+    EXPECT_EQ(count_of(text, "title \"unknown\""), 1U);
+    EXPECT_EQ(count_of(text, "title \"q15\""), 1U);
+    EXPECT_EQ(count_of(text, "title \"f32\""), 0U);
+}
+
+// From a file a length may be none: there is no place for it, and its order's others are drawn.
+TEST_F(Drawing, OfErrorsHasNoPlaceForWhatIsNoLength) {
+    bench::plot_error(
+        {{"0.5", "50", {entry("a_f32", 0.5, 0.25, 0.125)}}, {"0.5", "0", {entry("a_f32", 1e-3, 1e-4, 1e-3)}}},
+        {{"0.5", {{"0", 1e-3}, {"50", 0.25}}}}, stem());
+    const std::string text = sent();
+    EXPECT_THAT(text, HasSubstr("$d0 << EOD\n50 5.000000e-01\nEOD\n"));
+    EXPECT_THAT(text, HasSubstr("set xtics (\"50\" 50)"));
+    EXPECT_THAT(text, HasSubstr("set xrange [40:62.5]"));
+    EXPECT_THAT(text, Not(HasSubstr("1.000000e-03")));
+    EXPECT_THAT(text, Not(HasSubstr("1.000000e-04")));
+}
+
+// A mark of taps and modes has room from a factor of 1.45 on, to either side.
+TEST_F(Drawing, OfErrorsHasMarksThatDoNotLieOnEachOther) {
+    std::vector<Group> all;
+    for (const char* taps : {"20", "1+27", "1+28", "800", "1+551", "1+550"}) {
+        all.push_back({"0.5", taps, {entry("a_f32", 0.5, {}, 0.125)}});
+    }
+    bench::plot_error(all, {}, stem());
+    EXPECT_THAT(sent(), HasSubstr("set xtics (\"20\" 20, \"800\" 800, \"1+28\" 29, \"1+550\" 551)"));
 }
 
 // Of more orders than anybody reads, and gnuplot has room for, the first 24 are drawn.

@@ -100,6 +100,38 @@ TEST(RationalFilter, TunedIsNoWorseThanTheBandItself) {
     }
 }
 
+TEST(RationalFilter, HasOrdersBetweenMinusOneAndTwoThatAreNotWhole) {
+    for (const double order : {-0.995, -0.5, 0.5, 0.995, 1.005, 1.995}) {
+        EXPECT_TRUE(glsum::design::has_rational(order)) << order;
+    }
+    for (const double order : {-1.5, -1.005, -1.0, 0.0, 1.0, 2.0, 2.005, 2.5}) {
+        EXPECT_FALSE(glsum::design::has_rational(order)) << order;
+    }
+}
+
+// From just above order 1 on a difference goes before the filter of one order less, in the tuning as in the modes.
+TEST(RationalFilter, ADifferenceGoesBeforeFromOrderOneOn) {
+    for (const double order : {0.995, 1.005}) {
+        const glsum::design::DerivativeGoal goal{order, 0.001, glsum::design::Band{8.0, 80.0}, {}};
+        const auto tuned = tune_rational(RationalRule::oustaloup, goal, 1);
+        const auto filter = as_modes(RationalRule::oustaloup, goal, 1, tuned);
+        EXPECT_EQ(filter.kind,
+                  order > 1.0 ? glsum::design::FilterKind::increments : glsum::design::FilterKind::samples);
+        EXPECT_NEAR(filter.error.band, tuned.error, 1e-6 * tuned.error) << order;
+    }
+}
+
+// Of v towards 1 Tustin's mapping errs least of the three, with fast poles that turn negative: where none may, another
+// mapping is tuned.
+TEST(RationalFilter, TustinsMappingIsTakenWhereAPoleMaySwing) {
+    const glsum::design::DerivativeGoal goal{0.9, 0.001, glsum::design::Band{8.0, 80.0}, {}};
+    const auto swinging = tune_rational(RationalRule::oustaloup, goal, 2);
+    const auto decaying = tune_rational(RationalRule::oustaloup, goal, 2, glsum::design::Poles::decaying);
+    EXPECT_EQ(swinging.mapping, Mapping::tustin);
+    EXPECT_NE(decaying.mapping, Mapping::tustin);
+    EXPECT_LT(swinging.error, decaying.error);
+}
+
 TEST(RationalFilter, AFittedOneOfAsManyPolesErrsLess) {
     // Near half a decade a pole the rules come within 0.2 % of what is best.
     for (const double order : {0.2, 0.5, -0.5}) {

@@ -12,6 +12,7 @@
 #include "reference/bdf.hpp"
 #include "reference/dropped.hpp"
 #include "reference/full_sums.hpp"
+#include "reference/modes.hpp"
 #include "tests/bench/closed_forms.hpp"
 #include "tests/bench/digits.hpp"
 
@@ -288,6 +289,58 @@ TEST(Reference, WeightsOfHigherOrderAreThePowersOfBackwardDifferences) {
     for (const unsigned steps : {0U, 1U, 5U}) {
         EXPECT_THROW((void)reference::bdf_weights(steps, 1, 3), std::domain_error);
     }
+}
+
+// Numbers below 2^64 are taken, the largest too, and a sum of their products stays its own.
+TEST(Reference, OneProductHasRoomForTheLargestNumbers) {
+    const double largest = std::nextafter(0x1p64, 0.0);
+    const std::vector<Real> a(3, Real(largest));
+    const auto sums = reference::full_sums(a, std::vector<double>{largest, largest, -largest});
+    const Real square = Real(largest) * Real(largest);
+    ASSERT_EQ(sums.size(), 3U);
+    EXPECT_EQ(to_real(sums[0]), square);
+    EXPECT_EQ(to_real(sums[1]), 2 * square);
+    EXPECT_EQ(to_real(sums[2]), square);
+    for (const double beyond : {0x1p64, -0x1p64}) {
+        EXPECT_THROW((void)reference::full_sums(a, std::vector<double>{beyond}), std::invalid_argument) << beyond;
+        EXPECT_THROW((void)reference::full_sums(std::vector<Real>{Real(beyond)}, std::vector<double>{1.0}),
+                     std::invalid_argument)
+            << beyond;
+    }
+}
+
+// Near taps 1 and -1/2, then 1/4 halved from lag to lag, and 1/8 that stays: of a step their running sum.
+TEST(Reference, NearTapsAndModesAreTheirTermsOneByOne) {
+    const std::vector<Real> near = {Real(1), Real(-0.5)};
+    const std::vector<glsum::Mode> modes = {{0.5, 0.25}, {0.0, 0.125}};
+    const std::vector<double> known = {1.0, -0.5, 0.375, 0.25, 0.1875, 0.15625};
+    const auto weights = reference::weights_of(near, modes, known.size());
+    const auto sums = reference::sums_of(near, modes, std::vector<double>(known.size(), 1.0));
+    double sum = 0.0;
+    for (std::size_t j = 0; j < known.size(); ++j) {
+        sum += known[j];
+        EXPECT_EQ(weights.at(j), Real(known[j])) << j;
+        EXPECT_EQ(to_real(sums.at(j)), Real(sum)) << j;
+    }
+    EXPECT_EQ(reference::weights_of(near, modes, 1), std::vector<Real>{Real(1)});
+    EXPECT_EQ(reference::weights_of(near, {}, 3), (std::vector<Real>{Real(1), Real(-0.5), Real(0)}));
+}
+
+// Those that a design names, as far as it names them; behind them those of its order, here 1/2.
+TEST(Reference, NamedWeightsStandInPlaceOfTheOrders) {
+    const std::vector<double> named = {0.75, 0.25};
+    const auto weights = reference::weights(glsum::Design{0.5, 4, {}, named}, 4);
+    EXPECT_EQ(weights, (std::vector<Real>{Real(1), Real(0.75), Real(0.25), Real(-0.0625)}));
+    EXPECT_EQ(reference::weights(glsum::Design{0.5, 4, {}, named}, 2), (std::vector<Real>{Real(1), Real(0.75)}));
+    EXPECT_EQ(reference::weights(glsum::Design{0.5, 4}, Real(1), 3), (std::vector<Real>{Real(1), Real(-1), Real(0)}));
+}
+
+// What is summed is as long as the shorter of both.
+TEST(Reference, OneSumTakesAsManyAsBothHave) {
+    const std::vector<Real> a = {Real(1), Real(-0.5), Real(0.25)};
+    EXPECT_EQ(reference::sum(a, std::vector<double>{2.0, 3.0}), Real(0.5));
+    EXPECT_EQ(reference::sum(a, std::vector<double>{2.0, 3.0, 4.0, 5.0}), Real(1.5));
+    EXPECT_EQ(reference::sum(a, {}), Real(0));
 }
 
 }  // namespace

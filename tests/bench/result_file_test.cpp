@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/failure.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -28,14 +28,7 @@ std::string file_of(const std::vector<bench::Json>& rows) {
 
 // What the refusal says; fails where there is none.
 std::string refusal(const std::string& text) {
-    try {
-        (void)bench::parse_results(text, "a.json");
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
-        return failure.what();
-    }
-    ADD_FAILURE() << "not refused: " << text.substr(0, 200);
-    return "";
+    return test::refusal(glsum::Exit::bad_input, [&] { (void)bench::parse_results(text, "a.json"); });
 }
 
 TEST(ResultFile, IsReadBackAsWritten) {
@@ -163,6 +156,27 @@ TEST(ResultFile, OtherPartsAreNoneOfOurs) {
     EXPECT_EQ(
         results.rows[0],
         bench::Json::parse(R"({"name": "a", "flag": true, "text": "t", "negative": -3, "positive": 3, "real": 0.5})"));
+}
+
+TEST(ResultFile, PartsComeInAnyOrderButOnce) {
+    const bench::Results turned =
+        bench::parse_results(R"({"benchmarks": [{"name": "a"}], "context": {"b": {"c": 1}}})", "a.json");
+    EXPECT_EQ(turned.context, bench::Json::parse(R"({"b": {"c": 1}})"));
+    ASSERT_EQ(turned.rows.size(), 1U);
+    EXPECT_EQ(turned.rows[0], bench::Json::parse(R"({"name": "a"})"));
+    EXPECT_EQ(bench::parse_results(R"({"benchmarks": []})", "a.json").context, bench::Json::object());
+    EXPECT_EQ(refusal(R"({"context": {}, "benchmarks": [], "context": {}})"), "a.json: context is there twice");
+}
+
+TEST(ResultFile, ARowIsAnObjectWithAName) {
+    EXPECT_EQ(refusal(R"({"benchmarks": [{"name": "a"}, {}]})"),
+              "a.json: row 2 of benchmarks: expected an object with a name, found {}");
+    EXPECT_EQ(refusal(R"({"benchmarks": [{}]})"),
+              "a.json: row 1 of benchmarks: expected an object with a name, found {}");
+    EXPECT_EQ(refusal(R"({"benchmarks": [{"x": 1}]})"),
+              "a.json: row 1 of benchmarks: expected an object with a name, found {\"x\":1}");
+    EXPECT_EQ(refusal(R"({"benchmarks": [{"name": ""}]})"),
+              "a.json: row 1 of benchmarks: expected an object with a name, found {\"name\":\"\"}");
 }
 
 // Of a long value its beginning is shown, of broken JSON what stands about the place, with nothing a terminal obeys.

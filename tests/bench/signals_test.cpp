@@ -160,6 +160,22 @@ TEST(Signals, DriveIsTheSameAtEveryStep) {
     EXPECT_EQ(bench::make_signal("drive", 1, 1), std::vector<double>{0.0});  // at rest: nothing to scale
 }
 
+// However small the step and many the samples, it goes on: from 1 s to 1.1 s it rises by seven counts.
+TEST(Signals, DriveGoesOnUntilItRests) {
+    const auto usual = bench::make_signal("drive", 1101, 1);
+    const auto fine = bench::make_signal("drive", 55001, 1, 2e-5);
+    const double counts = std::round(0.8458264529 * 125.0);  // of the last sample, the largest
+    for (std::size_t k = 0; k < usual.size(); ++k) {
+        ASSERT_NEAR(fine[50 * k], usual[k], 2.0 * 0.9 / counts) << k;
+    }
+}
+
+TEST(Signals, DriveRestsAtTheSecondSampleOfAnyLongStep) {
+    for (const double h_s : {20.0, 21.0, 1e30}) {
+        EXPECT_EQ(bench::make_signal("drive", 3, 1, h_s), (std::vector<double>{0.0, 0.9, 0.9})) << h_s;
+    }
+}
+
 // Where the step divides the period the sine repeats to the last bit, elsewhere it goes on.
 TEST(Signals, SinesRepeatWhereTheStepDividesThePeriod) {
     for (const double h_s : {1e-3, 0.5e-3, 0.7e-3}) {
@@ -178,6 +194,18 @@ TEST(Signals, SinesRepeatWhereTheStepDividesThePeriod) {
             ASSERT_EQ(x[k], x[k - 1000]) << name;
         }
     }
+}
+
+// Four samples a second, or nearly: within 1e-12 of the period it repeats, beyond it goes on.
+TEST(Signals, APeriodIsWholeToTwelveDigits) {
+    const auto fifth = [](double steps_off) {
+        return bench::make_signal("sine1", 9, 1, 0.25 + steps_off * 0x1p-54)[4];  // off by so many 2^-52 of it
+    };
+    EXPECT_EQ(fifth(0.0), 0.0);
+    EXPECT_EQ(fifth(4480.0), 0.0);  // 9.95e-13
+    EXPECT_EQ(fifth(-4480.0), 0.0);
+    EXPECT_NEAR(fifth(4530.0), 0.9 * 2.0 * std::acos(-1.0) * 4530.0 * 0x1p-52, 1e-16);  // 1.006e-12
+    EXPECT_NEAR(fifth(-4530.0), -0.9 * 2.0 * std::acos(-1.0) * 4530.0 * 0x1p-52, 1e-16);
 }
 
 TEST(Signals, ASineNeedsTwoSamplesAPeriod) {

@@ -46,6 +46,9 @@ TEST(UsualSweep, IsLongOrQuick) {
 TEST(UsualSweep, LengthsRiseAndComeOnce) {
     EXPECT_EQ(texts_of(bench::lengths_of({"full", "600", "2+7", "600", "5"}, 1000)),
               (std::vector<std::string>{"5", "2+7", "600", "full"}));
+    // Of as many terms as they were asked for.
+    EXPECT_EQ(texts_of(bench::lengths_of({"full", "1000", "2+7", "16"}, 1000)),
+              (std::vector<std::string>{"2+7", "16", "full", "1000"}));
     try {
         (void)bench::lengths_of({"5", "1000001"}, 1000);
         FAIL() << "too long a length was taken";

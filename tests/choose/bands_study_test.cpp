@@ -7,11 +7,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <memory>
 #include <set>
+#include <string>
+#include <vector>
 
+#include "base/gnuplot.hpp"
 #include "bench/choose/derivative_errors.hpp"
 #include "tests/bench/pretend_gnuplot.hpp"
+#include "tests/choose/costs_by.hpp"
 
 namespace {
 
@@ -31,30 +37,20 @@ BandPoint made(const char* way, double cycles, double error, double order = 0.5,
     return {way, taps, order, band, error, cycles, cycles + 3.0, 8.0 * cycles};
 }
 
-// Ten cycles a tap and as many more as the order has hundredths, a hundred for the cascade; three taps are not to be
-// run.
-class MadeCosts : public choose::CostSource {
-public:
-    explicit MadeCosts(const choose::CountedOrder& order) : order_(order) { EXPECT_TRUE(order.fitted); }
-    [[nodiscard]] std::string unit() const override { return "model cycles"; }
-    [[nodiscard]] std::string limited_unit() const override { return unit(); }
-    [[nodiscard]] bool exact() const override { return true; }
-    [[nodiscard]] std::vector<choose::Cost> costs(const std::vector<choose::Case>& cases) override {
-        std::vector<choose::Cost> found;
-        for (const auto& [kernel, taps] : cases) {
-            const double cycles = cycles_of(kernel, taps, order_.order);
-            found.push_back({cycles, cycles + 1.0, 0.0, 4.0 * static_cast<double>(taps), taps == 3 ? "none" : ""});
-        }
-        return found;
-    }
-    static double cycles_of(const std::string& kernel, std::size_t taps, double order) {
-        return 10.0 * static_cast<double>(taps) + 100.0 * order + (kernel.starts_with("cascade") ? 100.0 : 0.0) +
-               (kernel.find("delta") != std::string::npos ? 1000.0 : 0.0);
-    }
+// Ten cycles a tap and as many more as the order has hundredths, a hundred for the cascade.
+double cycles_of(const std::string& kernel, std::size_t taps, double order) {
+    return 10.0 * static_cast<double>(taps) + 100.0 * order + (kernel.starts_with("cascade") ? 100.0 : 0.0) +
+           (kernel.find("delta") != std::string::npos ? 1000.0 : 0.0);
+}
 
-private:
-    choose::CountedOrder order_;
-};
+// Three taps are not to be run.
+std::unique_ptr<choose::CostSource> made_costs(const choose::CountedOrder& order) {
+    EXPECT_TRUE(order.fitted);
+    return std::make_unique<test::CostsBy>([order](const std::string& kernel, std::size_t taps) {
+        const double cycles = cycles_of(kernel, taps, order.order);
+        return choose::Cost{cycles, cycles + 1.0, 0.0, 4.0 * static_cast<double>(taps), taps == 3 ? "none" : ""};
+    });
+}
 
 TEST(BandStudy, MeasuresEveryFilterAtItsOwnCosts) {
     BandStudy study;
@@ -62,8 +58,7 @@ TEST(BandStudy, MeasuresEveryFilterAtItsOwnCosts) {
     study.bands = {narrow, wide};
     study.poles = {2};
     study.longest = 5;
-    const auto points = bench::measure_bands(
-        study, [](const choose::CountedOrder& order) { return std::make_unique<MadeCosts>(order); });
+    const auto points = bench::measure_bands(study, made_costs);
     std::set<std::pair<double, double>> cases;
     std::map<double, std::set<std::string>> ways;
     for (const BandPoint& point : points) {
@@ -75,7 +70,7 @@ TEST(BandStudy, MeasuresEveryFilterAtItsOwnCosts) {
         const std::string kernel = rival == nullptr ? point.way
                                    : rival->cascade ? (point.order > 1.0 ? "cascadedelta_df2t_f32" : "cascade_df2t_f32")
                                                     : (point.order > 1.0 ? "modesdelta_plain_f32" : "modes_plain_f32");
-        EXPECT_EQ(point.model_cycles, MadeCosts::cycles_of(kernel, taps, point.order)) << point.way;
+        EXPECT_EQ(point.model_cycles, cycles_of(kernel, taps, point.order)) << point.way;
         EXPECT_EQ(point.model_cycles_high, point.model_cycles + 1.0);
         EXPECT_EQ(point.bytes, 4.0 * static_cast<double>(taps));
         if (rival == nullptr) {
@@ -167,6 +162,55 @@ TEST(BandStudy, TableHasALineForEachFormOfBothFilters) {
     EXPECT_THAT(bench::to_table(study, {}), Not(HasSubstr("comparisons")));
 }
 
+// A cycle a tap, and a hundred over increments.
+std::vector<BandPoint> measured_plainly(double order, std::size_t longest) {
+    BandStudy study;
+    study.orders = {order};
+    study.bands = {narrow};
+    study.poles = {2};
+    study.longest = longest;
+    return bench::measure_bands(study, [](const choose::CountedOrder&) {
+        return std::make_unique<test::CostsBy>([](const std::string& kernel, std::size_t taps) {
+            const double more = kernel.find("delta") != std::string::npos ? 100.0 : 0.0;
+            return choose::Cost{static_cast<double>(taps) + more, 0.0, 0.0, 0.0, ""};
+        });
+    });
+}
+
+// One near tap and one mode are three coefficients, of an order near 1, too.
+TEST(BandStudy, BeginsWithOneMode) {
+    const auto points = measured_plainly(0.9, 3);
+    EXPECT_TRUE(std::ranges::any_of(points, [](const BandPoint& point) {
+        return point.way == "modes_plain_f32" && point.taps == "1+1" && point.model_cycles == 3.0;
+    }));
+    EXPECT_TRUE(std::ranges::none_of(
+        points, [](const BandPoint& point) { return bench::rival_of(point.way) == nullptr && point.taps != "1+1"; }));
+}
+
+// From just above order 1 on the filters of others have a difference before them.
+TEST(BandStudy, OthersFiltersStandOverIncrementsAboveOne) {
+    for (const double order : {0.9921875, 1.0078125}) {
+        const auto points = measured_plainly(order, 2);
+        EXPECT_FALSE(points.empty()) << order;
+        for (const BandPoint& point : points) {
+            EXPECT_EQ(point.model_cycles, order > 1.0 ? 105.0 : 5.0) << point.way;
+        }
+    }
+}
+
+// A filter that errs as much is not behind: of the ratios 1, 1.0078125 and 0.99609375 the last alone is.
+TEST(BandStudy, AsMuchErrorIsNotMore) {
+    BandStudy study;
+    study.orders = {0.5};
+    study.bands = {narrow};
+    const std::vector<BandPoint> points{made("modes_plain_f32", 10.0, 0.5), made("modesdelta_plain_f32", 9.0, 0.5),
+                                        made("oustaloup_f32", 10.0, 0.5), made("charef_f32", 10.0, 0.50390625),
+                                        made("charef_df2t_f32", 10.0, 0.498046875)};
+    EXPECT_THAT(bench::to_table(study, points),
+                HasSubstr("Of 3 comparisons at equal cycles the fitted filter errs more in 1; the other's error is "
+                          "0.996 to 1.01 times its own, 1 times in the median."));
+}
+
 class BandPlot : public PretendGnuplot {};
 
 std::size_t count_of(const std::string& text, const std::string& part) {
@@ -235,6 +279,65 @@ TEST_F(BandPlot, ShowsWhatNoOtherOfItsSeriesBetters) {
     EXPECT_THAT(script,
                 HasSubstr("Of 3 comparisons at equal cycles the fitted filter errs more in 0; in the median the "
                           "others err 4 times as much"));
+}
+
+// Of the ratios 0.99609375, 1, 1.0078125, 2 and 4.
+TEST_F(BandPlot, SaysWhoErrsMoreAsTheTableDoes) {
+    BandStudy study;
+    study.orders = {0.5};
+    study.bands = {narrow};
+    bench::plot_bands(study,
+                      {made("modes_plain_f32", 10.0, 0.5), made("oustaloup_f32", 10.0, 0.5),
+                       made("oustaloup_df2t_f32", 10.0, 1.0), made("charef_f32", 10.0, 0.50390625),
+                       made("charef_df2t_f32", 10.0, 0.498046875), made("charef_df2t_f32", 12.0, 2.0)},
+                      stem());
+    const std::string script = sent();
+    EXPECT_THAT(script, HasSubstr("Of 5 comparisons at equal cycles the fitted filter errs more in 1; in the median "
+                                  "the others err 1.01 times as much"));
+    // Drawn are the fronts alone.
+    EXPECT_THAT(script, HasSubstr("set yrange " + base::log_range(49.8046875, 50.0)));
+    bench::plot_bands(study, {made("modes_plain_f32", 10.0, 0.5)}, stem());
+    EXPECT_THAT(sent(), Not(HasSubstr("comparisons")));
+}
+
+// Room beside the panels takes as many pixels however many there are; the key stands above the uppermost.
+TEST_F(BandPlot, MarginsDoNotGrowWithThePanels) {
+    struct Margins {
+        double left = 0.0, right = 0.0, bottom = 0.0, top = 0.0, across = 0.0, down = 0.0, width = 0.0, height = 0.0;
+    };
+    const auto margins_of = [&](const std::vector<double>& orders, const std::vector<Band>& bands) {
+        BandStudy study;
+        study.orders = orders;
+        study.bands = bands;
+        bench::plot_bands(study, {}, stem());
+        const std::string script = sent();
+        Margins found;
+        EXPECT_EQ(std::sscanf(script.c_str() + script.find(" size "), " size %lf,%lf", &found.width, &found.height), 2);
+        EXPECT_EQ(std::sscanf(script.c_str() + script.find(" margins "), " margins %lf,%lf,%lf,%lf spacing %lf,%lf",
+                              &found.left, &found.right, &found.bottom, &found.top, &found.across, &found.down),
+                  6);
+        double x = 0.0;
+        double y = 0.0;
+        EXPECT_EQ(std::sscanf(script.c_str() + script.find("set key horizontal at "),
+                              "set key horizontal at screen %lf, screen %lf", &x, &y),
+                  2);
+        EXPECT_EQ(x, 0.5);
+        EXPECT_GT(y, found.top);
+        EXPECT_LT(y, 1.0);
+        return found;
+    };
+    const Margins few = margins_of({0.5}, {narrow});
+    const Margins many = margins_of({0.1, 0.3, 0.5, 0.7}, {narrow, wide, narrow, wide});
+    const auto same = [](double one, double other) {
+        EXPECT_GT(one, 10.0);
+        EXPECT_NEAR(one, other, 0.2);  // the shares have four digits
+    };
+    same(few.left * few.width, many.left * many.width);
+    same((1.0 - few.right) * few.width, (1.0 - many.right) * many.width);
+    same(few.bottom * few.height, many.bottom * many.height);
+    same((1.0 - few.top) * few.height, (1.0 - many.top) * many.height);
+    same(few.across * few.width, many.across * many.width);
+    same(few.down * few.height, many.down * many.height);
 }
 
 }  // namespace

@@ -4,38 +4,28 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "glsum/design/modes.hpp"
+#include "tests/choose/costs_by.hpp"
 #include "tests/choose/small_question.hpp"
 
 namespace {
 
 // Costs that rise with the length, as code does that goes tap by tap; one kernel's are a bargain far behind.
-class PretendCosts : public choose::CostSource {
-public:
-    explicit PretendCosts(bool bargains) : bargains_(bargains) {}
-    [[nodiscard]] std::string unit() const override { return "instructions"; }
-    [[nodiscard]] std::string limited_unit() const override { return "instructions"; }
-    [[nodiscard]] bool exact() const override { return true; }
-    [[nodiscard]] std::vector<choose::Cost> costs(const std::vector<choose::Case>& cases) override {
-        std::vector<choose::Cost> found;
-        for (const auto& [kernel, taps] : cases) {
-            choose::Cost cost;
-            const double per_tap = 3.0 + static_cast<double>(kernel.size() % 5);
-            cost.value = cost.limited = 10.0 + per_tap * static_cast<double>(taps);
-            cost.value = cost.limited = bargains_ && taps > 40 ? 1.0 : cost.value;
-            cost.bytes = 8.0 * static_cast<double>(taps);
-            found.push_back(cost);
-        }
-        return found;
-    }
-
-private:
-    bool bargains_;
-};
+test::CostsBy pretend_costs(bool bargains) {
+    return test::CostsBy([bargains](const std::string& kernel, std::size_t taps) {
+        choose::Cost cost;
+        const double per_tap = 3.0 + static_cast<double>(kernel.size() % 5);
+        cost.value = bargains && taps > 40 ? 1.0 : 10.0 + per_tap * static_cast<double>(taps);
+        cost.limited = cost.value;
+        cost.bytes = 8.0 * static_cast<double>(taps);
+        return cost;
+    });
+}
 
 TEST(BruteForce, TheSearchAgreesOnRealKernels) {
-    PretendCosts costs(false);
+    test::CostsBy costs = pretend_costs(false);
     const choose::Agreement found = choose::check_against_brute_force(test::small_question(), costs, 120, 3);
     EXPECT_EQ(found.budgets, 120U);
     EXPECT_EQ(found.same, 120U) << found.differences;
@@ -49,7 +39,7 @@ TEST(BruteForce, TheSearchAgreesOnRealKernels) {
 
 // The search may only expect costs to rise, but for the rest of a group: where they do not, the check must say so.
 TEST(BruteForce, ADifferenceIsSeenAndNamed) {
-    PretendCosts costs(true);
+    test::CostsBy costs = pretend_costs(true);
     const choose::Agreement found = choose::check_against_brute_force(test::small_question(), costs, 60, 3);
     EXPECT_EQ(found.budgets, 60U);
     EXPECT_LT(found.same, 60U);

@@ -5,8 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "bench/rows/key.hpp"
+#include "tests/choose/costs_by.hpp"
 
 namespace {
 
@@ -16,26 +21,14 @@ using glsum::design::Band;
 using testing::HasSubstr;
 
 // A mode costs two cycles and a near tap five, as nearly on a Cortex-M7; a byte a coefficient.
-class MadeCosts : public choose::CostSource {
-public:
-    explicit MadeCosts(const choose::CountedOrder& order) : order_(order) {}
-    [[nodiscard]] std::string unit() const override { return "model cycles"; }
-    [[nodiscard]] std::string limited_unit() const override { return unit(); }
-    [[nodiscard]] bool exact() const override { return true; }
-    [[nodiscard]] std::vector<choose::Cost> costs(const std::vector<choose::Case>& cases) override {
-        std::vector<choose::Cost> found;
-        for (const auto& [kernel, taps] : cases) {
-            const auto modes = static_cast<double>(order_.length(kernel, taps, 1000).modes.value_or(0));
-            const double cycles = 2.0 * modes + 5.0 * (static_cast<double>(taps) - 2.0 * modes);
-            found.push_back({cycles, cycles + 1.0, 0.0, static_cast<double>(taps),
-                             kernel == "modes_plain_f64" ? "it is broken" : ""});
-        }
-        return found;
-    }
-
-private:
-    choose::CountedOrder order_;
-};
+std::unique_ptr<choose::CostSource> made_costs(const choose::CountedOrder& order) {
+    return std::make_unique<test::CostsBy>([order](const std::string& kernel, std::size_t taps) {
+        const auto modes = static_cast<double>(order.length(kernel, taps, 1000).modes.value_or(0));
+        const double cycles = 2.0 * modes + 5.0 * (static_cast<double>(taps) - 2.0 * modes);
+        return choose::Cost{cycles, cycles + 1.0, 0.0, static_cast<double>(taps),
+                            kernel == "modes_plain_f64" ? "it is broken" : ""};
+    });
+}
 
 DerivativeStudy study_of(double limit, std::vector<std::string> kernels) {
     DerivativeStudy study;
@@ -44,8 +37,7 @@ DerivativeStudy study_of(double limit, std::vector<std::string> kernels) {
     }
     study.limit = limit;
     study.kernels = std::move(kernels);
-    study.targets = {
-        {"m7:stm32f746-itcm", [](const choose::CountedOrder& order) { return std::make_unique<MadeCosts>(order); }}};
+    study.targets = {{"m7:stm32f746-itcm", made_costs}};
     return study;
 }
 

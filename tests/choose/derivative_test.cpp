@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <utility>
 
 #include "bench/choose/derivative_errors.hpp"
@@ -10,6 +11,7 @@
 #include "bench/choose/kernel_run.hpp"
 #include "bench/choose/question.hpp"
 #include "bench/choose/would_do.hpp"
+#include "tests/choose/costs_by.hpp"
 
 namespace {
 
@@ -291,22 +293,6 @@ TEST(DerivativeErrors, LengthsAreThoseThatAFilterIsFittedTo) {
     EXPECT_FALSE(errors.meets("modes_plain_f32", 3, 0.05));
 }
 
-// A tap costs a cycle and four bytes.
-class CountedTaps : public choose::CostSource {
-public:
-    std::string unit() const override { return "cycles"; }
-    std::string limited_unit() const override { return "cycles"; }
-    bool exact() const override { return true; }
-    std::vector<choose::Cost> costs(const std::vector<choose::Case>& cases) override {
-        std::vector<choose::Cost> costs;
-        for (const auto& [kernel, taps] : cases) {
-            const auto cost = static_cast<double>(taps);
-            costs.push_back({cost, cost, 0.0, 4.0 * cost, ""});
-        }
-        return costs;
-    }
-};
-
 TEST(WouldDo, AsksForLessAndKeepsTheLimits) {
     const DerivativeGoal goal = goal_of(0.5, 2.0);
     const auto lesser = choose::lesser_goals(goal);
@@ -321,7 +307,10 @@ TEST(WouldDo, AsksForLessAndKeepsTheLimits) {
     EXPECT_EQ(lesser[3].second.step_s, 0.0005);
     EXPECT_EQ(choose::lesser_goals({0.5, 0.001, Band{3.0, 5.0}}).size(), 1U);
 
-    CountedTaps costs;
+    test::CostsBy costs([](const std::string&, std::size_t taps) {  // a tap costs a cycle and four bytes
+        const auto cost = static_cast<double>(taps);
+        return choose::Cost{cost, cost, 0.0, 4.0 * cost, ""};
+    });
     // Band and step together come to 0.5 % at best.
     const auto found = choose::what_would_do(goal, {"modes_plain_f64", "modes_plain_f32"}, costs, {2e-3, {}, {}});
     ASSERT_GE(found.size(), 2U);

@@ -43,6 +43,10 @@ TEST(PlainLoop, TheCheapestWinsThenTheSmallestThenTheMostAccurate) {
     std::reverse(entries.begin(), entries.end());
     EXPECT_EQ(best(entries, both), "cheaper");
     EXPECT_EQ(best({}, both), "");
+    // Of two that are as good in all three the first is taken.
+    EXPECT_EQ(
+        best({entry("first", {0.1, 0.2}, 10.0, 12.0, 100.0), entry("second", {0.2, 0.1}, 10.0, 12.0, 100.0)}, both),
+        "first");
 }
 
 TEST(PlainLoop, AtItsLimitsAnEntryFits) {

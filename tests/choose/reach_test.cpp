@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace {
@@ -186,6 +188,137 @@ TEST(Reach, OfFewLengthsStopsWhereNothingIsGained) {
     errors.whole.clear();
     EXPECT_FALSE(choose::reach_of(errors, "any", few, limit).shortest);
     EXPECT_EQ(errors.whole, few);
+}
+
+// Halving, step by step: of rungs 11 632 and 14 540 the lengths between which the limit is met come nearer.
+TEST(Reach, AGapIsHalvedUntilAScanIsLeft) {
+    Made errors;
+    errors.full = 20000;
+    errors.cuts = 1000;
+    errors.error_of = [](std::size_t taps) { return taps >= 12600 ? limit : 1.5 * limit; };
+    EXPECT_EQ(found(errors).shortest, 12600U);
+    // Gaps of 2908, 1454, 727, and 363, which is no more than 512; the scan begins 512 before the length that does.
+    Lengths expected = {13086, 12359, 12722};
+    for (const std::size_t taps : from_to(12210, 12600)) {
+        expected.push_back(taps);
+    }
+    EXPECT_EQ(errors.scanned, expected);
+    // From 4096 to 5120 a gap of 1024: half of it is a scan.
+    Made twice;
+    twice.full = 20000;
+    twice.cuts = 4096;
+    twice.error_of = [](std::size_t taps) { return taps >= 5000 ? limit : 1.5 * limit; };
+    EXPECT_EQ(found(twice).shortest, 5000U);
+    Lengths once = {4608};
+    for (const std::size_t taps : from_to(4608, 5000)) {
+        once.push_back(taps);
+    }
+    EXPECT_EQ(twice.scanned, once);
+}
+
+// What truncation costs may rise again: rungs stand only where it is within the limit, exactly at it too.
+struct Bumpy : Made {
+    std::function<double(std::size_t)> truncation_at;
+    [[nodiscard]] double truncation(std::size_t taps) const override { return truncation_at(taps); }
+};
+
+TEST(Reach, RungsStandWhereTruncationIsWithinTheLimit) {
+    Bumpy errors;
+    errors.full = 40;
+    errors.truncation_at = [](std::size_t taps) {
+        return taps < 5 || (taps >= 8 && taps <= 11) ? 1.01 * limit : taps < 8 ? limit : 0.0;
+    };
+    errors.error_of = [](std::size_t) { return 1.5 * limit; };
+    const Reach reach = found(errors);
+    EXPECT_FALSE(reach.shortest);
+    // By a quarter from rung to rung; 8 to 11 will not do.
+    EXPECT_EQ(errors.whole, (Lengths{5, 6, 7, 12, 15, 18, 22, 27, 33, 40}));
+    EXPECT_EQ(reach.best_taps, 5U);  // of equal errors the shortest
+    EXPECT_TRUE(errors.scanned.empty());
+}
+
+// No record is longer than its full memory, which leaves nothing out.
+TEST(Reach, WhereNoWindowWillDoFullMemoryIsAsked) {
+    Made errors;
+    errors.cuts = 1000;
+    errors.error_of = [](std::size_t) { return limit; };
+    const Reach reach = found(errors);
+    EXPECT_EQ(reach.shortest, 100U);
+    EXPECT_EQ(errors.whole, Lengths{100});
+}
+
+// The best is the best right answer, be there ever so small wrong ones.
+TEST(Reach, AWrongAnswerIsNotTheBest) {
+    struct WrongAt8 : Made {
+        [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override {
+            ErrorAt at = Made::error(kernel, taps);
+            at.fault = taps == 8 ? "broken" : "";
+            return at;
+        }
+    } errors;
+    errors.error_of = [](std::size_t taps) { return taps == 8 ? 0.0 : taps == 27 ? 2.0 * limit : 3.0 * limit; };
+    const Reach reach = found(errors);
+    EXPECT_FALSE(reach.shortest);
+    EXPECT_EQ(reach.best_taps, 27U);
+    EXPECT_EQ(errors.whole, ladder);
+}
+
+// Errors by the place of a length.
+struct InTurn : Made {
+    std::size_t turns = 1;
+    std::vector<ErrorAt> errors;
+    [[nodiscard]] std::size_t patience() const override { return turns; }
+    [[nodiscard]] ErrorAt error(const std::string&, std::size_t taps) override {
+        whole.push_back(taps);
+        return errors.at(taps - 1);
+    }
+};
+
+InTurn in_turn(std::size_t patience, const std::vector<double>& errors) {
+    InTurn source;
+    source.turns = patience;
+    for (const double error : errors) {
+        source.errors.push_back({.error = error, .signal = "made", .fault = {}});
+    }
+    return source;
+}
+
+Reach reach_of(InTurn& source) { return choose::reach_of(source, "any", from_to(1, source.errors.size()), limit); }
+
+// Of equal errors the shortest length's is the best.
+TEST(Reach, OfFewLengthsTheFirstOfTheLeastIsTheBest) {
+    const auto best_of = [](const std::vector<double>& errors) {
+        InTurn source = in_turn(errors.size(), errors);
+        const Reach reach = reach_of(source);
+        EXPECT_EQ(reach.best.error, errors.at(reach.best_taps - 1));
+        return reach.best_taps;
+    };
+    EXPECT_EQ(best_of({0.5, 0.75, 0.5}), 1U);
+    EXPECT_EQ(best_of({0.75, 0.5, 0.5, 0.6}), 2U);
+    EXPECT_EQ(best_of({0.75, 0.6, 0.5}), 3U);
+}
+
+// How many lengths are asked. \param fault_at  the length that is refused; 0: none
+std::size_t asked_of(std::size_t patience, const std::vector<double>& errors, std::size_t fault_at = 0) {
+    InTurn source = in_turn(patience, errors);
+    if (fault_at > 0) {
+        source.errors.at(fault_at - 1).fault = "refused";
+    }
+    EXPECT_FALSE(reach_of(source).shortest);
+    return source.whole.size();
+}
+
+TEST(Reach, AGainIsATwentiethOfTheBestSoFar) {
+    EXPECT_EQ(asked_of(1, {1.0, 0.945, 0.945, 0.5}), 3U);
+    EXPECT_EQ(asked_of(1, {1.0, 0.955, 0.5}), 2U);
+    EXPECT_EQ(asked_of(1, {1.0, 0.95, 0.5}), 2U);  // no less than that
+    // In steps smaller than that nothing is gained until they add up.
+    EXPECT_EQ(asked_of(2, {1.0, 0.96, 0.94, 0.94, 0.94, 0.5}), 5U);
+    // A gain begins the count again.
+    EXPECT_EQ(asked_of(2, {1.0, 1.0, 0.5, 0.5, 0.5, 0.25}), 5U);
+    // A refusal does so too, but it sets no new mark.
+    EXPECT_EQ(asked_of(1, {1.0, INFINITY, 1.0, 0.5}, 2), 3U);
+    EXPECT_EQ(asked_of(2, {1.0, 1.0, INFINITY, 1.0, 1.0, 0.5}, 3), 5U);
 }
 
 }  // namespace

@@ -10,6 +10,8 @@
 #include <tuple>
 #include <utility>
 
+#include "tests/choose/few_kernels.hpp"
+
 namespace {
 
 using choose::Candidate;
@@ -18,6 +20,8 @@ using choose::Cost;
 using choose::ErrorAt;
 using choose::Limits;
 using choose::Standing;
+using test::cost_of;
+using test::Few;
 
 struct Made {
     double rounding;  // at one tap; grows with the root of the length; below 0 it makes good what truncation costs
@@ -200,55 +204,6 @@ TEST(Search, AWrongAnswerNeverWins) {
     EXPECT_EQ(found.kernels.at(0).why, "it is broken");
 }
 
-// Kernels that meet any limit from a length on, with costs as each test gives them, and what was asked.
-struct Few : choose::ErrorSource, choose::CostSource {
-    struct One {
-        std::size_t meets_from;
-        std::function<Cost(std::size_t)> cost;
-        bool costly = false;
-        double error = 0.01;
-    };
-    std::map<std::string, One> ones;
-    bool same_every_time = true;
-    std::vector<choose::Case> asked;
-    std::size_t rounds = 0;
-
-    [[nodiscard]] std::size_t longest() const override { return ::longest; }
-    [[nodiscard]] double truncation(std::size_t) const override { return 0.0; }
-    [[nodiscard]] double rounding_bound(const std::string&, std::size_t) const override { return 0.0; }
-    [[nodiscard]] ErrorAt error(const std::string& kernel, std::size_t taps) override {
-        const One& one = ones.at(kernel);
-        return {.error = taps >= one.meets_from ? one.error : 1.0, .signal = "made", .fault = {}};
-    }
-    [[nodiscard]] bool meets(const std::string& kernel, std::size_t taps, double limit) override {
-        return error(kernel, taps).error <= limit;
-    }
-    [[nodiscard]] std::string unit() const override { return "instructions"; }
-    [[nodiscard]] std::string limited_unit() const override { return "instructions"; }
-    [[nodiscard]] bool exact() const override { return same_every_time; }
-    [[nodiscard]] bool costly(const std::string& kernel) const override { return ones.at(kernel).costly; }
-    [[nodiscard]] std::vector<Cost> costs(const std::vector<choose::Case>& cases) override {
-        std::vector<Cost> found;
-        rounds += cases.empty() ? 0 : 1;
-        for (const choose::Case& one : cases) {
-            asked.push_back(one);
-            found.push_back(ones.at(one.first).cost(one.second));
-        }
-        return found;
-    }
-    Choice choose(const Limits& limits) {
-        std::vector<std::string> all;
-        for (const auto& [name, one] : ones) {
-            all.push_back(name);
-        }
-        return choose::choose(*this, *this, all, limits, 1, false);
-    }
-};
-
-Cost cost_of(double value, double bytes = 8.0, double noise = 0.0) {
-    return {.value = value, .limited = value, .noise = noise, .bytes = bytes, .fault = {}};
-}
-
 std::vector<choose::Case> row_of(const std::string& kernel, std::size_t first, std::size_t last) {
     std::vector<choose::Case> cases;
     for (std::size_t taps = first; taps <= last; ++taps) {
@@ -294,10 +249,8 @@ TEST(Search, WhatCanNoMoreBecomeTheCheapestIsNotLookedAt) {
 
 // What a kernel could do at most within the other limits is looked for among the lengths that it has.
 TEST(Search, WhereNothingMeetsTheLimitNoLengthBeyondFullMemoryIsAsked) {
-    struct ShortRecord : Few {
-        [[nodiscard]] std::size_t longest() const override { return 20; }
-    };
-    ShortRecord few;
+    Few few;
+    few.full = 20;
     few.ones["a"] = {21, [](std::size_t taps) { return cost_of(10.0 * static_cast<double>(taps)); }};
     const Choice found = few.choose({0.1, 1000.0, {}});
     ASSERT_EQ(found.relaxed.size(), 1U);

@@ -3,14 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "drive/response.hpp"
 #include "tests/drive/plants.hpp"
 
 namespace {
 
+using drive::Acquisition;
 using drive::Kind;
 
 TEST(Coverage, OfTwoRunsIsTheirMeanAndSpread) {
@@ -56,6 +59,55 @@ TEST(Coverage, AFitThatThrowsCountsAsOutside) {
     EXPECT_EQ(found.mean, nothing_known);
     EXPECT_EQ(found.spread, nothing_known);
     EXPECT_EQ(found.claimed, nothing_known);
+}
+
+TEST(TakeLog, IsTheExactResponseWithTheNoiseAndTheQuantumOfItsSeed) {
+    const Acquisition rough{.excitation = {.name = "step"},
+                            .until_s = 50.0,
+                            .interval_s = 0.01,
+                            .jitter_s = 0.002,
+                            .noise = 0.02,
+                            .quantum = 0.0};
+    const auto log = drive::take_log(plants::sopdt(), rough, 7);
+    ASSERT_EQ(log.time_s.size(), 5001U);
+    EXPECT_EQ(log.name, "seed 7");
+    EXPECT_EQ(log.time_s[0], 0.0);
+    EXPECT_EQ(log.line[0], 2U);  // behind the header
+    EXPECT_EQ(log.line[5000], 5002U);
+    drive::StepResponse step(plants::sopdt());
+    double latest = 0.0;
+    double square = 0.0;
+    double fourth = 0.0;
+    double sum = 0.0;
+    for (std::size_t k = 1; k < log.time_s.size(); ++k) {
+        latest = std::max(latest, std::fabs(log.time_s[k] - 0.01 * static_cast<double>(k)));
+        const double noise = log.output[k] - step(log.time_s[k]);
+        sum += noise / 5000.0;
+        square += noise * noise / 5000.0;
+        fourth += noise * noise * noise * noise / 5000.0;
+    }
+    EXPECT_LE(latest, 0.002);
+    EXPECT_GT(latest, 0.00199);
+    EXPECT_NEAR(sum, 0.0, 0.0012);                       // four deviations of a mean
+    EXPECT_NEAR(std::sqrt(square), 0.02, 0.0008);        // and of a deviation
+    EXPECT_NEAR(fourth / (square * square), 3.0, 0.35);  // as of a normal one
+    Acquisition counted = rough;
+    counted.quantum = 0.008;
+    const auto counts = drive::take_log(plants::sopdt(), counted, 7);
+    EXPECT_EQ(counts.time_s, log.time_s);
+    for (std::size_t k = 0; k < counts.output.size(); ++k) {
+        ASSERT_NEAR(counts.output[k], 0.008 * std::round(log.output[k] / 0.008), 1e-12);
+    }
+    EXPECT_NE(drive::take_log(plants::sopdt(), rough, 8).output, log.output);
+    const Acquisition usual;  // a laboratory's: 1000 counts a turn, 45 degrees as 1
+    EXPECT_EQ(usual.excitation.name, "pulse");
+    EXPECT_EQ(usual.excitation.amplitude, 1.0);
+    EXPECT_EQ(usual.excitation.off_s, 2.6);
+    EXPECT_EQ(usual.until_s, 5.0);
+    EXPECT_EQ(usual.interval_s, 0.01);
+    EXPECT_EQ(usual.jitter_s, 0.001);
+    EXPECT_EQ(usual.noise, 0.01);
+    EXPECT_EQ(usual.quantum, 0.008);
 }
 
 // The generator of the standard, 53 bits of it in the middle of their interval, and Box and Muller's cosine: the same

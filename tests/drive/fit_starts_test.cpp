@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "drive/coverage.hpp"
 #include "drive/fit.hpp"
 #include "drive/response.hpp"
 #include "tests/drive/plants.hpp"
+#include "tests/drive/seen.hpp"
 
 namespace {
 
@@ -17,6 +17,7 @@ using drive::Form;
 using drive::Kind;
 using drive::Model;
 using drive::Record;
+using test::Seen;
 
 constexpr double length_s = 6.0;
 
@@ -30,11 +31,6 @@ Record stepped(const Model& model) {
     record.output = drive::respond(model, record.changes, record.time_s);
     return record;
 }
-
-struct Seen {
-    double least = std::numeric_limits<double>::infinity();
-    double most = -std::numeric_limits<double>::infinity();
-};
 
 // The values of one free parameter at which a fit of two starts begins, over many seeds; of the given start and another
 // that which is nearer to the truth.
@@ -50,8 +46,7 @@ Seen starts_of(const char* name, const Model& given, const Model& truth) {
         EXPECT_EQ(fit.starts, 2U);
         for (const drive::Estimate& estimate : fit.parameters) {
             if (estimate.name == name) {
-                seen.least = std::min(seen.least, estimate.value);
-                seen.most = std::max(seen.most, estimate.value);
+                seen(estimate.value);
             }
         }
     }

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -96,55 +97,6 @@ TEST(SearchStart, EndsBesideTheTruth) {
     Record silent = record_of(plants::fopdt());
     std::fill(silent.output.begin(), silent.output.end(), 0.0);
     EXPECT_THROW((void)drive::search_start(Kind::fopdt, {silent}), glsum::Failure);
-}
-
-TEST(TakeLog, IsTheExactResponseWithTheNoiseAndTheQuantumOfItsSeed) {
-    const Acquisition rough{.excitation = {.name = "step"},
-                            .until_s = 50.0,
-                            .interval_s = 0.01,
-                            .jitter_s = 0.002,
-                            .noise = 0.02,
-                            .quantum = 0.0};
-    const auto log = drive::take_log(plants::sopdt(), rough, 7);
-    ASSERT_EQ(log.time_s.size(), 5001U);
-    EXPECT_EQ(log.name, "seed 7");
-    EXPECT_EQ(log.time_s[0], 0.0);
-    EXPECT_EQ(log.line[0], 2U);  // behind the header
-    EXPECT_EQ(log.line[5000], 5002U);
-    drive::StepResponse step(plants::sopdt());
-    double latest = 0.0;
-    double square = 0.0;
-    double fourth = 0.0;
-    double sum = 0.0;
-    for (std::size_t k = 1; k < log.time_s.size(); ++k) {
-        latest = std::max(latest, std::fabs(log.time_s[k] - 0.01 * static_cast<double>(k)));
-        const double noise = log.output[k] - step(log.time_s[k]);
-        sum += noise / 5000.0;
-        square += noise * noise / 5000.0;
-        fourth += noise * noise * noise * noise / 5000.0;
-    }
-    EXPECT_LE(latest, 0.002);
-    EXPECT_GT(latest, 0.00199);
-    EXPECT_NEAR(sum, 0.0, 0.0012);                       // four deviations of a mean
-    EXPECT_NEAR(std::sqrt(square), 0.02, 0.0008);        // and of a deviation
-    EXPECT_NEAR(fourth / (square * square), 3.0, 0.35);  // as of a normal one
-    Acquisition counted = rough;
-    counted.quantum = 0.008;
-    const auto counts = drive::take_log(plants::sopdt(), counted, 7);
-    EXPECT_EQ(counts.time_s, log.time_s);
-    for (std::size_t k = 0; k < counts.output.size(); ++k) {
-        ASSERT_NEAR(counts.output[k], 0.008 * std::round(log.output[k] / 0.008), 1e-12);
-    }
-    EXPECT_NE(drive::take_log(plants::sopdt(), rough, 8).output, log.output);
-    const Acquisition usual;  // a laboratory's: 1000 counts a turn, 45 degrees as 1
-    EXPECT_EQ(usual.excitation.name, "pulse");
-    EXPECT_EQ(usual.excitation.amplitude, 1.0);
-    EXPECT_EQ(usual.excitation.off_s, 2.6);
-    EXPECT_EQ(usual.until_s, 5.0);
-    EXPECT_EQ(usual.interval_s, 0.01);
-    EXPECT_EQ(usual.jitter_s, 0.001);
-    EXPECT_EQ(usual.noise, 0.01);
-    EXPECT_EQ(usual.quantum, 0.008);
 }
 
 TEST(Fit, FindsEachFormFromNothing) {
@@ -305,94 +257,7 @@ TEST(Fit, IsSilent) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
-// Which parameters a form has, where they begin and between which bounds: by hand for each kind of start.
-TEST(Form, ItsParametersAreThoseNearestToItsStart) {
-    struct Row {
-        const char* name;
-        double value, lower, upper;
-        bool fixed;
-    };
-    const auto expect = [](const Form& form, const std::vector<Row>& rows) {
-        ASSERT_EQ(form.parameters().size(), rows.size());
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-            const drive::Parameter& parameter = form.parameters()[i];
-            EXPECT_EQ(parameter.name, rows[i].name);
-            EXPECT_NEAR(parameter.value, rows[i].value, 1e-12) << rows[i].name;
-            EXPECT_EQ(parameter.lower, rows[i].lower) << rows[i].name;
-            EXPECT_EQ(parameter.upper, rows[i].upper) << rows[i].name;
-            EXPECT_EQ(parameter.fixed, rows[i].fixed) << rows[i].name;
-            EXPECT_FALSE(parameter.bounds_are_given);
-        }
-    };
-    constexpr double far = 1e9;
-    const Row offset{"offset", 0.0, -far, far, true};
-    const auto mean = [&](double gain, double time_constant_s, double delay_s) {
-        return std::vector<Row>{{"gain", gain, -far, far, false},
-                                {"time_constant_s", time_constant_s, 1e-9, far, false},
-                                {"delay_s", delay_s, 0.0, far, false},
-                                offset};
-    };
-    expect(Form(Kind::fopdt, drive::make_fopdt(2.0, 0.5, 0.25)), mean(2.0, 0.5, 0.25));
-    expect(Form(Kind::sopdt, drive::make_sopdt(2.0, 0.5, 0.25)), mean(2.0, 0.5, 0.25));
-    expect(Form(Kind::sopdt, drive::make_fopdt(2.0, 0.5, 0.25)), mean(2.0, 0.25, 0.25));  // shared by two
-    expect(Form(Kind::fopdt, drive::make_sopdt(2.0, 0.5, 0.25)), mean(2.0, 0.75, 0.25));  // three quarters of both
-    Model scaled;
-    scaled.kind = Kind::fotf;
-    scaled.gain = 3.0;
-    scaled.denominator = {{0.5, 1.2}, {4.0, 0.0}};
-    expect(Form(Kind::fopdt, scaled), mean(0.75, 0.125, 0.0));
-    scaled.denominator = {{0.5, 1.0}};  // an integrator has neither gain nor time constant
-    expect(Form(Kind::fopdt, scaled), mean(3.0, 0.5, 0.0));
-    scaled.denominator = {{0.5, 0.4}, {4.0, 0.0}};
-    expect(Form(Kind::fopdt, scaled), mean(0.75, 1e-6, 0.0));
-
-    const std::vector<Row> common = {
-        {"gain", 1.0, -far, far, true}, {"b0", 1.0, -far, far, true}, {"beta0", 0.0, 0.0, 2.0, true}};
-    const auto niopdt = [&](double a2, double alpha2, double a1, double alpha1, double a0, double delay_s,
-                            double highest) {
-        std::vector<Row> rows = common;
-        rows.insert(rows.end(), {{"a2", a2, -far, far, false},
-                                 {"alpha2", alpha2, 0.01, highest, false},
-                                 {"a1", a1, -far, far, false},
-                                 {"alpha1", alpha1, 0.01, 2.0, false},
-                                 {"a0", a0, -far, far, false},
-                                 {"alpha0", 0.0, 0.0, 2.0, true},
-                                 {"delay_s", delay_s, 0.0, far, false},
-                                 offset});
-        return rows;
-    };
-    // (11) as the start of (12): T^2, 2, 2 T, 1, and all over the gain.
-    expect(Form(Kind::niopdt, drive::make_sopdt(2.0, 0.5, 0.25)), niopdt(0.125, 2.0, 0.5, 1.0, 0.5, 0.25, 2.5));
-    expect(Form(Kind::niopdt, drive::make_fopdt(2.0, 0.5, 0.25)), niopdt(0.03125, 2.0, 0.25, 1.0, 0.5, 0.25, 2.5));
-    expect(Form(Kind::niopdt, plants::niopdt()), niopdt(0.18234, 1.9909, 0.65536, 0.98319, 0.9992, 1.0, 1.9909 + 0.5));
-    Model with_zero;
-    with_zero.kind = Kind::fotf;
-    with_zero.gain = 3.0;
-    with_zero.numerator = {{1.0, 0.0}, {0.4, 0.6}};
-    with_zero.denominator = {{1.0, 0.0}, {0.25, 1.75}};
-    expect(Form(Kind::fotf, with_zero), {{"gain", 3.0, -far, far, true},
-                                         {"b1", 0.4, -far, far, false},
-                                         {"beta1", 0.6, 0.01, 2.0, false},
-                                         {"b0", 1.0, -far, far, false},
-                                         {"beta0", 0.0, 0.0, 2.0, true},
-                                         {"a1", 0.25, -far, far, false},
-                                         {"alpha1", 1.75, 0.01, 2.25, false},
-                                         {"a0", 1.0, -far, far, false},
-                                         {"alpha0", 0.0, 0.0, 2.0, true},
-                                         {"delay_s", 0.0, 0.0, far, false},
-                                         offset});
-    // And back: the values of a form are its model.
-    Form form(Kind::niopdt, plants::niopdt());
-    std::vector<double> values;
-    for (const drive::Parameter& parameter : form.parameters()) {
-        values.push_back(parameter.value);
-    }
-    const Model back = form.to_model(values);
-    EXPECT_EQ(back.denominator, plants::niopdt().denominator);
-    EXPECT_EQ(back.delay_s, 1.0);
-    EXPECT_EQ(back.gain, 1.0);
-    EXPECT_EQ(form.parameter("a1").value, 0.65536);
-    EXPECT_THROW((void)form.parameter("a3"), glsum::Failure);
+TEST(Fit, BeginsOnceAndEndsByItsStepsUnlessToldOtherwise) {
     const drive::FitOptions usual;
     EXPECT_EQ(usual.accepted_error, 0.0);
     EXPECT_EQ(usual.iterations, 200);
@@ -402,22 +267,6 @@ TEST(Form, ItsParametersAreThoseNearestToItsStart) {
     EXPECT_FALSE(usual.prediction_error);
     EXPECT_FALSE(usual.profile);
     EXPECT_EQ(usual.jobs, 1U);
-}
-
-TEST(Form, GivesTermsTheirOrderAsFarAsBoundsAllow) {
-    Form form(Kind::niopdt, plants::niopdt());
-    const std::vector<double> swapped = {1.0, 1.0, 0.0, 0.6, 0.9, 0.2, 1.9, 1.0, 0.0, 0.5, 0.0};
-    const std::vector<double> ordered = {1.0, 1.0, 0.0, 0.2, 1.9, 0.6, 0.9, 1.0, 0.0, 0.5, 0.0};
-    EXPECT_EQ(form.in_order(swapped), ordered);
-    EXPECT_EQ(form.in_order(ordered), ordered);
-    form.parameter("alpha1").upper = 1.5;
-    EXPECT_EQ(form.in_order({1.0, 1.0, 0.0, 0.6, 0.9, 0.2, 1.6, 1.0, 0.0, 0.5, 0.0}),
-              (std::vector<double>{1.0, 1.0, 0.0, 0.2, 1.6, 0.6, 0.9, 1.0, 0.0, 0.5, 0.0}));
-    form.parameter("alpha2").upper = 1.5;
-    EXPECT_EQ(form.in_order(swapped), swapped);
-    form.parameter("alpha2").upper = 2.5;
-    form.parameter("a1").fixed = true;
-    EXPECT_EQ(form.in_order(swapped), swapped);
 }
 
 // Terms that came to stand the other way round are told in their order, with the deviations that are theirs.
@@ -556,6 +405,20 @@ TEST(Fit, TheNoiseModelSolvesYuleAndWalkersEquations) {
     const double determinant = c0 * c0 - c1 * c1;
     EXPECT_NEAR(found.noise_model[0], -(c1 * c0 - c1 * c2) / determinant, 1e-3);
     EXPECT_NEAR(found.noise_model[1], -(c2 * c0 - c1 * c1) / determinant, 1e-3);
+}
+
+TEST(Record, BeginsAtItsFirstStamp) {
+    drive::Log log;
+    for (int k = 0; k < 8; ++k) {
+        log.time_s.push_back(5.0 + 0.25 * k);
+        log.input.push_back(k < 3 ? 0.0 : 2.0);
+        log.output.push_back(k);
+    }
+    const Record record = drive::to_record(log);
+    EXPECT_EQ(record.time_s, (std::vector<double>{0.0, 0.25, 0.5, 0.75, 1.0, 1.25, 1.5, 1.75}));
+    ASSERT_EQ(record.changes.size(), 1U);
+    EXPECT_EQ(record.changes[0].time_s, 0.75);
+    EXPECT_EQ(record.changes[0].size, 2.0);
 }
 
 TEST(Record, RefusesWhatCannotBeIdentifiedFrom) {

@@ -4,19 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <string>
 
-#include "base/failure.hpp"
 #include "drive/log.hpp"
 #include "drive/model_file.hpp"
 #include "drive/static_characteristic.hpp"
+#include "tests/drive/refused.hpp"
 
 namespace {
 
-using drive::Columns;
 using drive::Log;
+using test::refusal_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -32,16 +31,6 @@ Log log_at(const std::vector<double>& time_s, const std::vector<double>& output 
         log.line.push_back(i + 2);
     }
     return log;
-}
-
-std::string refusal_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const glsum::Failure& failure) {
-        EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
-        return failure.what();
-    }
-    return "accepted";
 }
 
 TEST(LogEdges, AGapIsBeyondOneAndThreeQuartersOfTheUsualInterval) {

@@ -7,31 +7,16 @@
 #include <numbers>
 #include <vector>
 
-#include "drive/stand/blind/hydraulic/tanks.hpp"
-#include "drive/stand/blind/thermal/oven.hpp"
+#include "tests/drive/oven_and_tanks.hpp"
 
 namespace {
 
-using stand::blind::Held;
-using stand::hydraulic::Tanks;
-using stand::thermal::Oven;
-
-/// Levels from their times on, held.
-Held levels(const std::vector<std::pair<double, double>>& changes) {
-    Held held;
-    for (const auto& [time_s, level] : changes) {
-        held.time_s.push_back(time_s);
-        held.input.push_back(level);
-    }
-    return held;
-}
-
-double warmed(const Oven& oven, const Held& held, double at_s, double step_s = 0.005) {
-    return stand::thermal::measure(oven, held, std::vector{at_s}, step_s).front();
-}
-double filled(const Tanks& tanks, const Held& held, double at_s, double step_s = 0.002) {
-    return stand::hydraulic::gauge(tanks, held, std::vector{at_s}, step_s).front();
-}
+using oven_and_tanks::filled;
+using oven_and_tanks::Held;
+using oven_and_tanks::levels;
+using oven_and_tanks::Oven;
+using oven_and_tanks::Tanks;
+using oven_and_tanks::warmed;
 
 // What a first order of time constant tau makes of sin(w t), from rest.
 double swung(double t, double w, double tau) {

@@ -161,6 +161,23 @@ TEST(Paper, ADistanceMayExceedItsSidesByAThousandth) {
     }
 }
 
+// By as much it may stay below their difference: models that are multiples of one are as far apart as their gains.
+TEST(Paper, ADistanceMayStayAThousandthBelowTheDifferenceOfItsSides) {
+    const std::vector<double> base = response_of(models.sopdt);
+    const auto size = drive::compute_indices(times(), base, std::vector<double>(base.size(), 0.0));
+    for (const double part : {0.9985, 0.9995}) {
+        drive::PaperModels others{models.sopdt, models.sopdt, models.sopdt};
+        others.sopdt.gain += part * (std::sqrt(3.0031e-3) - std::sqrt(9.6876e-4)) / std::sqrt(size.ise);
+        others.fopdt.gain += part * (1.2005e-1 - 4.6558e-2) / size.iae;
+        const auto claims = drive::check_paper(others);
+        const auto refused = [&](std::size_t claim, const char* pair) {
+            return std::regex_search(claims[claim].ours, std::regex(std::string(pair) + " [^;]* NO"));
+        };
+        EXPECT_EQ(refused(5, "SOPDT-NIOPDT"), part < 0.999) << claims[5].ours;
+        EXPECT_EQ(refused(6, "FOPDT-NIOPDT"), part < 0.999) << claims[6].ours;
+    }
+}
+
 TEST(Paper, TheValueAfterFiveSecondsIsThePublishedOne) {
     const auto value = drive::value_at_5_s(models.niopdt);
     EXPECT_EQ(value.without_delay, "0.9977144659");

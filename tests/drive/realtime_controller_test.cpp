@@ -180,6 +180,40 @@ TEST(RealtimeController, HoldsALoopAroundThePlant) {
               drive::loop_gain(RealtimeController(pi, {3 + 2 * 4, 4}, h), pi, plants::niopdt(), h));
 }
 
+// Of whole orders, u_k - u_(k-1) = (kp + ki h + kd / h) e_k - (kp + 2 kd / h) e_(k-1) + kd / h e_(k-2).
+TEST(RealtimeController, NumbersOfAPidAreThoseByHand) {
+    const RealtimeController whole({.kp = 2.0, .ki = 3.0, .kd = 0.5}, {5}, 0.25);
+    const double first = 2.0 + 3.0 * 0.25 + 0.5 / 0.25;
+    EXPECT_NEAR(whole.design().first, first, 1e-12);
+    ASSERT_EQ(whole.design().ratios.size(), 4U);
+    EXPECT_NEAR(whole.design().ratios[0], -(2.0 + 2.0 * 0.5 / 0.25) / first, 1e-12);
+    EXPECT_NEAR(whole.design().ratios[1], 0.5 / 0.25 / first, 1e-12);
+    EXPECT_NEAR(whole.design().ratios[2], 0.0, 1e-12);
+    EXPECT_NEAR(whole.design().ratios[3], 0.0, 1e-12);
+    EXPECT_NEAR(whole.error(), 0.0, 1e-12);
+    EXPECT_EQ(whole.memory().text(), "5");
+}
+
+// D^0.5 has the weights 1, -0.5, -0.125, -0.0625, -0.0390625 times h^-0.5, here 2; the ratios are of their differences.
+// Behind three taps the last weight goes on: by how much that is off is summed up to the horizon.
+TEST(RealtimeController, NumbersOfAHalfOrderAreThoseByHand) {
+    const FractionalPid half{.kd = 1.0, .derivative_order = 0.5};
+    const RealtimeController made(half, {3}, 0.25, 4);
+    EXPECT_NEAR(made.design().first, 2.0, 1e-12);
+    ASSERT_EQ(made.design().ratios.size(), 2U);
+    EXPECT_NEAR(made.design().ratios[0], -1.5, 1e-12);
+    EXPECT_NEAR(made.design().ratios[1], 0.375, 1e-12);
+    EXPECT_NEAR(made.error(), 2.0 * (0.0625 + 0.0859375), 1e-12);
+    EXPECT_NEAR(RealtimeController(half, {3}, 0.25, 3).error(), 2.0 * 0.0625, 1e-12);
+    EXPECT_NEAR(RealtimeController(half, {3}, 0.25, 1).error(), 2.0 * 0.0625, 1e-12);
+    // An integral of a half sums up: 1, 0.5, 0.375, 0.3125 times h^0.5.
+    const RealtimeController integral({.ki = 1.0, .integral_order = 0.5}, {3}, 0.25, 3);
+    EXPECT_NEAR(integral.design().first, 0.5, 1e-12);
+    EXPECT_NEAR(integral.design().ratios[0], -0.5, 1e-12);
+    EXPECT_NEAR(integral.design().ratios[1], -0.125, 1e-12);
+    EXPECT_NEAR(integral.error(), 0.5 * 0.0625, 1e-12);
+}
+
 TEST(RealtimeController, RefusesWhatItCannotStep) {
     EXPECT_THROW(RealtimeController({}, {10}, h), glsum::Failure);
     EXPECT_THROW(RealtimeController({.ki = 1.0, .integral_order = 1.2}, {10}, h), glsum::Failure);

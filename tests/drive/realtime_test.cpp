@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "base/failure.hpp"
 #include "drive/response.hpp"
@@ -254,6 +255,59 @@ TEST(Realtime, NumbersOfAFirstOrderAreThoseByHand) {
     const drive::RealtimeModel two(plants::niopdt(), Writing::apart, {20}, h);
     EXPECT_EQ(K::multiplications(two.design()), 1U + 2U * 19U);
     EXPECT_EQ(K::line_count(25), 26U);
+}
+
+// (1 + T s)^2 y = K u: T^2/h^2 (1 - z)^2 + 2 T/h (1 - z) + 1, with p for T/h. Increments take one factor 1 - z each.
+TEST(Realtime, NumbersOfASecondOrderAreThoseByHand) {
+    drive::Model model = drive::make_sopdt(2.0, 0.5, 0.0);
+    model.numerator = {{3.0, 0.0}};
+    constexpr double p = 50.0;  // at 0.01 s
+    const double newest = p * p + 2.0 * p + 1.0;
+    const drive::RealtimeModel merged(model, Writing::merged, {20}, 0.01);
+    EXPECT_NEAR(merged.design().input, 6.0 / newest, 1e-14);
+    ASSERT_EQ(merged.design().tables.size(), 1U);
+    EXPECT_NEAR(merged.design().tables[0].factor, -(2.0 * p * p + 2.0 * p) / newest, 1e-12);
+    ASSERT_EQ(merged.design().tables[0].ratios.size(), 1U);
+    EXPECT_NEAR(merged.design().tables[0].ratios[0], -p * p / (2.0 * p * p + 2.0 * p), 1e-12);
+    EXPECT_EQ(merged.memory().text(), "3");
+    const drive::RealtimeModel apart(model, Writing::apart, {20}, 0.01);
+    EXPECT_NEAR(apart.design().input, 6.0 / newest, 1e-14);
+    EXPECT_EQ(apart.design().constant, 0.0);
+    ASSERT_EQ(apart.design().tables.size(), 2U);
+    EXPECT_NEAR(apart.design().tables[0].factor, -2.0 * p * p / newest, 1e-12);
+    ASSERT_EQ(apart.design().tables[0].ratios.size(), 1U);
+    EXPECT_NEAR(apart.design().tables[0].ratios[0], -0.5, 1e-12);
+    EXPECT_NEAR(apart.design().tables[1].factor, -2.0 * p / newest, 1e-12);
+    EXPECT_TRUE(apart.design().tables[1].ratios.empty());
+    EXPECT_EQ(apart.memory().text(), "3");
+    const drive::RealtimeModel delta(model, Writing::delta, {20}, 0.01);
+    EXPECT_NEAR(delta.design().input, 6.0 / newest, 1e-14);
+    EXPECT_NEAR(delta.design().constant, 1.0 / newest, 1e-14);
+    ASSERT_EQ(delta.design().tables.size(), 1U);
+    EXPECT_NEAR(delta.design().tables[0].factor, -p * p / newest, 1e-12);
+    EXPECT_TRUE(delta.design().tables[0].ratios.empty());
+    EXPECT_EQ(delta.memory().text(), "2");
+    // By BDF2 1 - z becomes (3 - 4 z + z^2) / 2, which is (1 - z) (3 - z) / 2.
+    const double second = 2.25 * p * p + 1.5 * 2.0 * p + 1.0;
+    const drive::RealtimeModel bdf2(model, Writing::bdf2, {20}, 0.01);
+    EXPECT_NEAR(bdf2.design().input, 6.0 / second, 1e-14);
+    EXPECT_NEAR(bdf2.design().constant, 1.0 / second, 1e-14);
+    ASSERT_EQ(bdf2.design().tables.size(), 1U);
+    EXPECT_NEAR(bdf2.design().tables[0].factor, (-3.75 * p * p - 0.5 * 2.0 * p) / second, 1e-10);
+}
+
+// Powers of two above a hundredth more than any input of up to 1 can cause. The output can be K, its increments K/51 up
+// and K/51 down again.
+TEST(Realtime, ScalesHoldAHundredthMoreThanCanBe) {
+    const auto scales = [](double gain, Writing writing) {
+        const drive::RealtimeModel made(drive::make_fopdt(gain, 0.5, 0.0), writing, {20}, 0.01);
+        return std::pair(made.design().output_full_scale, made.design().stored_full_scale);
+    };
+    EXPECT_EQ(scales(0.995 * 2.0 / 1.01, Writing::merged), std::pair(2.0, 2.0));
+    EXPECT_EQ(scales(1.005 * 2.0 / 1.01, Writing::merged), std::pair(4.0, 4.0));
+    EXPECT_EQ(scales(-1.005 * 2.0 / 1.01, Writing::merged), std::pair(4.0, 4.0));
+    EXPECT_EQ(scales(0.995 * 0.125 * 25.5 / 1.01, Writing::delta), std::pair(4.0, 0.125));
+    EXPECT_EQ(scales(1.005 * 0.125 * 25.5 / 1.01, Writing::delta), std::pair(4.0, 0.25));
 }
 
 TEST(Realtime, TheLargestLengthLiesOnTheLineThroughTwo) {

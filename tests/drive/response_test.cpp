@@ -140,6 +140,25 @@ TEST(InverseLaplace, LooksForSwingsWithAThousandTerms) {
     EXPECT_THROW((void)at_one(1025.5), glsum::Failure);
 }
 
+// What is no number, or grows beyond a thousand, is said with the beginning of its octave of time.
+TEST(InverseLaplace, SaysWhereItDoesNotConverge) {
+    const auto said = [](double value, std::vector<drive::Swing> swings, double t) -> std::string {
+        drive::InverseLaplace found(
+            1, [=](std::complex<double>, std::span<std::complex<double>> values) { values[0] = value; },
+            std::move(swings));
+        try {
+            return std::to_string(found(t));
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), glsum::Exit::check_failed);
+            return failure.what();
+        }
+    };
+    const std::string end = " s does not converge: too lightly damped, or unstable, for so long a record";
+    EXPECT_EQ(said(std::nan(""), {}, 5.0), "the response around 4" + end);
+    EXPECT_EQ(said(0.0, {{0.0, -10.0}}, 3.0), "the response around 2" + end);
+    EXPECT_EQ(said(0.0, {}, 3.0), "0.000000");
+}
+
 // Several transforms at once, each by its closed form, over many octaves.
 TEST(InverseLaplace, OfSeveralTransformsIsEachOnesFunction) {
     drive::InverseLaplace several(3,

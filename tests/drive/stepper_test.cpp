@@ -212,6 +212,18 @@ TEST(Stepper, CountsWhatItSaturates) {
     EXPECT_NEAR(stepped<Fixed>(summing, std::vector<double>(101, 0.75)).output.back(), 37.5, 1e-6);
 }
 
+// A constant of 0 takes nothing from a large y: in q31, too, y grows by exactly the half of what the input is.
+TEST(Stepper, AFactorOfNothingTakesNothing) {
+    const ModelDesign design{.input = 0.5, .constant = 0.0, .tables = {}};
+    using Model = Stepper<Fixed>;
+    std::vector<std::int32_t> line(1);
+    typename Model::State state{};
+    ASSERT_EQ(Model::prepare(state, design, {}, {}, line), Status::ok);
+    for (std::int64_t k = 0; k < 20; ++k) {
+        EXPECT_EQ(Model::step(state, 1 << 30), k << 29) << k;
+    }
+}
+
 TEST(Stepper, MeansOfInputsAreRoundedDown) {
     const ModelDesign design{.increments = false, .half_input = true, .input = 1.0, .tables = {}};
     using Model = Stepper<Fixed>;
@@ -300,6 +312,13 @@ TEST(Stepper, ItsDesignsAreNothingByThemselves) {
     EXPECT_EQ(table.design().taps, 3U + 1U + 6U);
     EXPECT_EQ(Stepper<Modes>::table_count(table), 9U);
     EXPECT_EQ(Stepper<Modes>::past_count(table), 3U + 3U);
+    // Multiplications: those of the sums, one for each of them, for the input, and for y where it has a share.
+    ModelDesign counted{.tables = std::span(&table, 1)};
+    EXPECT_EQ(Stepper<Modes>::multiplications(counted), 9U + 1U + 1U);
+    counted.constant = 0.5;
+    EXPECT_EQ(Stepper<Modes>::multiplications(counted), 9U + 1U + 2U);
+    counted.increments = false;
+    EXPECT_EQ(Stepper<Modes>::multiplications(counted), 9U + 1U + 1U);
     // In fixed point an input is a fraction of its full scale, an output a multiple of the stored one's.
     ModelDesign scaled;
     scaled.input_full_scale = 4.0;

@@ -67,6 +67,61 @@ TEST(Trial, FiltersItsDerivativeAndSumsItsIntegral) {
     }
 }
 
+// Orders of a half. The weights of (1 - z)^-0.5 are 1, 0.5, 0.375, 0.3125, those of (1 - z)^0.5 are 1, -0.5, -0.125,
+// -0.0625; sums of them act. What acts at once is given a part of the set point.
+TEST(Trial, SumsFractionalOrdersAndWeighsTheSetPoint) {
+    constexpr double h = 0.25;
+    const SampledPlant plant(drive::make_fopdt(1.0, 0.5, 20.0), h, "plant");  // nothing comes back meanwhile
+    const drive::Fopid controller{
+        .gains = {.kp = 1.5, .ki = 0.6, .kd = 0.8, .integral_order = 0.5, .derivative_order = 0.5},
+        .sample_time_s = h,
+        .setpoint_weight = 0.25,
+        .notes = {}};
+    const Course course = tune::run(plant, controller, {2.0, 0.0, 1.0});
+    const double integral[] = {1.0, 1.5, 1.875, 2.1875};
+    const double derivative[] = {1.0, 0.5, 0.375, 0.3125};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double at_once = 1.5 + 0.8 / 0.5 * derivative[k];  // h^0.5 is a half
+        EXPECT_NEAR(course.input[k], 2.0 * (0.25 * at_once + 0.6 * 0.5 * integral[k]), 1e-12) << k;
+    }
+}
+
+// In velocity form: an input that is held at its limit goes on from there as soon as it may.
+TEST(Trial, StopsAtItsLimitsAndGoesOnFromThere) {
+    constexpr double h = 0.1;
+    const double a = std::exp(-h / 0.5);
+    const SampledPlant plant(drive::make_fopdt(1.0, 0.5, 0.0), h, "plant");
+    const auto course_within = [&](double low, double high) {
+        const drive::Fopid controller{.gains = {.kp = 2.0, .ki = 6.0},
+                                      .sample_time_s = h,
+                                      .low = low,
+                                      .high = high,
+                                      .setpoint_weight = 0.5,
+                                      .notes = {}};
+        return tune::run(plant, controller, {1.0, -0.5, 3.0});
+    };
+    const auto expect_steps = [&](const Course& course, double low, double high) {
+        double y = 0.0;
+        double before = 0.0;
+        double u = 0.0;
+        for (std::size_t k = 0; k < 60; ++k) {
+            u += (k == 0 ? 0.5 * 2.0 : 0.0) + 6.0 * h * (1.0 - y) - 2.0 * (y - before);
+            u = std::clamp(u, low, high);
+            EXPECT_NEAR(course.output[k], y, 1e-9) << k;
+            EXPECT_NEAR(course.input[k], u, 1e-9) << k;
+            before = y;
+            y = a * y + (1.0 - a) * (u + (k >= 30 ? -0.5 : 0.0));
+        }
+    };
+    const Course free = course_within(-100.0, 100.0);
+    EXPECT_FALSE(free.limited);
+    expect_steps(free, -100.0, 100.0);
+    const double most = *std::max_element(free.input.begin(), free.input.end());
+    const Course limited = course_within(1.1, 0.95 * most);
+    EXPECT_TRUE(limited.limited);
+    expect_steps(limited, 1.1, 0.95 * most);
+}
+
 TEST(Trial, TakesTwoToHalfOfTheMostSamples) {
     const SampledPlant plant(drive::make_fopdt(1.0, 0.5, 0.0), 0.5, "plant");
     const drive::Fopid controller{.gains = {.kp = 1.0}, .sample_time_s = 0.5, .notes = {}};

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "base/failure.hpp"
 #include "gap/exam/ask.hpp"
 #include "gap/exam/manifest.hpp"
 #include "gap/exam/score.hpp"
+#include "gap/exam/truth.hpp"
 #include "gap/verdict/verdict.hpp"
 
 namespace {
@@ -105,6 +108,58 @@ TEST(Asked, IsAnsweredByAFileThatNamesASuspect) {
     const exam::Reply reply = exam::parse_reply(gap::to_json(unknown), "v.json");
     EXPECT_EQ(reply.verdict, "unknown");
     EXPECT_THAT(reply.suspect, testing::ElementsAre("backlash", "gain_drift"));
+}
+
+std::vector<exam::Truth> known(const std::string& questions) {
+    return exam::parse_truth(R"({"schema": "glsum-exam-truth-1", "questions": [)" + questions + "]}", "t.json");
+}
+
+TEST(Known, HasEachFieldOfEachQuestion) {
+    const auto all = known(R"({"name": "arm", "known": "listed", "attainable_gap": 0.05, "source": "its authors",
+        "causes": [{"any_of": ["gravity_nonlinearity"]}, {"any_of": ["coulomb_friction", "backlash"], "main": false}]},
+        {"name": "oven", "known": "not_listed", "attainable_of_base": 0.25, "causes": [{"any_of": ["gain_drift"],
+         "main": false}]}, {"name": "mass", "known": "nothing"})");
+    ASSERT_EQ(all.size(), 3U);
+    EXPECT_EQ(all[0].name, "arm");
+    EXPECT_EQ(all[0].known, exam::Known::listed);
+    EXPECT_EQ(all[0].attainable_gap, 0.05);
+    EXPECT_FALSE(all[0].attainable_of_base);
+    EXPECT_EQ(all[0].source, "its authors");
+    ASSERT_EQ(all[0].causes.size(), 2U);
+    EXPECT_THAT(all[0].causes[0].any_of, testing::ElementsAre("gravity_nonlinearity"));
+    EXPECT_TRUE(all[0].causes[0].main);
+    EXPECT_THAT(all[0].causes[1].any_of, testing::ElementsAre("coulomb_friction", "backlash"));
+    EXPECT_FALSE(all[0].causes[1].main);
+    EXPECT_EQ(all[1].name, "oven");
+    EXPECT_EQ(all[1].known, exam::Known::not_listed);
+    EXPECT_FALSE(all[1].attainable_gap);
+    EXPECT_EQ(all[1].attainable_of_base, 0.25);
+    EXPECT_EQ(all[1].causes.size(), 1U);
+    EXPECT_EQ(all[2].name, "mass");
+    EXPECT_EQ(all[2].known, exam::Known::nothing);
+    EXPECT_EQ(all[2].source, "");
+    EXPECT_TRUE(all[2].causes.empty());
+}
+
+TEST(Known, RefusesFieldsByTheirPlace) {
+    const auto refusal = [](const std::string& fields) -> std::string {
+        try {
+            (void)known(R"({"name": "arm", )" + fields + "}");
+        } catch (const glsum::Failure& failure) {
+            EXPECT_EQ(failure.status(), glsum::Exit::bad_input);
+            return failure.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(refusal(R"("known": "nothing", "sources": "x")"),
+              "t.json: arm: expected no fields but name, known, causes, attainable_gap, attainable_of_base and source, "
+              "found sources");
+    EXPECT_EQ(refusal(R"("known": "listed", "causes": [{"any_of": ["a"]}, {"any_of": ["b"], "mian": true}])"),
+              "t.json: arm: causes[1]: expected no fields but any_of and main, found mian");
+    EXPECT_EQ(refusal(R"("known": "nothing", "causes": [{"any_of": ["a"]}])"),
+              "t.json: arm: causes: expected none beside nothing, found 1");
+    EXPECT_EQ(refusal(R"("known": "listed", "causes": [{"any_of": ["a"], "main": false}])"),
+              "t.json: arm: causes: expected a main one beside listed, found none");
 }
 
 }  // namespace

@@ -6,104 +6,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numbers>
 #include <random>
+#include <vector>
 
 #include "gap/drive/clipped.hpp"
 #include "gap/drive/ends.hpp"
+#include "tests/gap/audit_case.hpp"
 
 namespace {
 
+using audit_test::in_units;
+using audit_test::noisy;
+using audit_test::record_of;
+using audit_test::unit;
+using audit_test::Values;
 using testing::Contains;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
-
-gap::Record record_of(std::vector<double> output) {
-    gap::Record record;
-    record.name = "made";
-    record.usual_interval_s = 0.1;
-    for (std::size_t i = 0; i < output.size(); ++i) {
-        record.time_s.push_back(0.1 * static_cast<double>(i));
-        record.input.push_back(1.0);
-    }
-    record.output = std::move(output);
-    return record;
-}
-
-std::vector<double> noisy(std::size_t count, unsigned seed, double size = 1.0) {
-    std::mt19937_64 engine(seed);
-    std::normal_distribution<double> normal(0.0, size);
-    std::vector<double> values;
-    for (std::size_t i = 0; i < count; ++i) {
-        values.push_back(normal(engine));
-    }
-    return values;
-}
-
-double quantum_of(const std::vector<double>& output) { return gap::audit({record_of(output)}).quantum; }
-
-TEST(AuditQuantum, IsTheLatticeWhereverItBegins) {
-    std::vector<double> values = noisy(400, 1);
-    for (double& value : values) {
-        value = 0.123 + 0.05 * std::round(value / 0.05);
-    }
-    EXPECT_NEAR(quantum_of(values), 0.05, 1e-9);
-    // One reading of a hundred may lie off it, and no more.
-    for (std::size_t i = 0; i < 400; i += 40) {
-        values[i] += 0.02;
-    }
-    EXPECT_EQ(quantum_of(values), 0.0);
-    EXPECT_EQ(quantum_of(noisy(400, 2)), 0.0);
-    // The digits of a file are no step: it is below a hundred-thousandth of the span.
-    std::vector<double> fine{0.0, 1.0, 3.0, 4.0, 200000.0, 200001.0, 7.0};
-    EXPECT_EQ(quantum_of(fine), 0.0);
-    fine[4] = 90000.0;
-    fine[5] = 90001.0;
-    EXPECT_NEAR(quantum_of(fine), 1.0, 1e-6);
-    EXPECT_EQ(quantum_of(std::vector<double>(50, 2.0)), 0.0);
-}
-
-// Readings that go up and down by a step of 0.05, and far above them once some that lie a fifth of a step beside.
-TEST(AuditQuantum, OfOneLevelInAHundredMayLieBeside) {
-    const auto with_beside = [](int levels, int beside) {
-        std::vector<double> values;
-        for (int turn = 0; turn < 20; ++turn) {
-            for (int i = 0; i < levels - beside; ++i) {
-                values.push_back(0.05 * (turn % 2 == 0 ? i : levels - beside - 1 - i));
-            }
-        }
-        for (int i = 0; i < beside; ++i) {
-            values.push_back(0.05 * (150.2 + 50.0 * i));
-            values.push_back(0.0);
-        }
-        return quantum_of(values);
-    };
-    EXPECT_NEAR(with_beside(100, 1), 0.05, 1e-4);
-    EXPECT_EQ(with_beside(100, 2), 0.0);
-    EXPECT_EQ(with_beside(99, 1), 0.0);
-}
-
-// A logger's last digit rounds a sensor's steps: 0.3223 is 0.32 or 0.33.
-TEST(AuditQuantum, IsSeenThroughALoggersDigits) {
-    std::vector<double> values = noisy(400, 3);
-    for (double& value : values) {
-        value = std::round(0.3223 * std::round(4.0 * value) * 100.0) / 100.0;
-    }
-    EXPECT_NEAR(quantum_of(values), 0.3223, 2e-3);
-}
-
-// Readings with a digit behind the point are no whole numbers, however large they are: steps of 20 and 20.9 are none.
-TEST(AuditQuantum, HasTheDigitsOfLargeReadings) {
-    std::vector<double> values;
-    for (int i = 0; i < 200; ++i) {
-        values.push_back(2e6 + (i % 4 == 0 ? 0.0 : i % 4 == 2 ? 40.9 : 20.0));
-    }
-    EXPECT_EQ(quantum_of(values), 0.0);
-    for (double& value : values) {
-        value = std::round(value);  // logged without the digit
-    }
-    EXPECT_NEAR(quantum_of(values), 20.5, 0.2);
-}
 
 // Of white noise the median of |z - 2 z' + z''| is 0.6745 sqrt 6 deviations.
 TEST(AuditNoise, IsThatOfSecondDifferences) {
@@ -123,6 +45,41 @@ TEST(AuditNoise, IsThatOfSecondDifferences) {
         steps.push_back(0.5 * (i / 20));
     }
     EXPECT_NEAR(gap::audit({record_of(steps)}).noise, 0.29 * 0.5, 1e-9);
+}
+
+// Noise is told by second differences, by those of the eighth order where they tell less than half as much. A swing of
+// w radians a sample has differences of (2 sin(w / 2))^n of itself; white noise has sqrt((2n)! / n!^2).
+TEST(AuditNoise, OfASwingIsThatOfDifferencesOfEighthOrder) {
+    Values values = noisy(4000, 21);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        values[i] = 0.01 * values[i] + std::sin(2.0 * std::numbers::pi * static_cast<double>(i) / 20.0);
+    }
+    // 0.313^8 over sqrt(12870), 1e-6 of the swing, is nothing beside it; 0.313^2 over sqrt(6) is 0.04.
+    EXPECT_NEAR(gap::audit({record_of(values)}).noise, 0.01, 6e-4);
+}
+
+// Of a swing whose differences of eighth order tell a half of what those of second order do, 0.5 % less or more.
+TEST(AuditNoise, IsThatOfEighthOrderBelowAHalf) {
+    for (const double ratio : {0.4975, 0.5025}) {
+        const double doubled_sine = std::pow(ratio * std::sqrt(12870.0 / 6.0), 1.0 / 6.0);
+        const double w = 2.0 * std::asin(0.5 * doubled_sine);
+        Values values(20000);
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            values[i] = std::sin(w * static_cast<double>(i));
+        }
+        const double second = std::pow(doubled_sine, 2.0) / std::sqrt(6.0);
+        const double told =
+            (ratio < 0.5 ? ratio : 1.0) * second * std::sqrt(0.5) / 0.6745;  // sqrt(1/2): a sine's median
+        EXPECT_NEAR(gap::audit({record_of(values)}).noise, told, 0.005 * told) << ratio;
+    }
+}
+
+// Readings that stay where they are show no noise: the others alone are counted. Eight have no eighth differences.
+TEST(AuditNoise, IsOfReadingsThatMove) {
+    // |3 - 2 + 0.76|, |3 - 6 + 1|, twice none, |3.5 - 6 + 3|, |4.75 - 7 + 3|: 0.5, 0.75, 1.76, 2
+    const gap::Audit found = gap::audit({record_of(in_units({0.76, 1.0, 3.0, 3.0, 3.0, 3.0, 3.5, 4.75}))});
+    EXPECT_EQ(found.quantum, 0.0);
+    EXPECT_NEAR(found.noise, 1.76 * unit / (0.6745 * std::sqrt(6.0)), 1e-9);
 }
 
 TEST(AuditHeld, AreReadingsThatRepeatWhileTheOutputMoves) {
@@ -170,6 +127,43 @@ TEST(AuditHeld, AreReadingsBesideOthersThatMove) {
     EXPECT_EQ(held({200, 205}), 2);
 }
 
+// A held reading is left by more than 2 1/2 steps, where readings have some.
+TEST(AuditHeld, AreLeftByMoreThanASensorsSteps) {
+    const auto held = [](double left_by) {
+        Values numbers;
+        for (int i = 0; i < 60; ++i) {
+            numbers.push_back(4.0 * i);
+        }
+        numbers[31] = numbers[30];
+        for (std::size_t i = 32; i < 60; ++i) {
+            numbers[i] = numbers[31] + left_by + 4.0 * static_cast<double>(i - 32);
+        }
+        numbers[1] = 1.0;  // the step
+        return gap::audit({record_of(numbers)}).held_share;
+    };
+    EXPECT_EQ(held(2.0), 0.0);
+    EXPECT_NEAR(held(3.0), 1.0 / 60.0, 1e-12);
+    // What stays for long is left once.
+    Values long_ones = noisy(403, 13);
+    for (std::size_t i = 200; i < 205; ++i) {
+        long_ones[i] = long_ones[199];
+    }
+    const gap::Audit found = gap::audit({record_of(long_ones)});
+    EXPECT_NEAR(found.held_share, 5.0 / 403.0, 1e-12);
+    EXPECT_THAT(found.notes, Contains(HasSubstr("1.2 % of the readings repeat")));
+}
+
+// 0.2 % of the readings are chance, more are not.
+TEST(AuditHeld, AreMoreThanTwoInAThousand) {
+    const auto held = [](std::size_t count) {
+        Values values = noisy(count, 17);
+        values[300] = values[301] = values[299];
+        return gap::audit({record_of(values)}).held_share;
+    };
+    EXPECT_EQ(held(1000), 0.0);
+    EXPECT_NEAR(held(995), 2.0 / 995.0, 1e-12);
+}
+
 TEST(AuditLevels, AreTheInputsToAFiftieth) {
     gap::Record record = record_of(noisy(400, 9));
     const auto levels = [&](const std::vector<double>& of) {
@@ -192,6 +186,19 @@ TEST(AuditLevels, AreTheInputsToAFiftieth) {
     std::fill(record.input.begin(), record.input.end(), 1.0);
     std::fill(other.input.begin(), other.input.end(), 0.5);
     EXPECT_EQ(gap::audit({record, other, record}).levels, 2U);
+}
+
+// A fiftieth of the largest input is none of its own, more is.
+TEST(AuditLevels, AreMoreThanAFiftiethApart) {
+    const auto levels = [](double other) {
+        gap::Record record = record_of(noisy(64, 23));
+        for (std::size_t i = 0; i < record.size(); ++i) {
+            record.input[i] = i % 2 == 0 ? 50.0 : other;
+        }
+        return gap::audit({record}).levels;
+    };
+    EXPECT_EQ(levels(49.0), 1U);
+    EXPECT_EQ(levels(48.995), 2U);
 }
 
 TEST(AuditNotes, SayWhatIsOdd) {
@@ -220,6 +227,20 @@ TEST(AuditNotes, SayWhatIsOdd) {
     EXPECT_THAT(
         gap::audit({record_of(values)}).notes,
         testing::AllOf(Contains(HasSubstr("readings are multiples of 0.5")), Not(Contains(HasSubstr("clipped")))));
+}
+
+// A gap is longer than five usual intervals, between the first stamps as anywhere.
+TEST(AuditNotes, SayWhereStampsAreFarApart) {
+    const auto notes = [](std::size_t at, double by_s) {
+        gap::Record record = record_of(noisy(64, 29), 0.125);
+        for (std::size_t i = at; i < record.size(); ++i) {
+            record.time_s[i] += by_s;
+        }
+        return gap::audit({record}).notes;
+    };
+    EXPECT_THAT(notes(1, 0.5), IsEmpty());
+    EXPECT_THAT(notes(1, 0.502), Contains(HasSubstr("made: a gap of 0.627 s between stamps, usually 0.125 s")));
+    EXPECT_THAT(notes(63, 0.502), Contains(HasSubstr("made: a gap of 0.627 s between stamps")));
 }
 
 // 400 noisy readings, of which some in a row are what a sensor ends at.

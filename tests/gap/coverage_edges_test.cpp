@@ -96,6 +96,9 @@ TEST(CoverageEdges, ATurnIsOfThreeHundredths) {
     const Values falls = path({0.0, 1.0, 0.89});
     EXPECT_TRUE(lacks_falls(path({0.0, 0.5, 0.4701, 1.0}), falls));
     EXPECT_FALSE(lacks_falls(path({0.0, 0.5, 0.4699, 1.0}), falls));
+    // Three of a hundred are none yet.
+    EXPECT_TRUE(lacks_falls(path({0.0, 50.0, 47.0, 100.0}), path({0.0, 100.0, 89.0})));
+    EXPECT_TRUE(lacks_falls(path({50.0, 47.0, 100.0}), path({0.0, 100.0, 89.0})));
 }
 
 // Or six times what differs from reading to reading, in either.

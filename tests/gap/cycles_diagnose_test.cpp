@@ -1,12 +1,15 @@
 // From rows to a question and a diagnosis: which core is asked about beside which, programs that differ, and what a
-// board would run next; and the sealed side of blind cases.
+// board would run next.
 #include "gap/cycles/diagnose.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <vector>
 
 #include "base/failure.hpp"
 #include "gap/cycles/blind.hpp"
@@ -164,87 +167,6 @@ TEST(CyclesBlind, OtherRulesMakeTheCyclesOfEachCase) {
     EXPECT_NEAR(mechanisms["serial_fpu"], 100, 25);
     EXPECT_EQ(sets["chain"], mechanisms[""]);
     EXPECT_EQ(sets[""], mechanisms["serial_fpu"]);
-}
-
-// The rival sets that fit silicon and every mechanism; a core of others' rules, or of none, has none to draw.
-TEST(CyclesBlind, OtherRulesAreTheRivalSetsAndEveryMechanism) {
-    std::vector<std::string> wanted{"barred", "chain", "unfolded"};
-    for (const std::string& mechanism : timing::mechanism_names()) {
-        wanted.push_back(mechanism);
-    }
-    EXPECT_EQ(gap::cycles::other_rules_of("stm32f746-itcm", TEST_CORES), wanted);
-    for (const char* core : {"m7-ideal", "cortex-m4-zerowait"}) {
-        EXPECT_THROW((void)gap::cycles::other_rules_of(core, TEST_CORES), glsum::Failure) << core;
-    }
-}
-
-TEST(CyclesBlind, EveryMechanismHasAPlaceAndACoreFile) {
-    for (const std::string& mechanism : timing::mechanism_names()) {
-        EXPECT_TRUE(gap::cycles::has_place(mechanism)) << mechanism;
-        EXPECT_EQ(gap::cycles::core_with("some", mechanism), "base = \"some\"\nmechanisms = [\"" + mechanism + "\"]\n");
-    }
-}
-
-// What other rules do may go by the name of where they act, or by none; a cost beside them has its own.
-TEST(CyclesBlind, OtherRulesAreRightByAllButANameForWhatTheyDoNotTouch) {
-    Explanation found{};
-    const auto is_right = [&](Outcome outcome, const std::vector<std::string>& named, const std::string& set,
-                              const std::vector<std::string>& effects) {
-        found.outcome = outcome;
-        found.steps.clear();
-        for (const std::string& effect : named) {
-            found.steps.push_back({effect, {}, {}, 0, 0, 0});
-        }
-        return names(found, {.kind = "rules", .effects = effects, .set = set});
-    };
-    for (const Outcome outcome : {Outcome::no_gap, Outcome::unknown, Outcome::ambiguous}) {
-        EXPECT_TRUE(is_right(outcome, {}, "chain", {}));
-    }
-    EXPECT_TRUE(is_right(Outcome::attributed, {"fpu_latency"}, "chain", {}));
-    EXPECT_FALSE(is_right(Outcome::attributed, {"fpu_latency"}, "unfolded", {}));
-    EXPECT_TRUE(is_right(Outcome::attributed, {"single_issue"}, "unfolded", {}));
-    EXPECT_FALSE(is_right(Outcome::attributed, {"call_overhead"}, "chain", {}));
-    EXPECT_TRUE(is_right(Outcome::attributed, {"call_overhead"}, "chain", {"call_overhead"}));
-    EXPECT_TRUE(is_right(Outcome::attributed, {"fpu_latency", "call_overhead"}, "chain", {"call_overhead"}));
-    EXPECT_FALSE(is_right(Outcome::attributed, {"load_use", "call_overhead"}, "chain", {"call_overhead"}));
-    EXPECT_FALSE(is_right(Outcome::unknown, {"call_overhead"}, "chain", {"call_overhead"}));
-    found.alternatives = {{"interrupt_load", {}, {}, 0, 0, 0}, {"clock_ratio", {}, {}, 0, 0, 0}};
-    EXPECT_TRUE(is_right(Outcome::ambiguous, {"fpu_latency"}, "chain", {"clock_ratio"}));
-    EXPECT_FALSE(is_right(Outcome::ambiguous, {"fpu_latency"}, "chain", {"call_overhead"}));
-    found.outcome = Outcome::attributed;
-    found.steps = {{"dcache_misses", {}, {}, 0, 0, 0}};
-    EXPECT_TRUE(names(found, {.kind = "rules", .mechanism = "random_replacement"}));
-    EXPECT_FALSE(names(found, {.kind = "rules", .mechanism = "history_predictor"}));
-}
-
-TEST(CyclesBlind, TheSealedTruthHasAllThatWasDone) {
-    gap::cycles::Secret cost{.kind = "cost", .effects = {"clock_ratio"}};
-    cost.ratio = 1.25;
-    const std::string text = gap::cycles::seal({{.kind = "nothing"}, cost});
-    EXPECT_EQ(text, nlohmann::ordered_json::parse(text).dump(2) + "\n");
-    const auto truth = nlohmann::json::parse(text);
-    ASSERT_EQ(truth.size(), 2U);
-    EXPECT_EQ(truth[0]["case"], "case-001");
-    EXPECT_EQ(truth[0]["kind"], "nothing");
-    EXPECT_EQ(truth[1]["case"], gap::cycles::name_of_case(2));
-    EXPECT_EQ(truth[1]["effects"], nlohmann::json({"clock_ratio"}));
-    EXPECT_EQ(truth[1]["ratio"], 1.25);
-    EXPECT_EQ(truth[1]["rules"], "nominal");
-    for (const char* size : {"overhead", "maintenance", "contention", "sawtooth"}) {
-        EXPECT_EQ(truth[1][size], 0.0) << size;
-    }
-}
-
-// Clopper and Pearson (1934): 5 of 10 within 18.7 to 81.3 %; none of 10 within 0 to 30.8 %.
-TEST(CyclesTally, HasTheShareOfEachKindWithItsInterval) {
-    gap::cycles::Tally tally;
-    for (int i = 0; i < 10; ++i) {
-        tally.count("switch", i % 2 == 0);
-        tally.count("cost", false);
-    }
-    EXPECT_EQ(tally.to_text(),
-              "  cost           0 of 10, 0 % [0, 31]\n"
-              "  switch         5 of 10, 50 % [19, 81]\n");
 }
 
 }  // namespace

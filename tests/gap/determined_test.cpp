@@ -77,7 +77,7 @@ TEST(Untold, IsWhatChanceLeavesAsFarFromNoneBesideAFittedForm) {
         };
         drag.value = 0.5;
         drag.low = 0.4, drag.high = 0.6;
-        EXPECT_TRUE(told(4.04));
+        EXPECT_TRUE(told(4.02));
         EXPECT_EQ(told(3.96), !refit);
         // What moves nothing has no deviation, but an interval from what is as likely.
         drag.moves_nothing = true;

@@ -155,4 +155,88 @@ TEST(Disturbance, IsNothingWhereNothingCounts) {
     EXPECT_FALSE(gap::disturbance_of({left}, 1e-6).even);
 }
 
+// --- By hand: a few readings, too few for bursts and lines.
+
+gap::Remainder left_of(const gap::Record& record, std::vector<double> residuals) {
+    std::vector<char> counts(residuals.size(), 1);
+    return {&record, std::vector<double>(residuals.size()), std::move(residuals), std::move(counts)};
+}
+
+// About levels of 3 and -1 what is left turns from reading to reading: each is new. What does not count has no part.
+TEST(DisturbanceByHand, IsTheRootMeanSquareAboutEachLevel) {
+    const gap::Record record = record_of();
+    std::vector<double> high;
+    std::vector<double> low;
+    for (int i = 0; i < 30; ++i) {
+        high.push_back(i % 2 == 0 ? 5.0 : 1.0);
+    }
+    for (int i = 0; i < 10; ++i) {
+        low.push_back(i % 2 == 0 ? -5.0 : 3.0);
+    }
+    gap::Remainder one = left_of(record, high);
+    gap::Remainder two = left_of(record, low);
+    for (gap::Remainder* with : {&one, &two}) {
+        with->residuals.insert(with->residuals.begin() + 4, 1000.0);
+        with->counts.insert(with->counts.begin() + 4, char{0});
+        with->simulated.push_back(0.0);
+    }
+    const gap::Disturbance found = gap::disturbance_of({one, two}, 1e-12);
+    EXPECT_NEAR(found.mean_square, (30.0 * 9.0 + 10.0 * 1.0) / 40.0, 1e-12);
+    EXPECT_NEAR(found.rms, std::sqrt((30.0 * 4.0 + 10.0 * 16.0) / 40.0), 1e-12);
+    EXPECT_NEAR(found.times_anew, 40.0, 1e-9);
+}
+
+// A mean is of what counts, and is taken off all.
+TEST(DisturbanceByHand, AMeanIsOfWhatCounts) {
+    const gap::Record record = record_of();
+    gap::Remainder one = left_of(record, {1.0, 2.0, 30.0, 6.0});
+    one.counts[2] = 0;
+    gap::take_off_mean(one);
+    EXPECT_EQ(one.residuals, (std::vector<double>{-2.0, -1.0, 27.0, 3.0}));
+    one.counts.assign(4, 0);
+    gap::take_off_mean(one);
+    EXPECT_EQ(one.residuals, (std::vector<double>{-2.0, -1.0, 27.0, 3.0}));
+}
+
+// Four readings turn over from one to the next: their products sum to -3. Two far off add to the squares alone.
+TEST(DisturbanceByHand, AWaveTurnsOverBySixTenths) {
+    const gap::Record record = record_of();
+    const auto is_even = [&](double correlation, std::size_t lag) {
+        std::vector<double> residuals(41, 0.0);
+        for (std::size_t i = 0; i < 4; ++i) {
+            residuals[i * lag] = i % 2 == 0 ? 1.0 : -1.0;
+        }
+        residuals[24] = std::sqrt(0.5 * (3.0 / correlation - 4.0));
+        residuals[33] = -residuals[24];
+        return gap::disturbance_of({left_of(record, residuals)}, 1e-12).even;
+    };
+    // New from reading to reading, it is looked for over four of them.
+    for (const std::size_t lag : {std::size_t{1}, std::size_t{2}, std::size_t{4}}) {
+        EXPECT_TRUE(is_even(0.597, lag)) << lag;
+        EXPECT_FALSE(is_even(0.603, lag)) << lag;
+    }
+    EXPECT_TRUE(is_even(0.7, 5));
+}
+
+// A stretch of ten readings that is twenty times as loud as the others is a burst; all are even but for that.
+TEST(DisturbanceByHand, ABurstIsTwentyTimesAsLoud) {
+    const gap::Record record = record_of();
+    const auto is_even = [&](double times) {
+        std::mt19937_64 engine(9);
+        std::vector<double> residuals;
+        for (int stretch = 0; stretch < 40; ++stretch) {
+            std::vector<double> ten{1.0, 1.0, 1.0, 1.0, 1.0, -1.0, -1.0, -1.0, -1.0, -1.0};
+            for (std::size_t i = 9; i > 0; --i) {
+                std::swap(ten[i], ten[engine() % (i + 1)]);
+            }
+            for (const double value : ten) {
+                residuals.push_back(stretch == 20 ? std::sqrt(times) * value : value);
+            }
+        }
+        return gap::disturbance_of({left_of(record, residuals)}, 1e-12).even;
+    };
+    EXPECT_TRUE(is_even(19.9));
+    EXPECT_FALSE(is_even(20.1));
+}
+
 }  // namespace

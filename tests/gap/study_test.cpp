@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "base/failure.hpp"
+#include "gap/drive/moments.hpp"
 #include "gap/drive/plausible.hpp"
 #include "gap/drive/start.hpp"
 
@@ -296,6 +297,44 @@ TEST(Plausible, AreRecordsInTheModelsUnits) {
         other.output[i] = i % 2 == 0 ? 100.0 : -100.0;
     }
     EXPECT_EQ(refusal_of(other, model), "");
+}
+
+// Nor where the model moves so little that its square is rounded to nothing.
+TEST(Plausible, AreNoRecordsBesideAModelThatHardlyMoves) {
+    const std::vector<drive::Term> denominator{{4.0, 1.0}, {2.0, 0.0}};
+    const gap::Record record = answer_of(model_of(denominator), 1.0);
+    for (const double gain : {1e-3, 1e-150, 1e-170}) {
+        EXPECT_THAT(refusal_of(record, model_of(denominator, gain)), HasSubstr("expected the model's units")) << gain;
+    }
+}
+
+// A fiftieth and fifty times as far are the model's units still. Of numbers about these, as they are rounded, some are
+// that ratio.
+TEST(Plausible, AreRecordsOfAFiftiethAndOfFiftyTimes) {
+    const drive::Model model = model_of({{4.0, 1.0}, {2.0, 0.0}});
+    gap::Record record = answer_of(model, 1.0);
+    gap::Scenario plain;
+    plain.model = gap::model_of(gap::form_of(model));
+    const std::vector<double> simulated = gap::simulate(plain, gap::Course(record, 1));
+    for (const double bound : {0.02, 50.0}) {
+        const auto is_met = [&](double times, double level) {
+            for (std::size_t i = 0; i < simulated.size(); ++i) {
+                record.output[i] = level + times * simulated[i];
+            }
+            const gap::Moments sums = gap::moments_of(simulated, record.output);
+            return std::sqrt(sums.yy / sums.xx) == bound;
+        };
+        int met = 0;
+        for (int level = 0; level < 20 && met == 0; ++level) {
+            double times = bound * (1.0 - 1e-14);
+            for (int step = 0; step < 100 && met == 0; ++step) {
+                times = std::nextafter(times, 100.0);
+                met += is_met(times, 0.125 * level) ? 1 : 0;
+            }
+        }
+        ASSERT_EQ(met, 1) << bound;
+        EXPECT_EQ(refusal_of(record, model), "") << bound;
+    }
 }
 
 TEST(Plausible, AreStampsInSeconds) {

@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 
+#include "gap/drive/base/jointly.hpp"
 #include "gap/drive/fit.hpp"
 #include "gap/drive/start.hpp"
 
@@ -69,7 +71,7 @@ protected:
         decision.chosen = 2;
         decision.effects = {2};
         decision.base_gap = 0.5;
-        decision.confidence = 0.8;
+        decision.confidence = 0.9;
         gap::drop_superfluous(question_, ground_, ranking_, gap::whitener_of(ground_.study, ranking_[1].trained),
                               decision);
         return decision;
@@ -98,10 +100,36 @@ TEST_F(Superfluous, GoesWhatTheOthersDoTogether) {
     // What goes farther is none of its numbers.
     decision = after(0.75 * noise);
     EXPECT_THAT(decision.effects, ElementsAre(2U));
-    EXPECT_EQ(decision.confidence, 0.8);
+    EXPECT_EQ(decision.confidence, 0.9);
     // Of a form that was asked for it may be the form's own misfit.
     question_.find = false;
     EXPECT_THAT(after(0.95 * noise).effects, ElementsAre(2U));
+}
+
+// Fifteen per cent more than both leave is as far.
+TEST_F(Superfluous, IsWhatLeavesFifteenPercentMoreAtMost) {
+    const double jointly = gap::joint_gap(question_, ranking_[1]);
+    EXPECT_THAT(after(jointly / 1.144).effects, ElementsAre(1U));
+    EXPECT_THAT(after(jointly / 1.156).effects, ElementsAre(2U));
+}
+
+// A cause that stands alone stays, and of alternatives all do.
+TEST_F(Superfluous, IsNoCauseThatStandsAlone) {
+    const gap::Whitener whitener = gap::whitener_of(ground_.study, ranking_[1].trained);
+    ranking_[2].gap_after = 0.2;
+    for (const auto& [outcome, chosen] :
+         {std::pair(Outcome::attributed, std::size_t{1}), std::pair(Outcome::ambiguous, std::size_t{2})}) {
+        gap::Decision decision;
+        decision.outcome = outcome;
+        decision.chosen = chosen;
+        decision.effects = {chosen};
+        decision.confidence = 0.9;
+        gap::drop_superfluous(question_, ground_, ranking_, whitener, decision);
+        EXPECT_EQ(decision.chosen, chosen);
+        EXPECT_THAT(decision.effects, ElementsAre(chosen));
+        EXPECT_EQ(decision.confidence, 0.9);
+        EXPECT_TRUE(decision.notes.empty());
+    }
 }
 
 }  // namespace

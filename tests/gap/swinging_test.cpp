@@ -90,6 +90,17 @@ TEST(Swinging, IsNoNoise) {
     }
 }
 
+// A sine of 0.3 from reading to reading takes two nodes, 0.15 apart.
+TEST(Swinging, NodesLieSoFarApart) {
+    gap::Record record = logged({}, 1257, 1, 0.0);
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        record.output[i] = std::sin(0.3 * static_cast<double>(i));
+    }
+    const gap::Part part = gap::part_of(record);
+    EXPECT_EQ(part.record.size(), 1257U);
+    EXPECT_NEAR(part.per_interval, 2.0, 0.005);
+}
+
 TEST(Swinging, IsLookedAtInItsBeginning) {
     const gap::Record record = logged({oscillator}, 4000, 2);
     const gap::Part part = gap::part_of(record);

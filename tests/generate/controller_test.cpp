@@ -25,6 +25,7 @@
 #include "drive/tune/margins.hpp"
 #include "tests/drive/plants.hpp"
 #include "tests/generate/board_here.hpp"
+#include "tests/generate/controllers.hpp"
 #include "tests/generate/pretend_compiler.hpp"
 #include "tests/qemu/made_emulator.hpp"
 #include "tests/qemu/made_program.hpp"
@@ -34,22 +35,10 @@ namespace {
 using generate::ControllerSpec;
 using tune::Complex;
 
-ControllerSpec spec_of(double scale = 1.0) {
-    ControllerSpec spec;
-    spec.controller.gains = {.kp = 0.3 * scale,
-                             .ki = 0.5 * scale,
-                             .kd = 0.02 * scale,
-                             .filter_s = 0.01,
-                             .integral_order = 0.9,
-                             .derivative_order = 0.7};
-    spec.controller.sample_time_s = 0.001;
-    return spec;
-}
-
 // The increments of the answer to an impulse fall; their transform is (1 - z^-1) C.
 TEST(ControllerResponse, IsTheTransformOfItsSteps) {
     for (const double kd : {0.0, 0.02}) {
-        ControllerSpec spec = spec_of();
+        ControllerSpec spec = controllers::fractional();
         spec.controller.gains.kd = kd;
         generate::SteppedController stepped(spec);
         const std::size_t count = 400'000;
@@ -73,7 +62,7 @@ TEST(ControllerResponse, IsTheTransformOfItsSteps) {
 
 // The integral's weights are off by 5e-4 in all, the derivative's by twice that.
 TEST(ControllerResponse, IsNearThatOfTheOrders) {
-    const ControllerSpec spec = spec_of();
+    const ControllerSpec spec = controllers::fractional();
     const drive::Gains& gains = spec.controller.gains;
     const generate::SteppedController stepped(spec);
     for (const double angle : {1e-4, 1e-3, 0.01, 0.1, 1.0, 3.0}) {
@@ -86,7 +75,7 @@ TEST(ControllerResponse, IsNearThatOfTheOrders) {
 }
 
 TEST(Certificate, HasTheMarginsOfTheOrders) {
-    const ControllerSpec spec = spec_of();
+    const ControllerSpec spec = controllers::fractional();
     const tune::Margins margins = generate::certify(spec, plants::niopdt(), "pid", "plant");
     const tune::SampledPlant plant(plants::niopdt(), 0.001, "plant");
     const tune::Margins exact = tune::margins_of({&plant, spec.controller.gains});
@@ -98,7 +87,7 @@ TEST(Certificate, HasTheMarginsOfTheOrders) {
 
 // Coarse tables have margins of their own, and lose a loop that the orders hold.
 TEST(Certificate, IsOfTheTablesAndNotOfTheOrders) {
-    ControllerSpec spec = spec_of();
+    ControllerSpec spec = controllers::fractional();
     const double fine = generate::certify(spec, plants::niopdt(), "pid", "plant").gain;
     spec.max_error = 0.1;
     EXPECT_LT(generate::certify(spec, plants::niopdt(), "pid", "plant").gain, 0.8 * fine);
@@ -146,7 +135,7 @@ TEST(Certificate, EndsWhereTheStepsBeginToGrow) {
     const drive::Model resting = drive::make_fopdt(1.0, 0.5, 1.2);
     for (const Case& one : {Case{resting, a, 1.0 - a, 0.9, 5e-4}, Case{resting, a, 1.0 - a, 0.9, 0.1},
                             Case{integrator, 1.0, 0.01, 0.9, 5e-4}, Case{integrator, 1.0, 0.01, 0.4, 5e-4}}) {
-        ControllerSpec spec = spec_of();
+        ControllerSpec spec = controllers::fractional();
         spec.controller.sample_time_s = 0.01;
         spec.controller.gains.ki = 0.1;
         spec.controller.gains.integral_order = one.order;
@@ -176,14 +165,15 @@ TEST(Certificate, EndsWhereTheStepsBeginToGrow) {
 }
 
 TEST(Certificate, RefusesGainsAgainstThePlant) {
-    EXPECT_THROW((void)generate::certify(spec_of(-0.1), plants::niopdt(), "pid", "plant"), glsum::Failure);
+    EXPECT_THROW((void)generate::certify(controllers::fractional(-0.1), plants::niopdt(), "pid", "plant"),
+                 glsum::Failure);
     drive::Model other = plants::niopdt();
     other.gain = -1.0;
-    EXPECT_TRUE(generate::certify(spec_of(-1.0), other, "pid", "plant").stable());
+    EXPECT_TRUE(generate::certify(controllers::fractional(-1.0), other, "pid", "plant").stable());
 }
 
 TEST(ControllerReport, HasMarginsAsAFileAndInWords) {
-    const ControllerSpec spec = spec_of();
+    const ControllerSpec spec = controllers::fractional();
     const tune::Margins margins = generate::certify(spec, plants::niopdt(), "pid", "plant");
     const generate::LoopReport loop{"plant.json", "a plant", {1e-4, 2e-4}, margins};
     const std::string json = generate::to_json({"pid.json", "pid.h", loop}, spec);
@@ -197,7 +187,7 @@ TEST(ControllerReport, HasMarginsAsAFileAndInWords) {
 
 // The record meets both limits, or they are not compared.
 TEST(CheckedBits, RecordMeetsTheLimits) {
-    ControllerSpec spec = spec_of();
+    ControllerSpec spec = controllers::fractional();
     spec.controller.low = -2.0;
     spec.controller.high = 2.0;
     generate::SteppedController stepped(spec);
@@ -223,7 +213,7 @@ TEST(CheckedBits, RecordMeetsTheLimits) {
 }
 
 TEST(CheckedBits, AreTheLibrarysAndNoOthers) {
-    ControllerSpec spec = spec_of();
+    ControllerSpec spec = controllers::fractional();
     spec.controller.low = -2.0;
     spec.controller.high = 2.0;
     const std::string text = generate::make_controller_header(spec, "own", "none", {});
@@ -256,7 +246,7 @@ TEST(ControllerOnTarget, BitsCyclesAndBytes) {
     if (!board) {
         GTEST_SKIP() << "no board is here";
     }
-    const ControllerSpec spec = spec_of();
+    const ControllerSpec spec = controllers::fractional();
     const ControllerSpec whole = generate::whole_orders(spec);
     const std::string text = generate::make_controller_header(spec, "own", "none", {});
     std::string other = generate::make_controller_header(spec, "other", "none", {});
@@ -292,7 +282,7 @@ TEST(ControllerOnTarget, BitsCyclesAndBytes) {
 }
 
 TEST(ControllerSpec, OfWholeOrdersHasTheSameGains) {
-    ControllerSpec spec = spec_of();
+    ControllerSpec spec = controllers::fractional();
     spec.controller.high = 3.0;
     const ControllerSpec whole = generate::whole_orders(spec);
     EXPECT_EQ(whole.controller.gains.integral_order, 1.0);
@@ -307,7 +297,7 @@ TEST(ControllerSpec, OfWholeOrdersHasTheSameGains) {
 TEST(TargetSource, AnswersThreeNumbersAStepperAndMakesItsCalls) {
     ASSERT_EQ(generate::answers_a_stepper, 3U);
     const base::Scratch folder;
-    const ControllerSpec spec = spec_of();
+    const ControllerSpec spec = controllers::fractional();
     const ControllerSpec whole = generate::whole_orders(spec);
     std::string other = generate::make_controller_header(spec, "other", "none", {});
     other.replace(other.find("kp = 0.3F"), 9, "kp = 0.4F");
@@ -429,7 +419,7 @@ TEST(ControllerReport, HasTheCost) {
         text.find("  integer PID, the same gains      46.0      39.5 to 50.5          47.0      48       4     244"),
         std::string::npos)
         << text;
-    const std::string json = generate::to_json(report, spec_of());
+    const std::string json = generate::to_json(report, controllers::fractional());
     for (const char* field : {"\"core\": \"some-core\"", "\"model_cycles_low\": 271.0", "\"code_bytes\": 1636",
                               "\"cost_of_integer_pid\": ", "\"state_bytes\": 48"}) {
         EXPECT_NE(json.find(field), std::string::npos) << field;

@@ -20,9 +20,11 @@
 #include "glsum/design/blocks.hpp"
 #include "glsum/design/modes.hpp"
 #include "glsum/registry.hpp"
+#include "tests/generate/text_of_header.hpp"
 
 namespace {
 
+using test::number_behind;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -87,11 +89,6 @@ TEST(Header, WhatAWindowLeavesOutIsTheRestOfTheSum) {
                 HasSubstr("(truncation): none for records without end (v < 0); of N samples, "
                           "the sum of |a_j| from L to N-1"));
     EXPECT_THAT(header("mirrorhold_plain_f32", -0.5, 50), HasSubstr("of N samples, twice the sum of |a_j|"));
-}
-
-double number_behind(const std::string& text, const std::string& words) {
-    const std::size_t at = text.find(words);
-    return at == std::string::npos ? std::nan("") : std::stod(text.substr(at + words.size()));
 }
 
 // With modes and blocks the error of the design, over its horizon; of increments, which may be twice as large, twice.

@@ -227,6 +227,17 @@ TEST(BandFit, MovesItsPolesByGaussNewtonSteps) {
     }
 }
 
+// From far below, where a step would lead beyond all bounds, a pole moves by a factor of e at once, and not more.
+TEST(BandFit, MovesAPoleByOneLogarithmAtMost) {
+    const DerivativeGoal goal{.order = 0.4, .step_s = 0.001, .band = Band{1.0, 200.0}};
+    Fit fit(goal, 1, FilterKind::samples, 0.0, 0.0);
+    fit.set(logs({1e-4}));
+    for (int round = 1; round <= 2; ++round) {
+        fit.improve(true);
+        EXPECT_NEAR(fit.log_decays()(0), std::log(1e-4) + round, 1e-9);
+    }
+}
+
 // Newton's steps of all unknowns end where the sum of a power of the errors is least, of coefficients and poles: in a
 // few steps, as their number of digits doubles.
 TEST(BandFit, SharpensToTheLeastSumOfAPower) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "glsum/design/modes.hpp"
@@ -120,6 +121,63 @@ TEST(FittedFilter, WhatAmplifiesTooMuchIsNotTheBetterOne) {
     const FittedFilter fitted = fit_filter(goal_of(0.5, 0.8, 80.0, 0.0), 1, 4, FilterKind::samples);
     EXPECT_GT(fitted.amplification, 0.5);
     EXPECT_LE(fitted.amplification, 8.0);
+}
+
+// Of one mode, too, the pole may swing: near order 1, up to 80 Hz at 1 kHz, it halves the error and more.
+// What has no pole to move, a window or a running sum alone, is fitted as it is.
+TEST(FittedFilter, TheOnlyPoleMaySwingAndNoneNeedBeThere) {
+    const DerivativeGoal steep = goal_of(0.95, 8.0, 80.0, 0.0);
+    const FittedFilter swinging = fit_filter(steep, 1, 1, FilterKind::samples, Poles::one_may_swing);
+    ASSERT_EQ(swinging.modes.size(), 1U);
+    EXPECT_GT(swinging.modes[0].decay, 1.0);
+    EXPECT_LT(swinging.error.band, 0.5 * fit_filter(steep, 1, 1, FilterKind::samples).error.band);
+    const DerivativeGoal goal = goal_of(-0.5, 10.0, 100.0, 0.0);
+    for (const auto& [kind, modes] : {std::pair(FilterKind::samples, 0U), std::pair(FilterKind::integrator, 1U)}) {
+        const FittedFilter found = fit_filter(goal, 3, modes, kind, Poles::one_may_swing);
+        ASSERT_EQ(found.modes.size(), modes);
+        EXPECT_EQ(found.error.band, fit_filter(goal, 3, modes, kind).error.band);
+        EXPECT_TRUE(modes == 0 || found.modes[0].decay == 0.0);
+    }
+}
+
+// Eight times the magnitudes of the order's own weights are the most.
+TEST(FittedFilter, EightTimesTheOwnWeightsAreTooMuch) {
+    const FittedFilter calm{1.0, {}, {}, {0.1, 1.0, 0.0, 0.0}, FilterKind::samples, 2.0};
+    FittedFilter loud{1.0, {}, {}, {0.01, 1.0, 0.0, 0.0}, FilterKind::samples, 8.04};
+    EXPECT_EQ(&better_of(calm, loud), &calm);
+    loud.amplification = 7.96;
+    EXPECT_EQ(&better_of(calm, loud), &loud);
+}
+
+// What rounding is multiplied by: the magnitudes of all coefficients over those of the order's own weights. A mode's
+// counts by its average's range, w/(1 - |1 - d|), a running sum's as it is.
+TEST(FittedFilter, ItsAmplificationIsThatOfItsCoefficients) {
+    const struct {
+        FilterKind kind;
+        double order, of_weights;  // of the derivative, and of what the weights sum
+        Poles poles;
+    } known[] = {{FilterKind::samples, 0.5, 0.5, Poles::decaying},
+                 {FilterKind::samples, 0.9, 0.9, Poles::one_swings},
+                 {FilterKind::increments, 0.5, -0.5, Poles::decaying},
+                 {FilterKind::integrator, -0.5, -0.5, Poles::decaying}};
+    for (const auto& one : known) {
+        const DerivativeGoal goal = goal_of(one.order, 8.0, 80.0, 0.0);
+        const FittedFilter fitted = fit_filter(goal, 2, 2, one.kind, one.poles);
+        double sum = 1.0;
+        for (const double weight : fitted.weights) {
+            sum += std::fabs(weight);
+        }
+        for (const Mode& mode : fitted.modes) {
+            sum += std::fabs(mode.weight) / (mode.decay == 0.0 ? 1.0 : 1.0 - std::fabs(1.0 - mode.decay));
+        }
+        double own = 1.0;
+        double weight = 1.0;
+        for (std::size_t j = 1; j <= goal.horizon(); ++j) {
+            weight *= 1.0 - (one.of_weights + 1.0) / static_cast<double>(j);
+            own += std::fabs(weight);
+        }
+        EXPECT_NEAR(fitted.amplification * own / sum, 1.0, 1e-9) << one.order << " " << static_cast<int>(one.kind);
+    }
 }
 
 TEST(DesignedFilter, IsTheShortestOfWhatKeepsTheError) {

@@ -65,6 +65,34 @@ TEST(Blocks, OfOneBlockTheOracleHasItsMean) {
     }
 }
 
+// Of order 1/2 the weights are 1, -1/2, -1/8, -1/16, -5/128, -7/256, -21/1024, -33/2048, -429/32768. Behind near taps
+// come means of two, of two again where a level has two blocks, and of four.
+TEST(Blocks, OfSeveralLevelsTheOracleHasTheMeanOfEach) {
+    const double two = -3.0 / 32.0;           // of a_2 and a_3
+    const double four = -211.0 / 8192.0;      // of a_4 to a_7
+    const double first = -5.0 / 16.0;         // of a_1 and a_2
+    const double second = -13.0 / 256.0;      // of a_3 and a_4
+    const double third = -2525.0 / 131072.0;  // of a_5 to a_8
+    const struct {
+        glsum::Design design;
+        std::vector<double> weights;
+    } known[] = {
+        {{0.5, 4, {}, {}, {2, 1}}, {1.0, -0.5, two, two, four, four, four, four, 0.0, 0.0}},
+        {{0.5, 4, {}, {}, {3, 2}}, {1.0, first, first, second, second, third, third, third, third, 0.0}},
+    };
+    for (const auto& [design, expected] : known) {
+        const auto weights = reference::weights_of(design, expected.size());
+        const auto sums = reference::sums_of(design, std::vector<double>(expected.size(), 1.0));
+        double sum = 0.0;
+        for (std::size_t j = 0; j < expected.size(); ++j) {
+            sum += expected[j];
+            EXPECT_EQ(static_cast<double>(weights.at(j)), expected[j]) << j;
+            EXPECT_NEAR(sums.at(j).error_of(sum), 0.0, 1e-30) << j;
+        }
+        EXPECT_EQ(reference::weights_of(design, 3).size(), 3U);
+    }
+}
+
 // Against every layout that there is: the rule's few candidates lose next to nothing.
 TEST(Blocks, TheLayoutsThatAreTriedHoldTheBest) {
     constexpr std::size_t horizon = 300;

@@ -69,6 +69,29 @@ TEST(BoundFormula, OfAFixedWindow) {
     EXPECT_NEAR((bound_of<Sum<Ring, Plain, Q31>>(design, 0.75)) / expected, 1.0, 1e-6);
 }
 
+// Short coefficients err by half a unit each in pairs, by a whole one where each takes over what others lost. Octaves
+// that are scaled up, as far as all behind them stay below 1, err by half of their own unit.
+TEST(BoundFormula, OfShortCoefficients) {
+    constexpr std::size_t taps = 20;
+    const auto check = []<class K>(double units, const bench::HostLine<K>& line) {
+        ASSERT_EQ(line.status(), Status::ok);
+        ASSERT_EQ(line.state().scale.table_exponent, 0);
+        double absolute = 0.0;
+        for (const double weight : weights(0.5, taps - 1)) {
+            absolute += std::fabs(weight);
+        }
+        const double expected =
+            0.75 * units * 0x1p-16 + absolute * 0x1p-16 + std::ldexp(1.0, line.state().scale.output_exponent - 32);
+        EXPECT_NEAR((bound_of<K>({0.5, taps}, 0.75)) / expected, 1.0, 1e-6) << K::name();
+    };
+    check(19.0, bench::HostLine<Sum<Mirror, Smlald, Q15>>({0.5, taps}));
+    check(19.0, bench::HostLine<Sum<Mirror, Smlad, Q15>>({0.5, taps}));
+    check(38.0, bench::HostLine<Sum<Mirror, SmlaldShaped, Q15>>({0.5, taps}));
+    // |a_1| = 1/2 by 1, a_2 = 1/8 by 4, a_4 = 0.039 by 16, a_8 = 0.0131 by 64, a_16 = 0.0045 by 128.
+    check(1.0 + 2.0 / 4.0 + 4.0 / 16.0 + 8.0 / 64.0 + 4.0 / 128.0,
+          bench::HostLine<Sum<Mirror, Scaled, Q15>>({0.5, taps}));
+}
+
 const std::vector<Mode> modes = {{0.001, -3e-5}, {0.02, -2e-4}, {0.25, -4e-3}};
 
 // modes_bound.hpp: an average errs by 6 u + u/d, or compensated by 14 u; its term passes coefficient, product and the
@@ -123,7 +146,8 @@ TEST(BoundFormula, OfAModeThatSwings) {
     EXPECT_NEAR((bound_of<Sum<Modes, Compensated, F32>>(design, 0.75)) / expected(126.0), 1.0, 1e-4);
 }
 
-// A decay is rounded to the format, at worst by u = 2^-24 of itself: of 2 - 2^-20 that leaves 7/8 of what a step forgets.
+// A decay is rounded to the format, at worst by u = 2^-24 of itself. Of 2 - 2^-20 that leaves 7/8 of what a step
+// forgets.
 TEST(BoundFormula, OfADecayThatIsRoundedUp) {
     using K = Sum<Modes, Plain, F32>;
     EXPECT_NEAR(average_reach<K>(2.0 - 0x1p-20) / (0x1p21 * 8.0 / 7.0), 1.0, 1e-5);
@@ -216,6 +240,16 @@ TEST(BoundFormula, OfIncrements) {
     EXPECT_NEAR((low - bound_of<Sum<Ring, Oldest, F64>>({-0.75, taps}, 1.5)) /
                     (4.0 * d * 0.75 * of_low + d * (1.0 + std::log(20.0)) * of_low * 1.5),
                 1.0, 1e-3);
+    for (const double order : {0.5, 0.5025}) {  // from 0.5 on it is exact
+        double of_inner = 0.0;
+        for (const double weight : weights(order - 1.0, taps - 1)) {
+            of_inner += std::fabs(weight);
+        }
+        const double found = bound_of<Sum<MirrorDelta, Oldest, F64>>({order, taps}, 0.75);
+        EXPECT_NEAR((found - bound_of<Sum<Ring, Oldest, F64>>({order - 1.0, taps}, 1.5)) / (4.0 * d * 0.75 * of_inner),
+                    1.0, 1e-3)
+            << order;
+    }
 }
 
 // integral_bound.hpp: the inner sum and its last rounding, and of w_0 r, which reaches N P, five roundings and what the
@@ -410,6 +444,9 @@ TEST(BoundFormula, OfAnAverage) {
     EXPECT_NEAR(average_error<Carries>(0.5, 1e-40) / carried(14.0 * u + 8.0 * u * u + least / 0.5 / 1e-40), 1.0, 1e-12);
     EXPECT_EQ(average_error<Stops>(0.5 * u, 1.0), std::numeric_limits<double>::infinity());
     EXPECT_TRUE(std::isfinite(average_error<Stops>(2.0 * u, 1.0)));
+    // What is wrong as much as it is large once has no bound any more: u/d of 1.005 and of 0.995.
+    EXPECT_EQ(average_error<Stops>(u / 1.005, 1.0), std::numeric_limits<double>::infinity());
+    EXPECT_NEAR(average_error<Stops>(u / 0.995, 1.0), 0.995 / 0.005, 0.05);
     // Just beyond d = 1 already: A = d / (2 - d), f = 2 - d.
     for (const double d : {1.001, 1.0099, 1.5}) {
         const double reach = d / (2.0 - d);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "bench/sweep/host_line.hpp"
@@ -134,8 +135,31 @@ TEST(CascadeBound, OfAPoleThatSwings) {
     EXPECT_DOUBLE_EQ(reach(1.5, 1.5), 1.0 + 3.0 * 0.5);
     EXPECT_DOUBLE_EQ(reach(1.5, 0.5), 1.0 + 3.0 * 0.5);
     EXPECT_DOUBLE_EQ(reach(1.2, 1.5), 1.0 + 1.5 * 0.5);
+    EXPECT_DOUBLE_EQ(reach(1.005, 1.5), 1.0 + 1.005 / 0.995 * 0.5);
     EXPECT_DOUBLE_EQ(reach(1.0, 1.5), 1.5);
     EXPECT_DOUBLE_EQ(reach(0.5, 1.5), 1.5);
+}
+
+// Of silence only what vanishes is left, the smallest denormal number at most. The input has one, whose l1 norm passes,
+// and each near tap. Each of a section's four products has one, which its poles add up.
+TEST(CascadeBound, OfSilenceAreDenormals) {
+    constexpr double least = std::numeric_limits<float>::denorm_min();
+    CascadeError<F32> walk(0.0, 0.5);
+    EXPECT_EQ(walk.error(), least);
+    walk.pass({0.0, 0.0, 0.0, 0.0, 1.25, 0.25, 0.5}, {1.0, 0.0, 0.0, 0.0, 0.0}, 1.0, 0);
+    EXPECT_EQ(walk.reach(), 0.0);
+    EXPECT_NEAR(walk.error() / least, 1.25 + 4.0 / (0.25 * 0.5), 1e-3);
+    constexpr double lead = -0.0625;  // a_3 of order 1/2
+    std::vector<Mode> of_lead_one = two;
+    for (Mode& mode : of_lead_one) {
+        mode.weight /= lead;
+    }
+    const auto silent = [](const Design& design) {
+        bench::HostLine<OfFloats> line(design);
+        EXPECT_EQ(line.status(), Status::ok);
+        return error_bound<OfFloats>(design, line.state(), 0.0) / least;
+    };
+    EXPECT_NEAR(silent({0.5, 4 + 4, two}), std::fabs(lead) * silent({0.5, 1 + 4, of_lead_one}) + 4.0, 1e-3);
 }
 
 }  // namespace

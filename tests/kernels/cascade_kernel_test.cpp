@@ -296,12 +296,16 @@ TYPED_TEST(CascadeKernelTest, RefusesWhatHasNoRealSectionsAndBuffersThatAreTooSm
     EXPECT_EQ(prepare({{0.0, -0.1}}), Status::modes_out_of_range);
     EXPECT_EQ(prepare({{-0.5, -0.1}}), Status::modes_out_of_range);
     EXPECT_EQ(prepare({{1.5, -0.1}}), fixed ? Status::modes_out_of_range : Status::ok);
+    EXPECT_EQ(prepare({{1.005, -0.1}}), fixed ? Status::modes_out_of_range : Status::ok);
     EXPECT_EQ(prepare({{2.0, -0.1}}), Status::modes_out_of_range);
+    EXPECT_EQ(prepare({{2.005, -0.1}}), Status::modes_out_of_range);
     EXPECT_EQ(prepare({{std::nan(""), -0.1}}), Status::modes_out_of_range);
     EXPECT_EQ(prepare({{0.5, std::nan("")}}), Status::modes_out_of_range);
     EXPECT_EQ(prepare({{0.5, -INFINITY}}), Status::modes_out_of_range);
     EXPECT_EQ(prepare({{0.5, 0.0}}), Status::modes_out_of_range);
     EXPECT_EQ(prepare({{0.1, -0.1}, {0.5, 0.1}}), Status::modes_out_of_range) << "weights of both signs";
+    EXPECT_EQ(prepare({{0.1, -0.1}, {0.5, 0.0}}), Status::modes_out_of_range) << "no weight behind a negative one";
+    EXPECT_EQ(prepare({{0.1, 0.1}, {0.5, 0.0}}), Status::modes_out_of_range) << "no weight behind a positive one";
     EXPECT_EQ(prepare({{0.5, -0.1}, {0.1, -0.1}}), Status::modes_out_of_range) << "the slowest comes first";
     EXPECT_EQ(prepare({{0.5, -0.1}, {0.5, -0.1}}), Status::modes_out_of_range) << "twice the same pole";
     // Two slow poles so near that rounding makes one of them, or a complex pair.

@@ -44,6 +44,9 @@ TEST(Curvature, IsReachedWhereAllHasOnePhase) {
     const double pi = std::numbers::pi;
     const double at_the_end = std::abs(second_derivative(swinging, pi));
     EXPECT_NEAR(Curvature(swinging, goal).bound(pi, pi), at_the_end, 1e-9 * at_the_end);
+    const Filter barely{{1.0}, {{1.005, 0.4}}};
+    const double of_barely = std::abs(second_derivative(barely, pi));
+    EXPECT_NEAR(Curvature(barely, goal).bound(pi, pi), of_barely, 1e-9 * of_barely);
 }
 
 // What the derivative adds: v (v - 1) h^-v a^(v-2), the most of an interval at the end where it is.

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "glsum/design/modes.hpp"
 
@@ -216,6 +219,60 @@ TEST(Derivative, APeakBetweenTheSearchPointsIsCertified) {
     EXPECT_LE(dense, certified.band);
     EXPECT_GE(dense, certified.band / 1.006);
     EXPECT_GE(error_at(certified.band_hz), certified.band / 1.006);
+}
+
+// An interval's bound, where nothing is halved: the larger error of its ends times the ratio of w^v there. A second
+// derivative adds at most width^2/8 of itself to a chord, over the least w^v.
+TEST(Derivative, AnIntervalCostsItsRatioAndItsCurvature) {
+    for (const double order : {0.5, -0.5}) {
+        const DerivativeGoal goal{order, 0.001, Band{10.0, 10.02}};
+        const double low = 2.0 * std::numbers::pi * 10.0 * 0.001;
+        const double high = 2.0 * std::numbers::pi * 10.02 * 0.001;
+        const double scale = std::pow(0.001, -order);
+        const double least = scale * std::min(std::pow(low, order), std::pow(high, order));
+        Filter filter{std::vector<double>(51, 0.0), {}};
+        filter.taps[0] = 0.6 * least;
+        filter.taps[50] = 0.05 * least;
+        const auto error_at = [&](double angle) {
+            const std::complex<double> response = filter.taps[0] + filter.taps[50] * std::polar(1.0, -50.0 * angle);
+            const std::complex<double> exact = scale * std::pow(std::complex<double>(0.0, angle), order);
+            return std::abs(response / exact - 1.0);
+        };
+        const double curvature =
+            50.0 * 50.0 * filter.taps[50] + std::fabs(order * (order - 1.0)) * scale * std::pow(low, order - 2.0);
+        const double expected = std::max(error_at(low), error_at(high)) * std::pow(1.002, std::fabs(order)) +
+                                curvature * (high - low) * (high - low) / 8.0 / least;
+        EXPECT_NEAR(certified_error(filter, goal).band, expected, 1e-11) << order;
+    }
+}
+
+// Silence errs by 1 everywhere; of order 1 nothing bends, and a bound is the ratio of its interval's ends. Half a
+// percent is left as it is, what is wider is halved.
+TEST(Derivative, IntervalsAreHalvedBeyondHalfAPercent) {
+    const auto certified = [](double ratio) {
+        return certified_error({{0.0}, {}}, {1.0, 0.001, Band{100.0, 100.0 * ratio}}).band;
+    };
+    EXPECT_NEAR(certified(1.0045), 1.0045, 1e-9);
+    EXPECT_NEAR(certified(1.0055), 1.00275, 1e-9);  // its first half's
+}
+
+// Thirty-two a decade, evenly in the logarithm; samples one by one, and 4 % apart once that is more.
+TEST(Derivative, PointsLieAsDenselyAsStated) {
+    const std::vector<double> frequencies = frequencies_of(half(1.0, 100.0, 0.0));
+    ASSERT_EQ(frequencies.size(), 65U);
+    for (std::size_t i = 0; i < frequencies.size(); ++i) {
+        EXPECT_NEAR(std::log10(frequencies[i]), static_cast<double>(i) / 32.0, 1e-12) << i;
+    }
+    std::vector<std::size_t> expected;
+    for (double k = 10.0; k < 500.0; k = k < 25.0 ? k + 1.0 : 1.04 * k) {
+        expected.push_back(static_cast<std::size_t>(k));
+    }
+    expected.push_back(500);
+    EXPECT_EQ(samples_of(half(1.0, 2.0, 0.5)), expected);
+    EXPECT_EQ(samples_of(half(1.0, 2.0, 0.012)), (std::vector<std::size_t>{10, 11, 12}));
+    EXPECT_EQ(samples_of(half(1.0, 2.0, 0.010)), (std::vector<std::size_t>{10}));
+    EXPECT_EQ(samples_of(half(1.0, 2.0, 0.009)), std::vector<std::size_t>{});
+    EXPECT_EQ(half(1.0, 2.0, 0.0).last_of_step(), 0U);
 }
 
 TEST(Derivative, PointsCoverBothEnds) {

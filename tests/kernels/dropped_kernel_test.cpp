@@ -385,6 +385,57 @@ TYPED_TEST(GuessTest, KeepsItsBoundOverAMillionSamples) {
     }
 }
 
+// A number of six digits, of which terms of second order show, too.
+template <bool line>
+struct Coarse {
+    struct FormatPart {
+        static constexpr double data_roundoff = 0x1p-6;
+    };
+    struct HistoryPart {
+        static constexpr bool to_first = line;
+    };
+};
+
+// The walk that wrap/tail_bound.hpp states, of errors of T and H; products of these are a thousandth more.
+TEST(GuessBound, IsTheWalkThatItsHeaderStates) {
+    constexpr double u = 0x1p-6;
+    constexpr std::size_t taps = 4;
+    constexpr std::size_t samples = 15;
+    for (const double order : {0.5, -0.5, 1.5}) {
+        double weight = 1.0;  // a_(k-1), then a_k
+        double in_window = 1.0;
+        double tail = 0.0;
+        double mean = 0.0;
+        double of_tail = 0.0;
+        double of_mean = 0.0;
+        double hold = 0.0;
+        double line = 0.0;
+        for (std::size_t i = 1; i < samples; ++i) {
+            const auto k = static_cast<double>(i);
+            weight *= 1.0 - (order + 1.0) / k;
+            if (i < taps) {
+                in_window += weight;
+                continue;
+            }
+            const double n = k - taps + 1.0;
+            of_mean = (1.0 - 1.0 / n) * of_mean +
+                      (of_tail + u * std::fabs(tail) + u * std::fabs(mean) + 4.0 * u * std::fabs(tail - mean)) / n +
+                      u * u * std::fabs(mean);
+            mean += (tail - mean) / n;
+            of_tail = std::fabs(1.0 - order / k) * of_tail +
+                      std::fabs(order) / k * (4.0 * u * std::fabs(in_window) + u * std::fabs(tail)) +
+                      6.0 * u * std::fabs(weight) + u * u * std::fabs(tail);
+            tail += weight;
+            hold = std::max(hold, of_tail + 4.0 * u * std::fabs(tail));
+            // H x_(k-L+1) and (T - H) x_0: five roundings of the first, four and both words' own of the other.
+            line = std::max(line, of_mean + 5.0 * u * std::fabs(mean) + of_tail + of_mean + u * std::fabs(tail) +
+                                      u * std::fabs(mean) + 4.0 * u * std::fabs(tail - mean));
+        }
+        EXPECT_NEAR((glsum::tail_error<Coarse<false>>({order, taps}, samples)) / (1.001 * hold), 1.0, 1e-12) << order;
+        EXPECT_NEAR((glsum::tail_error<Coarse<true>>({order, taps}, samples)) / (1.001 * line), 1.0, 1e-12) << order;
+    }
+}
+
 TYPED_TEST(GuessTest, WeightsStayWhereTheyAreAtTheLastCount) {
     Line<TypeParam> line({0.5, 5});
     for (int k = 0; k < 20; ++k) {

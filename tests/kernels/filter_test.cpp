@@ -39,6 +39,20 @@ TEST(Filter, OfAModeIsAGeometricSeries) {
     EXPECT_NEAR(step_response(filter, 100'000), 20.0, 1e-12);
 }
 
+// About d = 1, where a mode is but one tap more, its weights w, w (1 - d), ... fade at once, with either sign.
+TEST(Filter, AModeThatFadesAtOnceIsTheSumOfItsWeights) {
+    for (const double decay : {0.995, 1.0, 1.005, 1.01}) {
+        const Filter filter{{0.0}, {{decay, 2.0}}};
+        double weight = 2.0;
+        double sum = 0.0;
+        for (std::size_t k = 1; k < 6; ++k) {
+            sum += weight;
+            weight *= 1.0 - decay;
+            EXPECT_NEAR(step_response(filter, k), sum, 1e-14) << decay << ' ' << k;
+        }
+    }
+}
+
 TEST(Filter, ARunningSumGrows) {
     const Filter filter{{0.5}, {{0.0, 0.25}}};
     EXPECT_EQ(step_response(filter, 0), 0.5);

@@ -20,6 +20,7 @@ TEST(Gain, HoldsTheFactorTo31Bits) {
     EXPECT_EQ(glsum::make_gain(1.0).exponent, 0);
     // Rounding that carries into the next power of two.
     EXPECT_EQ(glsum::make_gain(std::nextafter(2.0, 1.0)).exponent, 1);
+    EXPECT_EQ(glsum::make_gain(std::nextafter(2.0, 1.0)).mantissa, 1 << 30);
 }
 
 TEST(Gain, ResultIsRoundedOnceAndSaturates) {

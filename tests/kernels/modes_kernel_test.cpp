@@ -287,7 +287,9 @@ TYPED_TEST(ModesKernelTest, RefusesModesThatDoNotDecayAndBuffersThatAreTooSmall)
     EXPECT_EQ(prepare({{-0.5, -0.1}}), glsum::Status::modes_out_of_range);
     constexpr bool may_swing = !TypeParam::FormatPart::fixed_point;
     EXPECT_EQ(prepare({{1.5, -0.1}}), may_swing ? glsum::Status::ok : glsum::Status::modes_out_of_range);
+    EXPECT_EQ(prepare({{1.005, -0.1}}), may_swing ? glsum::Status::ok : glsum::Status::modes_out_of_range);
     EXPECT_EQ(prepare({{2.0, -0.1}}), glsum::Status::modes_out_of_range);
+    EXPECT_EQ(prepare({{2.005, -0.1}}), glsum::Status::modes_out_of_range);
     EXPECT_EQ(prepare({{std::nan(""), -0.1}}), glsum::Status::modes_out_of_range);
     EXPECT_EQ(prepare({{0.5, std::nan("")}}), glsum::Status::modes_out_of_range);
     EXPECT_EQ(prepare({{0.5, INFINITY}}), glsum::Status::modes_out_of_range);

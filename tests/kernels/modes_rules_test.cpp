@@ -68,6 +68,7 @@ TEST(TailNodes, BeginAQuarterBehindTheOrder) {
     EXPECT_EQ(glsum::design::most_taps(0.5), 1 + 1 + 2 * glsum::design::most_modes);
     EXPECT_TRUE(glsum::design::has_tail(-0.999));
     EXPECT_FALSE(glsum::design::has_tail(-1.0));
+    EXPECT_FALSE(glsum::design::has_tail(-1.005));
     EXPECT_FALSE(glsum::design::has_tail(1.0));
 }
 

@@ -8,11 +8,14 @@
 #include <random>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "bench/sweep/host_line.hpp"
 #include "glsum/bound.hpp"
 #include "glsum/computes_in_double.hpp"
+#include "glsum/design_range.hpp"
 #include "glsum/double_double.hpp"
+#include "glsum/exponentials/fixed_decay.hpp"
 #include "glsum/gain.hpp"
 #include "glsum/logmemory/block_weights.hpp"
 #include "glsum/registry.hpp"
@@ -130,6 +133,8 @@ TEST(Needs, OfBlocksAreWhatTheyReach) {
     EXPECT_EQ(prepared({0.5, 30, {}, {}, {27, 1}}), Status::blocks_out_of_range);
     EXPECT_EQ(prepared({0.5, 30, {}, {}, {27, 0}}), Status::blocks_out_of_range);
     EXPECT_EQ(prepared({0.5, 30}), Status::past_too_small);
+    EXPECT_EQ(prepared({0.5, 30, {}, {}, {1, 0}}), Status::blocks_out_of_range);
+    EXPECT_EQ(prepared({0.5, most_reach + 1}), Status::table_too_small);
 }
 
 // Groups of four: a ring of G of them, and coefficients for the three outputs that lie between.
@@ -154,6 +159,12 @@ TEST(Needs, OfVectorsAreWholeOnes) {
     }
     expect_needs<Dot>({0.5, 1}, {0, 0, 0});
     EXPECT_EQ((Sum<Mirror, Simd, F64>::table_count(10)), 16U + 7U);
+    // Of more than 1536 samples a copy of the table for each place in 16 bytes; none where products are fused.
+    expect_needs<Dot>({0.5, 1537}, {1536 + 15, 2 * 1536 + 16 + 15, 1536});
+    expect_needs<Dot>({0.5, 1538}, {4 * 1552 + 15, 2 * 1552 + 16 + 15, 1537});
+    EXPECT_EQ((Sum<Mirror, Simd, F64>::table_count(1537)), 1536U + 7U);
+    EXPECT_EQ((Sum<Mirror, Simd, F64>::table_count(1538)), 2U * 1544U + 7U);
+    EXPECT_EQ((Sum<Mirror, SimdFma, F32>::table_count(1538)), 1552U + 15U);
     // Eight outputs at once: 32 words for what enters (7 of them and two vectors, in whole ones), then a table for each
     // output while all fit 32 KB, else one and eight words; a ring in eights, twice, between two vectors.
     using Eight = Sum<HostBlock, Simd, F32>;
@@ -189,8 +200,29 @@ TEST(Needs, OnlyVectorsNeedTheHost) {
     });
     EXPECT_TRUE(Shift::contiguous && Mirror::contiguous && MirrorHold::contiguous && Modes::contiguous);
     EXPECT_FALSE(Ring::contiguous || Block::contiguous || Nested::contiguous);
+    EXPECT_TRUE(Pairwise::contiguous_only && HornerSplit::contiguous_only && Scaled::contiguous_only);
+    EXPECT_TRUE(Smlad::contiguous_only && Smlald::contiguous_only && SmlaldShaped::contiguous_only);
+    EXPECT_FALSE(Plain::contiguous_only || Oldest::contiguous_only || Multi::contiguous_only);
+    EXPECT_TRUE(Horner::horner_form && HornerSplit::horner_form);
+    EXPECT_FALSE(Plain::horner_form || Fir::horner_form || Compensated::horner_form);
     EXPECT_TRUE(guesses_tail<MirrorHold> && guesses_tail<MirrorLinear>);
     EXPECT_FALSE(guesses_tail<Mirror> || guesses_tail<Modes>);
+}
+
+// A mantissa of 30 bits, rounded to nearest, and its shift: 62 at most, below 2^-33 with fewer bits.
+TEST(FixedDecay, HasAMantissaOfThirtyBits) {
+    const auto expect = [](double decay, std::int32_t mantissa, std::int32_t shift) {
+        const FixedDecay found = to_fixed(decay);
+        EXPECT_EQ(found.mantissa, mantissa) << decay;
+        EXPECT_EQ(found.shift, shift) << decay;
+    };
+    expect(1.0, 1 << 30, 30);
+    expect(0.5, 1 << 29, 30);
+    expect(0.5 - 0x1p-31, (1 << 30) - 1, 31);
+    expect(0.25 + 0x1.8p-32, (1 << 29) + 1, 31);  // 3/4 of a unit more
+    expect(0x1p-33, 1 << 29, 62);
+    expect(0x1p-34, 1 << 28, 62);
+    expect(0x1p-62, 1, 62);
 }
 
 // High and low parts are the sum and the product to the last bit.
@@ -250,7 +282,10 @@ TEST(Fixed, ScalesAtTheEdgesOfItsFormat) {
         int table_exponent, output_exponent;
     };
     for (const Edge& edge : {Edge{0.0, 0, 0}, Edge{1.0 - 0x1p-31, 0, 1}, Edge{1.0, 1, 1}, Edge{-1.0, 0, 1},
-                             Edge{-1.0 - 0x1p-29, 1, 2}, Edge{-3.0, 2, 2}, Edge{-3.25, 2, 3}, Edge{0x1p-31, 0, 1}}) {
+                             Edge{-1.0 - 0x1p-29, 1, 2}, Edge{-3.0, 2, 2}, Edge{-3.25, 2, 3}, Edge{0x1p-31, 0, 1},
+                             Edge{0x1p-32, 0, 1},                // half a unit, which rounds to a whole one
+                             Edge{1.0 - 0.497 * 0x1p-31, 1, 1},  // nearer to +1, which has no room, than to the last
+                             Edge{-0x1p31, 31, 32}}) {
         const std::vector<double> weights = {edge.weight};
         bench::HostLine<K> line({0.5, 2, {}, weights});
         ASSERT_EQ(line.status(), Status::ok) << edge.weight;
@@ -282,6 +317,51 @@ TEST(Fixed, ScalesAtTheEdgesOfItsFormat) {
     EXPECT_EQ(horner_scale(1.001, 20), 2);
     EXPECT_EQ(horner_scale(-1.0, 4), 2);
     EXPECT_EQ(horner_scale(-1.0, 5), 3);
+}
+
+// s and e for an order, whatever the scale was before.
+template <class Format, int accumulator_bits>
+std::pair<int, int> scale_for(double order, std::size_t taps) {
+    typename Format::Scale scale{5, 6, 7, 8};
+    EXPECT_EQ(Format::template choose_scale<accumulator_bits>({order, taps}, scale), Status::ok);
+    EXPECT_EQ(scale.saturations, 0U);
+    return {scale.table_exponent, scale.output_exponent};
+}
+
+// All weights of order -1 are 1, which no fraction holds: s is 1 at least, and their sum, the length, fits 2^e. Where
+// the accumulator has one bit beside those of the products, the sum is at most 2^(s+1).
+TEST(Fixed, ScalesGrowWithTheSumOfTheWeights) {
+    const struct {
+        std::size_t taps;
+        int table_exponent, output_exponent;
+    } known[] = {{1, 0, 0}, {2, 1, 1}, {4, 1, 2}, {5, 2, 3}, {8, 2, 3}, {9, 3, 4}};
+    for (const auto& one : known) {
+        const std::pair narrow(one.table_exponent, one.output_exponent);
+        EXPECT_EQ((scale_for<Q31, 64>(-1.0, one.taps)), narrow) << one.taps;
+        EXPECT_EQ((scale_for<Q15, 32>(-1.0, one.taps)), narrow) << one.taps;
+        // With room for many more, a coefficient alone decides.
+        const std::pair wide(one.taps > 1 ? 1 : 0, one.output_exponent);
+        EXPECT_EQ((scale_for<Q15, 64>(-1.0, one.taps)), wide) << one.taps;
+        EXPECT_EQ((scale_for<Q15C31, 64>(-1.0, one.taps)), wide) << one.taps;
+    }
+}
+
+// The Horner forms hold the factors (j - 1 - v)/j: s is 0 while all are in [-1, 1), also once rounded, else 1.
+TEST(Fixed, HornerScalesFollowFromTheFactors) {
+    const auto table_exponent = [](double order, std::size_t taps) {
+        Q31::Scale scale{5, 6, 7, 8};
+        EXPECT_EQ(Q31::choose_horner_scale({order, taps}, scale), Status::ok);
+        EXPECT_EQ(scale.saturations, 0U);
+        return static_cast<int>(scale.table_exponent);
+    };
+    EXPECT_EQ(table_exponent(1.5, 1), 0);  // no factor
+    EXPECT_EQ(table_exponent(1.5, 2), 1);
+    EXPECT_EQ(table_exponent(1.0, 4), 0);  // -1, 0, 1/3
+    EXPECT_EQ(table_exponent(1.005, 2), 1);
+    EXPECT_EQ(table_exponent(-0.5, 10), 0);
+    EXPECT_EQ(table_exponent(-1.0, 3), 1);
+    EXPECT_EQ(table_exponent(-(1.0 - 0x1p-31), 2), 0);
+    EXPECT_EQ(table_exponent(-(1.0 - 0x1p-32), 2), 1);
 }
 
 TEST(Fixed, RoundsToIntegersAwayFromZero) {
@@ -316,6 +396,15 @@ TEST(Fixed, RoundsToIntegersAwayFromZero) {
     }
 }
 
+// The limit itself is within, of either sign; what is no number is not.
+TEST(DesignRange, MagnitudesReachTheirLimit) {
+    EXPECT_TRUE(is_magnitude_at_most(2.0, 2.0));
+    EXPECT_TRUE(is_magnitude_at_most(-2.0, 2.0));
+    EXPECT_FALSE(is_magnitude_at_most(std::nextafter(2.0, 3.0), 2.0));
+    EXPECT_FALSE(is_magnitude_at_most(std::nextafter(-2.0, -3.0), 2.0));
+    EXPECT_FALSE(is_magnitude_at_most(std::nan(""), 2.0));
+}
+
 // Both products of a pair, signs and all.
 TEST(Dsp, MultipliesBothHalves) {
     const auto pair = [](int low, int high) {
@@ -342,6 +431,11 @@ TEST(Gain, ShiftsAsFarAsThereIsAnything) {
         EXPECT_EQ(apply_gain(1, 100, one, far - 200).value, 2147483647) << far;
         EXPECT_EQ(apply_gain(-1, 100, one, far - 200).value, std::numeric_limits<std::int32_t>::min()) << far;
         EXPECT_EQ(apply_gain(0, 100, one, far - 200).value, 0) << far;
+    }
+    // A product has 62 bits: a shift by 63 leaves nothing of it, one up by 62 saturates all but 0.
+    for (const auto& [result, shift] : {std::pair(32, 62), std::pair(33, 63), std::pair(34, 63), std::pair(100, 63),
+                                        std::pair(-91, -61), std::pair(-92, -62), std::pair(-93, -62)}) {
+        EXPECT_EQ(gain_shift(one, 0, result), shift) << result;
     }
     EXPECT_DOUBLE_EQ(step_factor(0.5, 0.25), 2.0);
     EXPECT_DOUBLE_EQ(step_factor(-1.0, 0.25), 0.25);

@@ -60,6 +60,20 @@ TEST(TailNodes, LieEvenlyInTheLogarithmOfTheirRates) {
     }
 }
 
+// A factor e^-38 is below every double's last bit: of order 0.5 and two taps s ends at 38/1.5. With these horizons the
+// node 68 steps on lies half a percent before that, and half a percent beyond.
+TEST(TailNodes, EndWhereEveryDoubleHasFaded) {
+    for (const std::size_t horizon : {1403U, 1389U}) {
+        const std::vector<Node> nodes = tail_nodes(0.5, 2, horizon, 1e-8);
+        const double first = std::sqrt(1e-12) / static_cast<double>(horizon);
+        const double step = std::numbers::pi * std::numbers::pi / std::log(1e12);
+        const double next = first * std::exp(68.0 * step) / (38.0 / 1.5);
+        EXPECT_NEAR(next, horizon == 1403 ? 0.995 : 1.005, 5e-4);
+        // The one that stands for all slower ones, then those from `first` on.
+        EXPECT_EQ(nodes.size(), horizon == 1403 ? 1U + 69U : 1U + 68U);
+    }
+}
+
 TEST(TailNodes, NeedTapsBeyondTheOrder) {
     EXPECT_EQ(glsum::design::least_near_taps(0.5), 1U);
     EXPECT_EQ(glsum::design::least_near_taps(0.75), 1U);  // a quarter above

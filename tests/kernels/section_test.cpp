@@ -32,6 +32,20 @@ TEST(HeldSection, IsStableWithRealPolesInsideTheCircle) {
     EXPECT_FALSE(with_denominator(-1.0, 0.5).is_stable(false));  // 0.5 +- 0.5 i
 }
 
+// Two poles that both lie beyond the circle pass the sums' signs, their product alone shows them; two that nearly touch
+// are real.
+TEST(HeldSection, IsStableUpToTheCircle) {
+    const auto stable = [](double p, double other) {
+        return with_denominator(-(p + other), p * other).is_stable(false);
+    };
+    EXPECT_FALSE(stable(1.25, 1.5));
+    EXPECT_FALSE(stable(-1.25, -1.5));
+    EXPECT_FALSE(stable(1.0 + 0x1p-10, 1.0 + 0x1p-9));
+    EXPECT_TRUE(stable(1.0 - 0x1p-10, 1.0 - 0x1p-9));
+    EXPECT_TRUE(stable(0.5, 0.5 + 0x1p-10));
+    EXPECT_TRUE(stable(-0.5, -0.5 - 0x1p-10));
+}
+
 // 32 bits of which 29 are a fraction: each coefficient of the numerator below 4, and all products, with what was
 // dropped below a unit, within 64 bits. In floating point the output's feedback stays below 8.
 TEST(HeldSection, FitsWhereTheFormatHasRoom) {
@@ -83,7 +97,7 @@ TEST(HeldSection, RoundsToTheFormatsCoefficients) {
     constexpr double unit = 0x1p-29;
     const auto first = [](double a1) { return held_of<Q31>({0.0, 0.0, a1, 0.0, 1.0, 0.1, 1.0}, 1.0, true).a1; };
     for (const double sign : {1.0, -1.0}) {
-        EXPECT_EQ(first(sign * (0.5 + 0.49 * unit)), sign * 0.5);
+        EXPECT_EQ(first(sign * (0.5 + 0.497 * unit)), sign * 0.5);
         EXPECT_EQ(first(sign * (0.5 + 0.5 * unit)), sign * (0.5 + unit));
         EXPECT_EQ(first(sign * (0.5 + 1.49 * unit)), sign * (0.5 + unit));
     }
@@ -93,7 +107,7 @@ TEST(HeldSection, RoundsToTheFormatsCoefficients) {
 // A section whose answer to a constant is as large as 2^28 is scaled down by so much and no further: b0 would be less
 // than two units.
 TEST(Sections, AreScaledDownByTwentyEightBitsAtMost) {
-    for (const double share : {0.99, 1.01}) {
+    for (const double share : {0.995, 1.005}) {
         constexpr double decay = 0x1p-10;
         const std::vector<Mode> modes = {{decay, (share * 0x1p28 - 1.0) * decay}};
         int scale_bits = -1;
@@ -106,6 +120,23 @@ TEST(Sections, AreScaledDownByTwentyEightBitsAtMost) {
             });
         EXPECT_EQ(found, share < 1.0);
         EXPECT_EQ(scale_bits, share < 1.0 ? 28 : -1);
+    }
+}
+
+// A section's scale is the least that holds its largest answer: just below a power of two it takes that power.
+TEST(Sections, AreScaledDownByTheLeastThatHoldsTheirAnswer) {
+    constexpr double decay = 0.25;
+    for (const int bits : {1, 2, 10}) {
+        for (const double share : {0.995, 1.005}) {
+            const std::vector<Mode> modes = {{decay, (std::ldexp(share, bits) - 1.0) * decay}};  // H(1) is that power
+            int scale_bits = -1;
+            EXPECT_TRUE(for_each_section<Q31>({0.5, 3, modes}, [&](const HeldSection& held, const SectionPlace& place) {
+                scale_bits = place.scale_bits;
+                EXPECT_EQ(held.b0, place.down);
+                return true;
+            }));
+            EXPECT_EQ(scale_bits, share < 1.0 ? bits : bits + 1) << share;
+        }
     }
 }
 

@@ -10,6 +10,8 @@
 #include "base/scratch.hpp"
 #include "made_elf.hpp"
 #include "qemu/emulate/software_double.hpp"
+#include "qemu/emulate/unwinding.hpp"
+#include "tests/refusal.hpp"
 
 namespace {
 
@@ -153,6 +155,75 @@ TEST(Elf, HasTheWordsThatLieWhollyInASection) {
     for (const std::uint32_t beside : {0U, 0xFCU, 0xFFU, 0x105U, 0x108U, 0x1FFFU, 0x2003U, 0x2100U}) {
         EXPECT_FALSE(elf.has_word(beside)) << beside;
     }
+}
+
+test::MadeElf with_named_sections() {
+    test::MadeElf made;
+    made.sections = {{0x100, test::bytes_of({1, 2}), true, ".text"}, {0x20000000, {1, 2, 3}, false, ".data"}};
+    made.symbols = {{"f", 0x101, 8, true}};
+    return made;
+}
+
+TEST(Elf, TellsWhereASectionLies) {
+    const base::Scratch folder;
+    with_named_sections().write(folder.file("a.elf"));
+    const qemu::Elf elf(folder.file("a.elf"));
+    EXPECT_EQ(elf.section(".text").begin, 0x100U);
+    EXPECT_EQ(elf.section(".text").end, 0x108U);
+    EXPECT_EQ(elf.section(".data").begin, 0x20000000U);
+    EXPECT_EQ(elf.section(".data").end, 0x20000003U);
+    EXPECT_EQ(test::refusal(glsum::Exit::bad_input, [&] { (void)elf.section(".bss"); }),
+              folder.file("a.elf").string() + ": no section .bss; expected one of .data .text");
+}
+
+// Each section in one memory from its first byte to its last.
+TEST(Elf, LiesWithinTheMemoriesThatHoldItsSections) {
+    const base::Scratch folder;
+    with_named_sections().write(folder.file("a.elf"));
+    const qemu::Elf elf(folder.file("a.elf"));
+    using Memories = std::vector<qemu::Elf::Extent>;
+    for (const Memories& enough : {Memories{{0x100, 0x108}, {0x20000000, 0x20000003}}, Memories{{0, 0x20000003}},
+                                   Memories{{0x300, 0x400}, {0x20000000, 0x30000000}, {0x80, 0x200}}}) {
+        EXPECT_NO_THROW(elf.check_lies_within(enough, "the board"));
+    }
+    const auto said = [&](const Memories& memories) {
+        return test::refusal(glsum::Exit::bad_input, [&] { elf.check_lies_within(memories, "the board"); });
+    };
+    const std::string path = folder.file("a.elf").string();
+    EXPECT_EQ(said({{0x100, 0x107}, {0x20000000, 0x20000003}}),
+              path +
+                  ": section .text lies at 0x00000100 to 0x00000108; link it into the memories of the board: "
+                  "0x00000100 to 0x00000107, 0x20000000 to 0x20000003");
+    EXPECT_EQ(said({{0x20000001, 0x20000100}, {0x100, 0x108}}),
+              path +
+                  ": section .data lies at 0x20000000 to 0x20000003; link it into the memories of the board: "
+                  "0x20000001 to 0x20000100, 0x00000100 to 0x00000108");
+    EXPECT_NE(said({{0x100, 0x104}, {0x104, 0x108}, {0x20000000, 0x20000003}}).find("section .text"),
+              std::string::npos);  // not in parts
+}
+
+// What restores registers ends where its symbol says, or where the next function begins. A function's cold part has its
+// number, and behind the last function there is none.
+TEST(Unwinding, IsOfTheProgramsRestorersAndFunctions) {
+    const base::Scratch folder;
+    test::MadeElf made;
+    made.sections = {{0x100, test::bytes_of({1, 2})}};
+    made.symbols = {{"f", 0x101, 0x20, true}, {"g", 0x281, 4, true}, {"f.cold", 0x301, 8, true}};
+    made.write(folder.file("plain.elf"));
+    const timing::Unwinding none = qemu::unwinding_of(qemu::Elf(folder.file("plain.elf")));
+    EXPECT_TRUE(none.restorers.empty());
+    EXPECT_TRUE(none.functions.empty());
+    made.symbols.push_back({"__restore_core_regs", 0x201, 0x10, true});
+    made.symbols.push_back({"longjmp", 0x241, 0, true});
+    made.write(folder.file("unwinds.elf"));
+    const timing::Unwinding own = qemu::unwinding_of(qemu::Elf(folder.file("unwinds.elf")));
+    ASSERT_EQ(own.restorers.size(), 2U);
+    EXPECT_EQ(own.restorers[0].begin, 0x200U);
+    EXPECT_EQ(own.restorers[0].end, 0x210U);
+    EXPECT_EQ(own.restorers[1].begin, 0x240U);
+    EXPECT_EQ(own.restorers[1].end, 0x280U);
+    EXPECT_EQ(own.functions, (std::map<std::uint32_t, std::uint32_t>{
+                                 {0x100, 0x100}, {0x200, 0x200}, {0x280, 0x280}, {0x300, 0x100}, {0x308, 0}}));
 }
 
 TEST(SoftwareDouble, IsToldByTheNamesOfItsRoutines) {

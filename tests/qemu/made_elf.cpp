@@ -51,8 +51,13 @@ void MadeElf::write(const std::filesystem::path& path) const {
         body.append((4 - body.size() % 4) % 4, '\0');
         return headers.emplace_back(header);
     };
+    std::string section_names(1, '\0');
     for (const MadeSection& section : sections) {
         Elf32_Shdr& header = add(SHT_PROGBITS, {section.bytes.begin(), section.bytes.end()});
+        if (!section.name.empty()) {
+            header.sh_name = static_cast<Elf32_Word>(section_names.size());
+            section_names += section.name + '\0';
+        }
         header.sh_flags = SHF_ALLOC | (section.code ? SHF_EXECINSTR : 0);
         header.sh_addr = section.address;
     }
@@ -66,6 +71,10 @@ void MadeElf::write(const std::filesystem::path& path) const {
         add(SHT_STRTAB, names);
     }
     Elf32_Ehdr header{};
+    if (section_names.size() > 1) {
+        header.e_shstrndx = static_cast<Elf32_Half>(headers.size());
+        add(SHT_STRTAB, section_names);
+    }
     std::memcpy(header.e_ident, ELFMAG, SELFMAG);
     header.e_ident[EI_CLASS] = ELFCLASS32;
     header.e_ident[EI_DATA] = ELFDATA2LSB;

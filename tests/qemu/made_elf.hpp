@@ -20,6 +20,7 @@ struct MadeSection {
     std::uint32_t address;
     std::vector<std::uint8_t> bytes;
     bool code = false;
+    std::string name = {};
 };
 
 struct MadeElf {

@@ -41,7 +41,11 @@ TEST(CallStack, JumpsAreNoCalls) {
         const char* text;
         std::uint32_t encoding;
         std::uint8_t bytes;
-    } jumps[] = {{"b", 0xE0F6, 2}, {"bx r3", 0x4718, 2}, {"mov pc, r3", 0x469F, 2}, {"ldr.w pc, [r3]", 0xF8D3F000, 4}};
+    } jumps[] = {{"b", 0xE0F6, 2},
+                 {"bx r3", 0x4718, 2},
+                 {"mov pc, r3", 0x469F, 2},
+                 {"ldr.w pc, [r3]", 0xF8D3F000, 4},
+                 {"ldm.w r3, {lr, pc}", 0xE893C000, 4}};
     for (const auto& [text, encoding, bytes] : jumps) {
         timing::CallStack stack = behind(encoding, bytes);
         EXPECT_FALSE(stack.called()) << text;

@@ -148,6 +148,17 @@ TEST_F(RowsLeftOut, RowsCountByTheirOwnBand) {
     EXPECT_NEAR(left_out[2].as_it_is.inside, 0.5, 1e-12);
 }
 
+// A band of no width counts as a millionth of its figure: a cycle off of a hundred is ten thousand of them.
+TEST(RowsFit, AFigureWithoutABandIsFarOffByItsOwnMillionth) {
+    std::vector<qemu::MeasuredCall> rows{measured("f", 101), measured("f", 100)};
+    rows[0].group = "a";
+    rows[1].group = "b";
+    const auto left_out = qemu::fit_of(rows, {predicted(100, 100, 100), predicted(100, 99, 101)}).left_out;
+    ASSERT_EQ(left_out.size(), 2U);
+    EXPECT_EQ(left_out[0].scale, 0.0);  // the other is met exactly
+    EXPECT_NEAR(left_out[1].scale, 1e4, 1.0);
+}
+
 TEST_F(RowsLeftOut, AnAuthorsGroupsGoTogether) {
     add("a/2", 103);
     const auto left_out = qemu::fit_of(rows, calls).left_out;

@@ -5,15 +5,16 @@
 #include <utility>
 #include <vector>
 
-#include "drive/stand/blind/hydraulic/tanks.hpp"
-#include "drive/stand/blind/thermal/oven.hpp"
 #include "drive/stand/chance.hpp"
+#include "tests/drive/oven_and_tanks.hpp"
 
 namespace {
 
-using stand::blind::Held;
-using stand::hydraulic::Tanks;
-using stand::thermal::Oven;
+using oven_and_tanks::filled;
+using oven_and_tanks::Held;
+using oven_and_tanks::Oven;
+using oven_and_tanks::Tanks;
+using oven_and_tanks::warmed;
 
 const Held off{{0.0}, {0.0}};
 const Held on{{0.0}, {1.0}};
@@ -21,16 +22,9 @@ const Oven closed_oven{
     .body_j_per_k = 2.0, .body_loss_w_per_k = 0.0, .power_w_per_unit = 10.0, .ambient_c = 0.0, .start_c = 20.0};
 const Tanks tank{.area_cm2 = 2.0, .outflow_cm2_per_s = 1.0, .reference_cm = 8.0, .inflow_per_unit = 8.0};
 
-double warmed(const Oven& oven, const Held& held, double at_s, double step_s) {
-    return stand::thermal::measure(oven, held, std::vector{at_s}, step_s).front();
-}
-double filled(const Tanks& tanks, const Held& held, double at_s, double step_s) {
-    return stand::hydraulic::gauge(tanks, held, std::vector{at_s}, step_s).front();
-}
-
 // Runge and Kutta ask at the beginning once, in the middle four times and at the end once, of six: an oven is open from
 // the first moment to before the last.
-TEST(OvenEdges, IsOpenFromTheFirstMomentToBeforeTheLast) {
+TEST(OvenSteps, IsOpenFromTheFirstMomentToBeforeTheLast) {
     const auto lost = [](double from_s, double to_s) {
         Oven oven = closed_oven;
         oven.disturbance_w = 12.0;
@@ -44,7 +38,7 @@ TEST(OvenEdges, IsOpenFromTheFirstMomentToBeforeTheLast) {
     EXPECT_NEAR(lost(0.0, 0.5), 2.0, 1e-12);
 }
 
-TEST(OvenEdges, ItsFanStartsAboveItsTemperatureAndNotAtIt) {
+TEST(OvenSteps, ItsFanStartsAboveItsTemperatureAndNotAtIt) {
     Oven oven = closed_oven;
     oven.body_loss_w_per_k = 1.0;
     oven.fan_share = 1.0;
@@ -56,13 +50,13 @@ TEST(OvenEdges, ItsFanStartsAboveItsTemperatureAndNotAtIt) {
 }
 
 // A thermometer that lags only when it falls shows what rises at once.
-TEST(OvenEdges, ShowsAtOnceWhatItDoesNotLag) {
+TEST(OvenSteps, ShowsAtOnceWhatItDoesNotLag) {
     Oven oven = closed_oven;
     oven.falling_tau_s = 5.0;
     EXPECT_NEAR(warmed(oven, on, 1.0, 0.1), 25.0, 1e-9);
 }
 
-TEST(OvenEdges, LosesNothingThroughAWallThatNothingReaches) {
+TEST(OvenSteps, LosesNothingThroughAWallThatNothingReaches) {
     Oven oven = closed_oven;
     oven.body_loss_w_per_k = 0.5;
     oven.wall_j_per_k = 1.0;
@@ -72,7 +66,7 @@ TEST(OvenEdges, LosesNothingThroughAWallThatNothingReaches) {
 }
 
 // Up to a billionth more than a step is one step: by Runge and Kutta, and by Heun.
-TEST(OvenEdges, StepsAreCountedButForRounding) {
+TEST(OvenSteps, StepsAreCountedButForRounding) {
     Oven oven = closed_oven;
     oven.body_loss_w_per_k = 2.0;
     const double one = 20.0 * (1.0 - 1.0 + 0.5 - 1.0 / 6.0 + 1.0 / 24.0);
@@ -87,7 +81,7 @@ TEST(OvenEdges, StepsAreCountedButForRounding) {
 }
 
 // Turns of half to one and a half times the mean, as the seed's first stream draws them.
-TEST(TanksEdges, BubblesTurnAsTheirSeedDraws) {
+TEST(TanksSteps, BubblesTurnAsTheirSeedDraws) {
     constexpr double step_s = 0.001;
     for (const std::uint64_t seed : {1U, 2U, 3U, 4U, 5U, 6U}) {
         Tanks tanks = tank;
