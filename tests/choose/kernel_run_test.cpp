@@ -106,7 +106,7 @@ TEST(KernelRun, ASineIsHeldAgainstItsDerivative) {
     const auto ran = choose::run("ring_oldest_f64", 2, {-1.0, h, Band{20.0, 20.0}, {}}, two_taps(0.25, 1.0));
     const double w = 2.0 * std::numbers::pi * 20.0;
     const std::complex<double> own = 0.25 * (1.0 + std::polar(1.0, -w * h));
-    EXPECT_NEAR(ran.band, std::abs(own * std::complex<double>(0.0, w) - 1.0), 1e-3);
+    EXPECT_NEAR(ran.band, std::abs(own * std::complex<double>(0.0, w) - 1.0), 1e-6);
     EXPECT_DOUBLE_EQ(ran.band_hz, 20.0);
 }
 

@@ -293,6 +293,10 @@ TEST(LostSigns, MayBeWhereReadingsStayAbove) {
     EXPECT_TRUE(may(-0.0520, -1.0));  // of a span of 1.052
     EXPECT_FALSE(may(-0.0532, -1.0));
     EXPECT_FALSE(may(0.2, 0.0));
+    gap::Record at_the_limit = record_of(40, [](double t) { return t < 4.0 ? 1.0 : -1.0; });
+    at_the_limit.output.assign(40, 0.95);
+    at_the_limit.output[30] = -0.05;  // a twentieth of a span of 1
+    EXPECT_FALSE(gap::may_have_lost_signs({at_the_limit}));
     gap::Record below = record_of(40, [](double t) { return t < 4.0 ? 0.0 : -1.0; });
     below.output[3] = 1.0;
     EXPECT_FALSE(gap::may_have_lost_signs({below}));

@@ -115,6 +115,17 @@ TEST(Ends, AreNotToldInNoise) {
     }
 }
 
+// The median of every second difference: of five readings there are three.
+TEST(Ends, AreToldByTheNoiseOfAllReadings) {
+    gap::Record record;
+    record.time_s = {0.0, 1.0, 2.0, 3.0, 4.0};
+    record.input = {0.0, 1.0, 2.0, 3.0, 4.0};
+    record.output = {0.0, 0.5, 1.0, 1.0, 1.0};  // 0, 0.5 and 0: the middle one is 0
+    EXPECT_THAT(gap::readings_at_an_end(record), testing::ElementsAre(0, 0, 1, 1, 1));
+    record.output = {0.0, 0.2, 1.0, 1.0, 1.0};  // 0.6, 0.8 and 0
+    EXPECT_THAT(gap::readings_at_an_end(record), Each(0));
+}
+
 TEST(Ends, DoNotCountWhereFiftyOthersDo) {
     const gap::Record record = logged({.input = rising, .limit = 3.5});
     const auto held = static_cast<std::ptrdiff_t>(std::ranges::count(gap::readings_at_an_end(record), 1));

@@ -239,6 +239,9 @@ TEST_F(Rules, FewAlternativesAreNamed) {
     gap::Decision decision = after("few_alternatives", all);  // a given model: what equals a gain is the gain's
     EXPECT_THAT(decision.effects, ElementsAre(1, 2, 5));
     EXPECT_NEAR(decision.confidence, 0.3, 1e-12);
+    gap::Decision next = all;
+    next.effects = {1, 2, 6, 5};  // the gain's is the first that has no place
+    EXPECT_THAT(after("few_alternatives", next).effects, ElementsAre(1, 2, 5));
     beside_a_form();
     decision = after("few_alternatives", all);
     EXPECT_EQ(decision.outcome, Outcome::unknown);

@@ -147,6 +147,12 @@ TEST(BareM4, AddressesWaitForTheirRegisters) {
         EXPECT_EQ(cycle_of_last(f, {{load, m4_accessing()}, {use_as(role), m4_accessing()}}, Effect::load_use),
                   1 + 1 + 4);
     }
+    // What comes late is later as an address by as much.
+    Event late = m4_accessing();
+    late.load_delay = 3;
+    late.load_effect = Effect::load_use;
+    EXPECT_EQ(cycle_of_last(f, {{load, late}, {use_as(Role::address), m4_accessing()}}, Effect::load_use),
+              1 + 1 + 4 + 3);
     EXPECT_EQ(cycle_of_last(f, {{result}, {use_as(Role::store_data), m4_accessing()}}, Effect::result_latency), 1);
     EXPECT_EQ(cycle_of_last(f, {{result}, {sum}}, Effect::result_latency), 1);
     Decoded branch = m4_work(Kind::branch);
