@@ -243,6 +243,7 @@ TEST(OutsideEdges, TheEndIsTheLastFiftieth) {
     const gap::Record still = record_of(
         1001, 0.01, [](double) { return 0.0; }, line);
     EXPECT_TRUE(gap::lasts_throughout(still, {0.9, 10.0}, 1.0));  // from the begin, where nothing moves
+    EXPECT_FALSE(gap::lasts_throughout(still, {1.0, 10.0}, 1.0));
     EXPECT_FALSE(gap::lasts_throughout(still, {1.1, 10.0}, 1.0));
 }
 

@@ -35,6 +35,21 @@ TEST(MeasuredCalls, PathsCountFromTheFilesFolderAndEmptyPlacesAreTheCores) {
     EXPECT_EQ(rows[1].line, 4U);
 }
 
+TEST(MeasuredCalls, NumbersAreFromAMillionthToATrillion) {
+    const auto read = [](const std::string& measured, const std::string& per) {
+        return qemu::parse_measured_calls(
+                   "elf,function,core,code,data,measured,per\na,f,c,,," + measured + "," + per + "\n", "m.csv",
+                   "folder")
+            .front();
+    };
+    EXPECT_EQ(read("1e-6", "1e12").cycles, 1e-6);
+    EXPECT_EQ(read("1e12", "1e-6").per, 1e-6);
+    for (const char* beyond : {"0.999e-6", "1.001e12"}) {
+        EXPECT_THROW((void)read(beyond, "1"), glsum::Failure);
+        EXPECT_THROW((void)read("1", beyond), glsum::Failure);
+    }
+}
+
 TEST(MeasuredCalls, AreToldFromRowsOfKernelsByTheirHeader) {
     EXPECT_TRUE(qemu::names_programs("# elf\n\nfunction, elf ,core\na,b,c\n"));
     EXPECT_FALSE(qemu::names_programs("# elf\nkernel,code\nelf,elf\n"));
