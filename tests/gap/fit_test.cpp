@@ -193,6 +193,19 @@ TEST(Fit, OfAnEndBeginsAtTheFormsNumbers) {
     }
 }
 
+// Before the base may follow, a new effect meets it as it is.
+TEST(Fit, OfAFittedBaseANewEffectMovesFirst) {
+    Made made(1, true);
+    made.add([](double t) { return 0.01 * t; });
+    const gap::Candidate base = gap::fit(made.study, {}, {}, nullptr, {0, 1, 0});
+    const gap::Candidate found = gap::fit(made.study, {&drift()}, base, nullptr, {0, 1, 0});
+    EXPECT_NEAR(found.lasting[0][0].value, 0.01, 2e-3);
+    EXPECT_LT(found.cost, 0.05 * base.cost);
+    for (std::size_t i = 0; i < base.base.size(); ++i) {
+        EXPECT_EQ(found.base[i].value, base.base[i].value) << base.base[i].name;
+    }
+}
+
 // Where nothing better is found, exactly that, with the effect's numbers at the values that are none.
 TEST(Fit, OfAFittedBaseMayLeaveANewEffectOut) {
     const Made made(1, true);
