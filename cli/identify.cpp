@@ -53,17 +53,16 @@ void run(const Options& given) {
     Options options = given;
     options.fit.prediction_error = options.method == "prediction-error";
     options.fit.profile = options.intervals == "profile";
-    // Intervals of a long log take most of a minute.
-    std::optional<base::Progress> intervals;
+    // Many starts, or the intervals of a long log, take most of a minute.
+    std::optional<base::Progress> shown;
     const auto begin = std::chrono::steady_clock::now();
-    options.fit.on_interval_end = [&](std::size_t done, std::size_t all) {
-        if (intervals) {
-            intervals->advance();
-        } else if (std::chrono::steady_clock::now() - begin > std::chrono::seconds(2)) {
-            intervals.emplace("intervals", all).advance(done);
-        }
+    options.fit.on_progress = [&](const std::string& part, std::size_t done, std::size_t all) {
         if (done == all) {
-            intervals.reset();
+            shown.reset();
+        } else if (shown) {
+            shown->advance();
+        } else if (std::chrono::steady_clock::now() - begin > std::chrono::seconds(2)) {
+            shown.emplace(part, all).advance(done);
         }
     };
     options.fit.starts = options.starts.value_or(1);

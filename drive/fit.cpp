@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <random>
 
@@ -246,11 +247,22 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
     const auto attempt = [&](std::size_t more, int iterations) {
         const std::size_t before = attempts.size();
         attempts.resize(before + more);
+        std::mutex telling;
+        std::size_t done = 0;
+        const auto tell = [&](std::size_t steps) {
+            const std::lock_guard<std::mutex> lock(telling);
+            done += steps;
+            if (options.on_progress) {
+                options.on_progress("starts", done, more);
+            }
+        };
+        tell(0);
         base::parallel_for(more, options.jobs, [&](std::size_t k) {
             const std::size_t i = before + k;
             attempts[i] =
                 descend(form, predictor, i == 0 ? start : random_start(form, predictor, longest_s, options.seed + i),
                         noise_model, {descent.accepted_error, std::min(descent.iterations, iterations)});
+            tell(1);
         });
     };
     const auto leader = [&]() -> Attempt& {
@@ -324,8 +336,10 @@ Fit fit(const Form& form, const std::vector<Record>& records, const FitOptions& 
     found.model = form.to_model(values);
     found.offset = values.back();
     judge(found, form, predictor, residuals, jacobian, values);
-    if (options.profile) {
-        profile_intervals(found, form, records, values, options, residuals.squaredNorm());
+    if (options.profile && !profile_intervals(found, form, records, values, options, residuals.squaredNorm())) {
+        found.warnings.emplace_back(
+            "a lower sum of squares is near: the intervals are of where the fit stopped; take more iterations or "
+            "starts");
     }
     if (found.starts > 1 && found.starts_that_agree == 1) {
         found.warnings.push_back(

@@ -28,8 +28,9 @@ struct FitOptions {
     /// t^2 variances. Straight ones, value +- t deviations, hold too rarely where the model is curved over its own
     /// uncertainty. Costs some tens of descents.
     bool profile = false;
-    /// Told of each end of an interval that is found, one call at a time.
-    std::function<void(std::size_t done, std::size_t all)> on_interval_end = {};
+    /// Told of what takes long, `starts` and then `intervals` (their ends), at its beginning and after each: one call
+    /// at a time.
+    std::function<void(const std::string& part, std::size_t done, std::size_t all)> on_progress = {};
     unsigned jobs = 1;
 };
 
@@ -69,7 +70,7 @@ struct Fit {
 
 /// A start without any: the time constant and the delay (in a closed loop also the gain) of a grid whose response,
 /// scaled, leaves the least sum of squares. \param kind  fopdt or sopdt; niopdt: a second order of any damping from
-/// 0.05 to 1 (in a closed loop 1)
+/// 0.025 to 1 (in a closed loop 1)
 [[nodiscard]] Model search_start(Kind kind, const std::vector<Record>& records);
 
 /// Kuepfmueller's tangent at the inflection of a step response. It meets the old level after a dead time and the new

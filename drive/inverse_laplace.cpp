@@ -30,6 +30,9 @@ constexpr double image_rounding = 16.0 * std::numeric_limits<double>::epsilon();
                                      t));
 }
 
+// A pole is known to some roundings: so is the angle that it has turned by.
+constexpr double most_radians = accepted / image_rounding;
+
 constexpr double checks[] = {1.0, 1.41, 2.0};
 
 // Chebyshev's polynomials, T_k at node i.
@@ -50,7 +53,11 @@ const std::array<std::array<double, InverseLaplace::nodes>, InverseLaplace::node
 }  // namespace
 
 InverseLaplace::InverseLaplace(std::size_t count, Image image, std::vector<Swing> swings)
-    : count_(count), image_(std::move(image)), swings_(std::move(swings)) {}
+    : count_(count), image_(std::move(image)), swings_(std::move(swings)) {
+    for (const Swing& swing : swings_) {
+        parts_.push_back(swing_part(image_, count_, swing, swings_));
+    }
+}
 
 void InverseLaplace::at(double t, std::span<double> values) {
     if (!(t > 0.0)) {
@@ -74,6 +81,9 @@ void InverseLaplace::at(double t, std::span<double> values) {
         }
         values[f] = c[0] + x * one - two;
     }
+    for (const SwingPart* part : last_->parts) {
+        part->add_to(values, t);
+    }
 }
 
 const InverseLaplace::Octave& InverseLaplace::octave(int exponent) {
@@ -83,26 +93,40 @@ const InverseLaplace::Octave& InverseLaplace::octave(int exponent) {
 
 // `sizes`: what each function would be if it were about constant, or of what rounding leaves, if that is more: where
 // the image of a swing is large that has long decayed, no more terms and no shorter pieces tell more digits.
-void InverseLaplace::euler_sum(double abscissa, double t, int terms, std::span<double> values,
+void InverseLaplace::euler_sum(const Octave& octave, double abscissa, double t, int terms, std::span<double> values,
                                std::span<double> sizes) const {
     const double real = abscissa + line / (2.0 * t);
     std::vector<Complex> at(count_);
     std::vector<double> sum(count_);
     image_({real, 0.0}, at);
     for (std::size_t f = 0; f < count_; ++f) {
-        sum[f] = 0.5 * at[f].real();
-        sizes[f] = std::exp(abscissa * t) * std::fabs(sum[f]) / t * line;
+        sizes[f] = std::exp(abscissa * t) * std::fabs(0.5 * at[f].real()) / t * line;
         values[f] = 0.0;
+        for (const SwingPart* part : octave.parts) {
+            sizes[f] = std::max(sizes[f], part->size(f, t));
+        }
+    }
+    for (const SwingPart* part : octave.parts) {
+        part->take_from(at, {real, 0.0});
+    }
+    for (std::size_t f = 0; f < count_; ++f) {
+        sum[f] = 0.5 * at[f].real();
     }
     double sign = -1.0;
     const double magnified = std::exp(real * t) / t;
     const double rounded = image_rounding * magnified / accepted;
     double binomial = magnified * std::exp2(-averaged_terms);
     for (int k = 1; k <= terms + averaged_terms; ++k) {
-        image_({real, std::numbers::pi * k / t}, at);
+        const Complex s(real, std::numbers::pi * k / t);
+        image_(s, at);
+        for (std::size_t f = 0; f < count_; ++f) {
+            sizes[f] = std::max(sizes[f], rounded * (std::fabs(at[f].real()) + std::fabs(at[f].imag())));
+        }
+        for (const SwingPart* part : octave.parts) {
+            part->take_from(at, s);
+        }
         for (std::size_t f = 0; f < count_; ++f) {
             sum[f] += sign * at[f].real();
-            sizes[f] = std::max(sizes[f], rounded * (std::fabs(at[f].real()) + std::fabs(at[f].imag())));
         }
         sign = -sign;
         if (const int j = k - terms; j >= 0) {
@@ -116,15 +140,27 @@ void InverseLaplace::euler_sum(double abscissa, double t, int terms, std::span<d
 
 InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
     const double from = std::scalbn(1.0, exponent);
+    Octave octave;
     double abscissa = 0.0;
-    for (const Swing& swing : swings_) {
-        abscissa = std::max(abscissa, -swing.decay_per_s);
-    }
-    if (abscissa * 2.0 * from > std::log(1e3)) {
-        refuse(from);
+    std::vector<Swing> left;
+    for (std::size_t i = 0; i < swings_.size(); ++i) {
+        const Swing& swing = swings_[i];
+        if (-swing.decay_per_s * 2.0 * from > std::log(1e3)) {
+            refuse(from);
+        }
+        // Before a swing has swung, its part is large beside the function, which is still small.
+        if (parts_[i] && swing.radians_per_s * from > 1.0) {
+            octave.parts.push_back(&*parts_[i]);
+            if (swing.radians_per_s * 2.0 * from > most_radians && fastest_left({swing}, from, accepted) > 0.0) {
+                refuse(from);
+            }
+        } else {
+            left.push_back(swing);
+            abscissa = std::max(abscissa, -swing.decay_per_s);
+        }
     }
     // A swing beyond the terms' frequencies would go unseen, by both runs alike.
-    const double fastest = fastest_left(swings_, from, accepted);
+    const double fastest = fastest_left(left, from, accepted);
     int terms = std::max(fewest_terms, static_cast<int>(std::min(1e6, 1.5 * fastest * 2.0 * from / std::numbers::pi)));
     std::vector<double> rough(count_);
     std::vector<double> fine(count_);
@@ -136,8 +172,8 @@ InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
         }
         std::vector<double> difference(count_, 0.0);
         for (const double check : checks) {
-            euler_sum(abscissa, check * from, terms, rough, now);
-            euler_sum(abscissa, check * from, 3 * terms / 2, fine, now);
+            euler_sum(octave, abscissa, check * from, terms, rough, now);
+            euler_sum(octave, abscissa, check * from, 3 * terms / 2, fine, now);
             for (std::size_t f = 0; f < count_; ++f) {
                 size[f] = std::max({size[f], std::fabs(fine[f]), now[f]});
                 difference[f] = std::max(difference[f], std::fabs(fine[f] - rough[f]));
@@ -151,7 +187,6 @@ InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
             good = good && difference[f] <= accepted * size[f];
         }
     }
-    Octave octave;
     std::vector<std::array<double, nodes>> values(count_);
     for (; octave.pieces <= most_pieces; octave.pieces *= 2) {
         octave.coefficients.assign(octave.pieces * count_, {});
@@ -160,7 +195,7 @@ InverseLaplace::Octave InverseLaplace::make_octave(int exponent) const {
             for (std::size_t i = 0; i < nodes; ++i) {
                 const double x = chebyshev_at_nodes()[1][i];
                 const double place = (static_cast<double>(p) + 0.5 * (x + 1.0)) / static_cast<double>(octave.pieces);
-                euler_sum(abscissa, from * (1.0 + place), terms, fine, now);
+                euler_sum(octave, abscissa, from * (1.0 + place), terms, fine, now);
                 for (std::size_t f = 0; f < count_; ++f) {
                     values[f][i] = fine[f];
                 }

@@ -1,19 +1,19 @@
 // A function of time from its Laplace transform, in double: fast enough for fits, exact to about nine digits.
 //
 // The method is Abate and Whitt's Euler summation (ORSA J. Computing 7, 1995): the trapezoidal rule on a line right of
-// all singularities, whose alternating series is summed with binomial weights. No step of it amplifies rounding, and it
-// needs to know of the poles only how fast they swing. `exact_step_response.hpp` is the check, in multi-precision and
-// by another method.
+// all singularities, whose alternating series is summed with binomial weights. No step of it amplifies rounding.
+// Lightly damped poles, which it would take hundreds of terms to follow, are taken out first: what they add is known in
+// closed form. `exact_step_response.hpp` is the check, in multi-precision and by another method.
 #pragma once
 
 #include <array>
 #include <complex>
-#include <functional>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "drive/swings.hpp"
+#include "drive/swing_part.hpp"
 
 namespace drive {
 
@@ -23,9 +23,6 @@ namespace drive {
 class InverseLaplace {
 public:
     using Complex = std::complex<double>;
-    /// Fills all transforms at s.
-    using Image = std::function<void(Complex s, std::span<Complex> values)>;
-
     /// \param count  of transforms
     /// \param image  analytic right of the imaginary axis but for `swings`, real on the real axis, without a dead time
     ///               (which would have a kink)
@@ -34,8 +31,8 @@ public:
 
     /// f(t) of each; 0 for t <= 0. The errors are about 1e-9 of the functions' sizes around t, or of what rounding
     /// leaves of their transforms near a pole, if that is more: after a swing has decayed. \throws glsum::Failure
-    /// (check failed) where it does not converge: some hundred swings lie before t, or it grows. Not safe to call from
-    /// several threads: it fills its tables.
+    /// (check failed) where it does not converge: it grows, some ten thousand radians of a swing lie before t, or some
+    /// hundred of one that cannot be told from another. Not safe to call from several threads: it fills its tables.
     void at(double t, std::span<double> values);
     /// The first.
     double operator()(double t) {
@@ -49,16 +46,19 @@ public:
 
 private:
     struct Octave {
+        std::vector<const SwingPart*> parts;  // what the coefficients leave out
         std::size_t pieces = 1;
         std::vector<std::array<double, nodes>> coefficients;  // Chebyshev's: those of all functions, piece by piece
     };
     const Octave& octave(int exponent);
     [[nodiscard]] Octave make_octave(int exponent) const;
-    void euler_sum(double abscissa, double t, int terms, std::span<double> values, std::span<double> sizes) const;
+    void euler_sum(const Octave& octave, double abscissa, double t, int terms, std::span<double> values,
+                   std::span<double> sizes) const;
 
     std::size_t count_;
     Image image_;
     std::vector<Swing> swings_;
+    std::vector<std::optional<SwingPart>> parts_;  // of each swing, where it is alone
     std::map<int, Octave> octaves_;
     int last_exponent_ = 0;
     const Octave* last_ = nullptr;

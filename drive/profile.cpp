@@ -15,6 +15,12 @@ namespace drive {
 namespace {
 
 constexpr double close = 2e-3;  // an interval's end is as good as this, in quantiles
+constexpr double worth = 0.01;  // so many variances less say that the fit had not ended
+
+struct Lowest {
+    double sum_of_squares = std::numeric_limits<double>::infinity();
+    std::vector<double> free_values;  // none: there was no model
+};
 
 // Where a parameter's interval ends: the least sum of squares over all others has grown by quantile^2 variances.
 class Profile {
@@ -26,15 +32,26 @@ public:
     /// \param index  of the parameter \param values  of all, at the least sum of squares \param side  -1 or 1
     /// \param straight  the deviation that a linear model would have
     /// \param along  how the free parameters, this one included, move with it in a linear model
+    /// \param met  in return at most the lowest sum of squares on the way
     [[nodiscard]] double end(std::size_t index, const std::vector<double>& values, double side, double straight,
-                             const Eigen::VectorXd& along, double least, double variance, double quantile) const {
+                             const Eigen::VectorXd& along, double least, double variance, double quantile,
+                             double& met) const {
         const Parameter& parameter = form_.parameters()[index];
         const double bound = side > 0.0 ? parameter.upper : parameter.lower;
         // In deviations of a linear model, of which there would be `quantile`.
         const double farthest = std::min(std::fabs(bound - values[index]) / straight, 20.0 * quantile);
+        // How the free parameters move for each deviation; after the first descent as they did move: where they bend
+        // away from the straight line, a descent from there takes most of its steps to come back.
+        Eigen::VectorXd move = side * straight * along;
         const auto height = [&](double by) {
-            const double sum = sum_of_squares(index, values, side * by * straight, along);
-            return std::sqrt(std::max(0.0, sum - least) / variance) - quantile;
+            const double now = values[index] + side * by * straight;
+            const Lowest found = lowest_with(index, now, values, by * move);
+            if (!found.free_values.empty()) {
+                move =
+                    (Eigen::Map<const Eigen::VectorXd>(found.free_values.data(), move.size()) - free_of(values)) / by;
+            }
+            met = std::min(met, found.sum_of_squares);
+            return std::sqrt(std::max(0.0, found.sum_of_squares - least) / variance) - quantile;
         };
         double inside = 0.0;
         double inside_height = -quantile;
@@ -70,10 +87,22 @@ public:
     }
 
 private:
-    [[nodiscard]] double sum_of_squares(std::size_t index, const std::vector<double>& values, double by,
-                                        const Eigen::VectorXd& along) const {
+    [[nodiscard]] Eigen::VectorXd free_of(const std::vector<double>& values) const {
+        std::vector<double> free;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (!form_.parameters()[i].fixed) {
+                free.push_back(values[i]);
+            }
+        }
+        return Eigen::Map<const Eigen::VectorXd>(free.data(), static_cast<Eigen::Index>(free.size()));
+    }
+
+    // Over all others than `index`, which is held at `now`; begun `move` away from `values`.
+    [[nodiscard]] Lowest lowest_with(std::size_t index, double now, const std::vector<double>& values,
+                                     const Eigen::VectorXd& move) const {
         Form fixed = form_;
         Eigen::Index at = 0;
+        Eigen::Index own = 0;
         std::vector<double> start;
         for (std::size_t i = 0; i < values.size(); ++i) {
             Parameter& parameter = fixed.parameters()[i];
@@ -81,28 +110,36 @@ private:
                 continue;
             }
             if (i == index) {
-                parameter.value = std::clamp(values[i] + by, parameter.lower, parameter.upper);
+                own = at;
+                parameter.value = std::clamp(now, parameter.lower, parameter.upper);
                 parameter.fixed = true;
             } else {
-                start.push_back(std::clamp(values[i] + by * along(at), parameter.lower, parameter.upper));
+                start.push_back(std::clamp(values[i] + move(at), parameter.lower, parameter.upper));
             }
             ++at;
         }
         const Predictor predictor(fixed, records_);
+        Lowest found;
         if (start.empty()) {
             try {
                 Eigen::VectorXd residuals;
                 predictor.evaluate(start.data(), residuals, nullptr);
                 predictor.whiten(residuals, noise_model_);
-                return residuals.squaredNorm();
+                found.sum_of_squares = residuals.squaredNorm();
             } catch (const glsum::Failure&) {
-                return std::numeric_limits<double>::infinity();
+                return found;
             }
+        } else {
+            // As a part of the sum of squares, which is as many variances as there are samples: a height is wanted to
+            // within `close` quantiles, 0.015 variances of the sum at its 95 %.
+            const double tolerance = 2e-3 / static_cast<double>(samples_of(records_));
+            Attempt attempt = descend(fixed, predictor, start, noise_model_, {0.0, iterations_, tolerance});
+            found = {attempt.sum_of_squares, std::move(attempt.values)};
         }
-        // As a part of the sum of squares, which is as many variances as there are samples: a height is wanted to
-        // within `close` quantiles, 0.015 variances of the sum at its 95 %.
-        const double tolerance = 2e-3 / static_cast<double>(samples_of(records_));
-        return descend(fixed, predictor, start, noise_model_, {0.0, iterations_, tolerance}).sum_of_squares;
+        if (std::isfinite(found.sum_of_squares)) {
+            found.free_values.insert(found.free_values.begin() + own, fixed.parameters()[index].value);
+        }
+        return found;
     }
 
     const Form& form_;
@@ -113,7 +150,7 @@ private:
 
 }  // namespace
 
-void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& records,
+bool profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& records,
                        const std::vector<double>& values, const FitOptions& options, double least) {
     const auto samples = static_cast<double>(samples_of(records));
     const auto free = static_cast<Eigen::Index>(fit.free_names.size());
@@ -130,6 +167,10 @@ void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& re
     }
     std::mutex telling;
     std::size_t done = 0;
+    double lowest = least;
+    if (options.on_progress) {
+        options.on_progress("intervals", 0, 2 * asked.size());
+    }
     base::parallel_for(2 * asked.size(), options.jobs, [&](std::size_t task) {
         const std::size_t index = asked[task / 2];
         Estimate& estimate = fit.parameters[index];
@@ -146,13 +187,16 @@ void profile_intervals(Fit& fit, const Form& form, const std::vector<Record>& re
             }
         }
         const double side = task % 2 == 0 ? -1.0 : 1.0;
+        double met = least;
         (side < 0.0 ? estimate.low : estimate.high) =
-            profile.end(index, values, side, estimate.deviation, along, least, variance, quantile);
-        if (options.on_interval_end) {
-            const std::lock_guard<std::mutex> lock(telling);
-            options.on_interval_end(++done, 2 * asked.size());
+            profile.end(index, values, side, estimate.deviation, along, least, variance, quantile, met);
+        const std::lock_guard<std::mutex> lock(telling);
+        lowest = std::min(lowest, met);
+        if (options.on_progress) {
+            options.on_progress("intervals", ++done, 2 * asked.size());
         }
     });
+    return lowest >= least - worth * variance;
 }
 
 }  // namespace drive

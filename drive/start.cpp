@@ -1,4 +1,4 @@
-// Starts of a fit: a search over a grid, in an open or a closed loop, and Kuepfmueller's tangent.
+// Starts of a fit: a search over a grid in a closed loop, and Kuepfmueller's tangent.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "base/failure.hpp"
 #include "drive/controller.hpp"
 #include "drive/fit.hpp"
+#include "drive/open_start.hpp"
 
 namespace drive {
 namespace {
@@ -107,57 +108,6 @@ Model search_loop_start(Kind kind, const Record& record) {
     return best;
 }
 
-// The response to a unit step of unit gain, x time constants after it; damping: of a second order.
-double unit_step(bool second_order, double damping, double x) {
-    if (!second_order) {
-        return 1.0 - std::exp(-x);
-    }
-    if (damping == 1.0) {
-        return 1.0 - (1.0 + x) * std::exp(-x);
-    }
-    const double swing = std::sqrt(1.0 - damping * damping);
-    return 1.0 - std::exp(-damping * x) * (std::cos(swing * x) + damping / swing * std::sin(swing * x));
-}
-
-// An open loop on an even grid of some hundred points, where a dead time is a shift and a log whose input changes at
-// each stamp costs no more than a step.
-class RoughRecord {
-public:
-    RoughRecord(const Record& record, double step_s) {
-        std::size_t at = 0;
-        for (double time_s = 0.0; time_s <= record.time_s.back(); time_s += step_s) {
-            while (at + 1 < record.time_s.size() && record.time_s[at + 1] <= time_s + 1e-9 * step_s) {
-                ++at;
-            }
-            output_.push_back(record.output[at]);
-        }
-        input_change_.assign(output_.size(), 0.0);
-        for (const Change& change : record.changes) {
-            const auto nearest = static_cast<std::size_t>(std::lround(std::max(0.0, change.time_s) / step_s));
-            if (nearest < input_change_.size()) {
-                input_change_[nearest] += change.size;
-            }
-        }
-    }
-    [[nodiscard]] const std::vector<double>& output() const { return output_; }
-    /// \param step  the response after each number of steps, of at least as many as the output has
-    [[nodiscard]] std::vector<double> respond(const std::vector<double>& step) const {
-        std::vector<double> response(output_.size(), 0.0);
-        for (std::size_t j = 0; j < response.size(); ++j) {
-            if (input_change_[j] != 0.0) {
-                for (std::size_t k = j; k < response.size(); ++k) {
-                    response[k] += input_change_[j] * step[k - j];
-                }
-            }
-        }
-        return response;
-    }
-
-private:
-    std::vector<double> input_change_;
-    std::vector<double> output_;
-};
-
 }  // namespace
 
 Model search_start(Kind kind, const std::vector<Record>& records) {
@@ -166,74 +116,7 @@ Model search_start(Kind kind, const std::vector<Record>& records) {
             return search_loop_start(kind, record);
         }
     }
-    double longest_s = 0.0;
-    for (const Record& record : records) {
-        longest_s = std::max(longest_s, record.time_s.back());
-    }
-    constexpr int points = 400;
-    const double step_s = longest_s / points;
-    std::vector<RoughRecord> rough;
-    std::size_t most = 0;
-    for (const Record& record : records) {
-        rough.emplace_back(record, step_s);
-        most = std::max(most, rough.back().output().size());
-    }
-    // What swings has to be met within a part of its period: the lightest damping rings for some three of them.
-    const std::vector<double> dampings =
-        kind == Kind::niopdt ? std::vector{1.0, 0.5, 0.25, 0.1, 0.05} : std::vector{1.0};
-    constexpr int constants = 60;
-    double least = std::numeric_limits<double>::infinity();
-    double gain = 0.0;
-    double time_constant_s = 0.0;
-    double damping = 0.0;
-    double delay_s = 0.0;
-    for (int i = 0; i < constants; ++i) {
-        const double now_s = longest_s * std::pow(0.003, static_cast<double>(i) / (constants - 1));
-        for (const double damped : dampings) {
-            std::vector<double> step(most);
-            for (std::size_t k = 0; k < step.size(); ++k) {
-                step[k] = unit_step(kind != Kind::fopdt, damped, static_cast<double>(k) * step_s / now_s);
-            }
-            std::vector<std::vector<double>> responses;
-            for (const RoughRecord& record : rough) {
-                responses.push_back(record.respond(step));
-            }
-            for (std::size_t shift = 0; shift < points / 2; shift += 4) {
-                double product = 0.0;
-                double square = 0.0;
-                double output_square = 0.0;
-                for (std::size_t r = 0; r < rough.size(); ++r) {
-                    const std::vector<double>& output = rough[r].output();
-                    for (std::size_t k = 0; k < output.size(); ++k) {
-                        const double y = k < shift ? 0.0 : responses[r][k - shift];
-                        product += y * output[k];
-                        square += y * y;
-                        output_square += output[k] * output[k];
-                    }
-                }
-                const double error = square > 0.0 ? output_square - product * product / square : output_square;
-                if (square > 0.0 && product != 0.0 && error < least) {
-                    least = error;
-                    gain = product / square;
-                    time_constant_s = now_s;
-                    damping = damped;
-                    delay_s = static_cast<double>(shift) * step_s;
-                }
-            }
-        }
-    }
-    if (!std::isfinite(least)) {
-        refuse("no start found: the output does not follow the input at all");
-    }
-    if (kind == Kind::fopdt) {
-        return make_fopdt(gain, time_constant_s, delay_s);
-    }
-    Model best = make_sopdt(gain, time_constant_s, delay_s);
-    if (kind == Kind::niopdt) {
-        best.kind = Kind::fotf;
-        best.denominator[1].coefficient *= damping;
-    }
-    return best;
+    return search_open_start(kind, records);
 }
 
 Model tangent_construction(Kind kind, const Record& record) {

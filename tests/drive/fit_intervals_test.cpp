@@ -2,6 +2,7 @@
 // is linear, and the fit is a straight line through the points (unit response, output).
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "drive/fit.hpp"
@@ -85,6 +86,32 @@ TEST(FitIntervals, OfGainAndOffsetAreThoseOfAStraightLine) {
         }
     }
     EXPECT_NEAR(fit.correlation(0, 1), -sum_x / std::sqrt(samples * sum_xx), 1e-6);
+}
+
+// A profile that comes upon a lower sum than the fit's own says that the fit had stopped on its way.
+TEST(FitIntervals, OfAFitThatStoppedOnItsWaySaySo) {
+    const drive::Model plant = drive::make_fopdt(2.0, 0.5, 0.2);
+    drive::Record record;
+    record.name = "step";
+    record.changes = {{0.0, 1.0}};
+    for (int k = 0; k < 60; ++k) {
+        record.time_s.push_back(0.05 * k);
+    }
+    record.output = drive::respond(plant, record.changes, record.time_s);
+    for (std::size_t k = 0; k < record.output.size(); ++k) {
+        record.output[k] += k * 7 % 5 < 2 ? 0.02 : -0.013;
+    }
+    const drive::Form form(drive::Kind::fopdt, drive::make_fopdt(1.5, 0.8, 0.2));
+    const auto says_so = [&](int iterations) {
+        const drive::Fit fit = drive::fit(form, {record}, {.iterations = iterations, .profile = true});
+        return std::any_of(fit.warnings.begin(), fit.warnings.end(), [](const std::string& warning) {
+            return warning ==
+                   "a lower sum of squares is near: the intervals are of where the fit stopped; take more iterations "
+                   "or starts";
+        });
+    };
+    EXPECT_TRUE(says_so(1));
+    EXPECT_FALSE(says_so(100));
 }
 
 }  // namespace

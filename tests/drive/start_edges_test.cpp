@@ -18,30 +18,30 @@ using drive::Model;
 using drive::Record;
 using test::refusal_of;
 
-// A search's grid has 400 steps: these are exact in binary.
+// The steps of a search's grid are those of an even log of 401 to 4001 samples: these are exact in binary.
 constexpr double step_s = 1.0 / 64.0;
 constexpr double length_s = 400.0 * step_s;
-const double constant_s = std::pow(0.003, 25.0 / 59.0) * length_s;
+const double constant_s = std::exp(-2.5) * length_s;
 const Model truth = drive::make_fopdt(2.0, constant_s, 8.0 * step_s);
 
-Record even_record(const std::vector<Change>& changes) {
+Record even_record(const std::vector<Change>& changes, int steps = 400, const Model& model = truth) {
     Record record;
     record.name = "even";
     record.changes = changes;
-    for (int k = 0; k <= 400; ++k) {
+    for (int k = 0; k <= steps; ++k) {
         record.time_s.push_back(k * step_s);
     }
-    record.output = drive::respond(truth, changes, record.time_s);
+    record.output = drive::respond(model, changes, record.time_s);
     return record;
 }
 
 Model found_of(const Record& record) { return drive::search_start(Kind::fopdt, {record}); }
 
-void expect_truth(const Record& record) {
+void expect_truth(const Record& record, const Model& model = truth) {
     const Model found = found_of(record);
-    EXPECT_NEAR(found.gain / truth.gain, 1.0, 1e-6);
-    EXPECT_NEAR(found.denominator[0].coefficient / truth.denominator[0].coefficient, 1.0, 1e-6);
-    EXPECT_NEAR(found.delay_s, truth.delay_s, 1e-9);
+    EXPECT_NEAR(found.gain / model.gain, 1.0, 1e-6);
+    EXPECT_NEAR(found.denominator[0].coefficient / model.denominator[0].coefficient, 1.0, 1e-6);
+    EXPECT_NEAR(found.delay_s, model.delay_s, 1e-9);
 }
 
 // A billionth of a step is rounding; what comes later is of the next point.
@@ -60,13 +60,15 @@ TEST(SearchStartEdges, ASampleCountsFromABillionthOfAStepBeforeItsStampOn) {
 
 // Of a log whose stamps are denser than the grid the last one before a point counts.
 TEST(SearchStartEdges, OfSeveralSamplesTheLastCounts) {
-    Record dense = even_record({{0.0, 1.0}});
-    for (std::size_t k = 400; k > 0; --k) {
+    constexpr int steps = 4000;  // as many as there are
+    const Model model = drive::make_fopdt(2.0, std::exp(-2.5) * steps * step_s, 8.0 * step_s);
+    Record dense = even_record({{0.0, 1.0}}, steps, model);
+    for (std::size_t k = steps; k > 0; --k) {
         const auto at = static_cast<std::ptrdiff_t>(k);
         dense.time_s.insert(dense.time_s.begin() + at, (static_cast<double>(k) - 0.25) * step_s);
         dense.output.insert(dense.output.begin() + at, 77.0);
     }
-    expect_truth(dense);
+    expect_truth(dense, model);
 }
 
 TEST(SearchStartEdges, AChangeIsOfTheNearestPoint) {

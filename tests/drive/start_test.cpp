@@ -46,21 +46,23 @@ void expect_found(const Model& found, const Model& truth) {
     }
 }
 
-// 60 time constants from the record's length to 0.003 of it, even in the logarithm; dead times of each fourth of 400
-// steps, up to half of the record.
+// Time constants from the record's length to 1.2 of 400 steps, each less than the last by a tenth in the logarithm, or
+// by the damping where that is less; dead times of each step up to half of the record.
 TEST(SearchStart, FindsWhatLiesOnItsGrid) {
     constexpr double length_s = 8.0;
     constexpr double step_s = length_s / 400.0;
-    const auto constant_s = [](int i) { return length_s * std::pow(0.003, i / 59.0); };
+    const auto constant_s = [](int i, double apart = 0.1) { return length_s * std::exp(-apart * i); };
     const std::vector<drive::Change> changes{{0.0, 1.0}, {4.0, -1.5}};
-    for (const auto& [i, shift] : {std::pair(0, 0), std::pair(20, 4), std::pair(31, 196), std::pair(59, 40)}) {
+    for (const auto& [i, shift] : {std::pair(0, 0), std::pair(20, 5), std::pair(31, 199), std::pair(58, 42)}) {
         const Model first = drive::make_fopdt(-3.0, constant_s(i), shift * step_s);
         expect_found(drive::search_start(Kind::fopdt, {even_record(first, changes, step_s, 401)}), first);
         const Model second = drive::make_sopdt(2.0, constant_s(i), shift * step_s);
         expect_found(drive::search_start(Kind::sopdt, {even_record(second, changes, step_s, 401)}), second);
     }
-    for (const double damping : {1.0, 0.5, 0.25, 0.1, 0.05}) {
-        const Model swings = swinging(2.0, constant_s(40), damping, 12 * step_s);
+    for (const double damping : {1.0, 0.5, 0.25, 0.1, 0.05, 0.025}) {
+        const double apart = std::min(damping, 0.1);
+        const int i = static_cast<int>(std::lround(4.1 / apart));
+        const Model swings = swinging(2.0, constant_s(i, apart), damping, 13 * step_s);
         expect_found(drive::search_start(Kind::niopdt, {even_record(swings, changes, step_s, 401)}), swings);
     }
     // The longest record fixes the grid, whichever it is.
