@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "drive/fit.hpp"
 #include "drive/response.hpp"
@@ -112,6 +114,30 @@ TEST(FitIntervals, OfAFitThatStoppedOnItsWaySaySo) {
     };
     EXPECT_TRUE(says_so(1));
     EXPECT_FALSE(says_so(100));
+}
+
+// What takes long is told from its beginning to its end, the starts before the intervals.
+TEST(FitIntervals, TellHowFarTheyAre) {
+    drive::Record record;
+    record.name = "step";
+    record.changes = {{0.0, 1.0}};
+    for (int k = 0; k < 60; ++k) {
+        record.time_s.push_back(0.05 * k);
+    }
+    record.output = drive::respond(drive::make_fopdt(2.0, 0.5, 0.2), record.changes, record.time_s);
+    std::vector<std::string> told;
+    drive::FitOptions options{.starts = 2, .profile = true};
+    options.on_progress = [&](const std::string& part, std::size_t done, std::size_t all) {
+        told.push_back(part + ' ' + std::to_string(done) + '/' + std::to_string(all));
+    };
+    record.output[20] += 0.01;
+    const drive::Fit fit =
+        drive::fit(drive::Form(drive::Kind::fopdt, drive::make_fopdt(1.8, 0.6, 0.2)), {record}, options);
+    std::vector<std::string> expected{"starts 0/2", "starts 1/2", "starts 2/2"};
+    for (std::size_t end = 0; end <= 2 * fit.free_names.size(); ++end) {
+        expected.push_back("intervals " + std::to_string(end) + '/' + std::to_string(2 * fit.free_names.size()));
+    }
+    EXPECT_EQ(told, expected);
 }
 
 }  // namespace
