@@ -95,7 +95,7 @@ Answer answer_to(const Question& question, const std::function<void(const std::s
     if (question.refit) {
         Candidate best = answer.ranking.front().trained;
         add_intervals(study, best, fits_by);
-        answer.lag_wanted = !linear_of(best).empty();
+        answer.lag_wanted = !linear_of(study, best).empty();
     }
     std::vector<std::size_t> shown = answer.decision.effects;
     shown.push_back(answer.decision.chosen);

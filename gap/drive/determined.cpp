@@ -170,7 +170,7 @@ bool leaves_open(const Study& study, const Candidate& candidate) {
     return false;
 }
 
-std::string linear_of(const Candidate& candidate) {
+std::string linear_of(const Study& study, const Candidate& candidate) {
     std::size_t lasting = 0;
     for (const Effect* effect : candidate.effects) {
         if (effect->kind != Kind::lasting) {
@@ -180,7 +180,7 @@ std::string linear_of(const Candidate& candidate) {
         for (const FreeParameter& number : candidate.lasting[lasting++]) {
             fitted.push_back({number.value, number.low, number.high});
         }
-        const std::string why = effect->linear_with != nullptr ? effect->linear_with(fitted) : "";
+        const std::string why = effect->linear_with != nullptr ? effect->linear_with(fitted, study.scales) : "";
         if (!why.empty()) {
             return fmt::format("{}: {}", effect->name, why);
         }
@@ -188,13 +188,13 @@ std::string linear_of(const Candidate& candidate) {
     return "";
 }
 
-bool needs_event(const Study& study, const std::vector<FreeParameter>& own, const Effect& effect) {
+bool needs_event(const Study& study, const std::vector<FreeParameter>& own, const Effect& effect, double least_size) {
     const std::vector<EffectParameter> named = effect.parameters(study.scales);
     return std::any_of(named.begin(), named.end(), [&](const EffectParameter& parameter) {
         const auto mine = std::find_if(own.begin(), own.end(), [&](const FreeParameter& free) {
             return free.name == effect.name + "." + parameter.name;
         });
-        return parameter.name.starts_with("size") && mine != own.end() &&
+        return parameter.name.starts_with("size") && mine != own.end() && std::fabs(mine->value) >= least_size &&
                std::fabs(mine->value - parameter.none) > anywhere * mine->deviation;
     });
 }

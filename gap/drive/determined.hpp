@@ -21,13 +21,15 @@ void add_intervals(const Study& study, Candidate& candidate, const Whitener* whi
 
 /// Of the first lasting effect that is linear with what was fitted, and so a part of another base. Empty: there is
 /// none. \param candidate  with its intervals
-[[nodiscard]] std::string linear_of(const Candidate& candidate);
+[[nodiscard]] std::string linear_of(const Study& study, const Candidate& candidate);
 
 /// Whether numbers of its effects move with the base's or with a record's own in a direction that training does not
 /// tell: others of them leave the same with another base.
 [[nodiscard]] bool leaves_open(const Study& study, const Candidate& candidate);
 
 /// Of a record's own numbers of an event: whether its size is told to differ from none. \param own  with intervals
-[[nodiscard]] bool needs_event(const Study& study, const std::vector<FreeParameter>& own, const Effect& effect);
+/// \param least_size  a smaller one is none
+[[nodiscard]] bool needs_event(const Study& study, const std::vector<FreeParameter>& own, const Effect& effect,
+                               double least_size);
 
 }  // namespace gap

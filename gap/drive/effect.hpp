@@ -129,13 +129,16 @@ struct Effect {
     std::vector<double> (*from_contract)(const Effect& effect, const Contracted& contracted) = numbers_from_contract;
     /// Why it is linear with these numbers, and so what a fitted base of another form takes up; empty: it is not. None:
     /// it never is.
-    std::string (*linear_with)(std::span<const Fitted> fitted) = nullptr;
+    std::string (*linear_with)(std::span<const Fitted> fitted, const Scales& scales) = nullptr;
     /// A further start that the residuals of what is there without it tell, for numbers whose basin is narrow: values
     /// in the order of `parameters`. For lasting ones.
     std::vector<double> (*start)(const Clue& clue) = nullptr;
     /// What it adds to the slope of the restoring term at an output, over the base's own, which is 1: a base that was
     /// fitted without it has it in its numbers.
     double (*slope)(std::span<const double> values, double output) = nullptr;
+    /// Whether its law counts the output from 0 with these numbers, as a level from an empty tank: a base that was
+    /// fitted without it is about another point.
+    bool (*from_zero)(std::span<const double> values) = nullptr;
     /// What it is with these numbers, another effect that says as much by a simpler law; none: itself.
     std::optional<Special> (*is_only)(std::span<const double> values) = nullptr;
     /// Whether the other one is a special case of it.

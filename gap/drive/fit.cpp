@@ -1,6 +1,7 @@
 #include "gap/drive/fit.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -180,6 +181,11 @@ Candidate without_new_effects(const Study& study, const Candidate& of, const Can
 
 }  // namespace
 
+double weighed_cost(const Candidate& candidate) {
+    constexpr double each = 0.85;
+    return candidate.cost / std::pow(each, static_cast<double>(candidate.effect_parameters()));
+}
+
 Candidate fit(const Study& study, const std::vector<const Effect*>& effects, const Candidate& start,
               const Whitener* whitener, const Effort& effort) {
     std::size_t count = 1;
@@ -195,7 +201,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
     count += clued ? 1 : 0;
     const bool in_stages = count > 1 || std::isfinite(effort.hopeless);
     std::vector<Candidate> attempts;
-    for (std::size_t s = 0; s < count; ++s) {
+    for (std::size_t s = effort.only_start.value_or(0); s < count && s <= effort.only_start.value_or(count); ++s) {
         Candidate attempt;
         attempt.effects = effects;
         attempt.base = start.base.empty() ? base_of(study) : start.base;
@@ -243,9 +249,12 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             descend(study, led, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
             attempts.push_back(std::move(led));
         }
-        if (std::optional<Candidate> eased = with_slope_kept(study, attempt, start)) {
-            descend(study, *eased, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
-            attempts.push_back(std::move(*eased));
+        for (std::optional<Candidate>& other :
+             std::array{with_slope_kept(study, attempt, start), counted_from_zero(study, attempt, start)}) {
+            if (other) {
+                descend(study, *other, false, whitener, in_stages ? effort.first_iterations : effort.iterations);
+                attempts.push_back(std::move(*other));
+            }
         }
         // What bends a swing changes its period: alone, before the base may follow, it would only be driven back to
         // none.
@@ -259,7 +268,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
         attempts.push_back(std::move(attempt));
     }
     if (in_stages) {
-        std::ranges::stable_sort(attempts, {}, &Candidate::cost);
+        std::ranges::stable_sort(attempts, {}, weighed_cost);
         attempts.resize(std::min(effort.keep, attempts.size()));
         const double worst = std::min(effort.hopeless, 2.0 * attempts.front().cost);
         for (Candidate& attempt : attempts) {
@@ -268,7 +277,7 @@ Candidate fit(const Study& study, const std::vector<const Effect*>& effects, con
             }
         }
     }
-    Candidate& best = *std::ranges::min_element(attempts, {}, &Candidate::cost);
+    Candidate& best = *std::ranges::min_element(attempts, {}, weighed_cost);
     take_first_records(best);
     if (study.base.refit && !effects.empty() && start.own.size() == study.courses.size()) {
         // Any effect may be absent: then it goes as far as what it was begun from.

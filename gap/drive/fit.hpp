@@ -2,6 +2,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "gap/drive/candidate.hpp"
 #include "gap/drive/residuals/whiten.hpp"
@@ -14,7 +15,12 @@ struct Effort {
     int iterations = 25;
     /// Those that are not below this cost by then go no further.
     double hopeless = std::numeric_limits<double>::infinity();
+    std::optional<std::size_t> only_start = {};  ///< of an effect's starts
 };
+
+/// By which variants of the same effects are compared: one with more numbers has to leave so much less for each of
+/// them.
+[[nodiscard]] double weighed_cost(const Candidate& candidate);
 
 /// From `start` for all that it has and, for other effects, from each of their starts; where residuals are whitened,
 /// those count. Every candidate gets the same effort.

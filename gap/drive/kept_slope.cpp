@@ -50,4 +50,36 @@ std::optional<Candidate> with_slope_kept(const Study& study, const Candidate& ca
     return kept;
 }
 
+std::optional<Candidate> counted_from_zero(const Study& study, const Candidate& candidate, const Candidate& start) {
+    const bool counts = std::ranges::any_of(candidate.effects, [&](const Effect* effect) {
+        const std::vector<FreeParameter>* numbers = candidate.numbers_of(effect);
+        return numbers != nullptr && effect->from_zero != nullptr && effect->from_zero(values_of(*numbers)) &&
+               start.numbers_of(effect) == nullptr;
+    });
+    if (!study.base.refit || !counts) {
+        return std::nullopt;
+    }
+    Candidate counted = candidate;
+    double offset = 0.0;
+    for (auto& own : counted.own) {
+        for (FreeParameter& number : own) {
+            if (number.name == "offset") {
+                offset += number.value / static_cast<double>(counted.own.size());
+                number.value = std::clamp(0.0, number.lower, number.upper);
+            }
+        }
+    }
+    const double mean = mean_output(study);
+    const double share = mean / (mean - offset);
+    if (offset == 0.0 || !(share > 0.0)) {
+        return std::nullopt;
+    }
+    for (FreeParameter& number : counted.base) {
+        if (number.name == "gain") {
+            number.value = std::clamp(share * number.value, number.lower, number.upper);
+        }
+    }
+    return counted;
+}
+
 }  // namespace gap

@@ -14,4 +14,9 @@ namespace gap {
 [[nodiscard]] std::optional<Candidate> with_slope_kept(const Study& study, const Candidate& candidate,
                                                        const Candidate& start);
 
+/// With the operating point at 0, where a new effect counts from (Effect::from_zero), and a gain that keeps the mean
+/// output. None: nothing new does.
+[[nodiscard]] std::optional<Candidate> counted_from_zero(const Study& study, const Candidate& candidate,
+                                                         const Candidate& start);
+
 }  // namespace gap

@@ -47,6 +47,13 @@ Candidate with_only(const Study& study, const Candidate& best, std::size_t i, co
     return simpler;
 }
 
+// Numbers that stay where they start say which variant of an effect it is.
+bool are_one_variant(const std::vector<FreeParameter>& a, const std::vector<FreeParameter>& b) {
+    return std::ranges::equal(a, b, [](const FreeParameter& mine, const FreeParameter& other) {
+        return mine.fixed == other.fixed && (!mine.fixed || mine.value == other.value);
+    });
+}
+
 }  // namespace
 
 bool nested(const Effects& mine, const Effect& other) {
@@ -90,6 +97,46 @@ std::vector<Candidate> simplified(const Neighbourhood& near, std::size_t size) {
     base::parallel_for(simpler.size(), near.of.jobs, [&](std::size_t i) {
         fitted[i] = fit(near.of.ground.study, simpler[i].effects, simpler[i].start, near.fits_by);
     });
+    return fitted;
+}
+
+std::vector<Candidate> variants(const Neighbourhood& near, std::size_t size) {
+    constexpr double untold = 1.02;  // of the cost: of thousands of slow samples half a unit of likelihood
+    const Study& study = near.of.ground.study;
+    const Candidate& best = near.found.best_of(size).trained;
+    struct Begun {
+        const Candidate* start;
+        Effects effects;
+        std::size_t at;
+    };
+    std::vector<Begun> other;
+    for (const Effect* effect : best.effects) {
+        const std::vector<FreeParameter>* numbers = best.numbers_of(effect);
+        Begun begun{nullptr, best.effects, 0};
+        std::erase(begun.effects, effect);
+        // From where it is not there yet: the base has bent to the variant that it was fitted with.
+        const auto without = std::ranges::find_if(near.found.ranking, [&](const Ranked& ranked) {
+            return std::ranges::is_permutation(ranked.trained.effects, begun.effects);
+        });
+        if (numbers == nullptr || without == near.found.ranking.end()) {
+            continue;
+        }
+        begun.start = &without->trained;
+        begun.effects.push_back(effect);
+        for (; begun.at < starts_of(*effect, study.scales); ++begun.at) {
+            if (!are_one_variant(parameters_of(*effect, study.scales, begun.at), *numbers)) {
+                other.push_back(begun);
+            }
+        }
+    }
+    std::vector<Candidate> fitted(other.size());
+    base::parallel_for(other.size(), near.of.jobs, [&](std::size_t i) {
+        Effort effort;
+        effort.first_iterations = 12;  // it begins far away
+        effort.only_start = other[i].at;
+        fitted[i] = fit(study, other[i].effects, *other[i].start, near.fits_by, effort);
+    });
+    std::erase_if(fitted, [&](const Candidate& one) { return !(weighed_cost(one) <= untold * weighed_cost(best)); });
     return fitted;
 }
 

@@ -29,6 +29,9 @@ struct Neighbourhood {
 /// wider one, which follows more, comes first.
 [[nodiscard]] std::vector<Candidate> simplified(const Neighbourhood& near, std::size_t size);
 
+/// The best of a size with another variant of one of its effects, where training does not tell the two apart.
+[[nodiscard]] std::vector<Candidate> variants(const Neighbourhood& near, std::size_t size);
+
 /// Of the best of a size each effect exchanged for each that acts at its place, from where the best one stands: what
 /// looks alike is not to lose because it began further away.
 [[nodiscard]] std::vector<Candidate> rivals(const Neighbourhood& near, std::size_t size);

@@ -13,7 +13,7 @@ constexpr double large = 0.03;        // of the greatest input: a move
 constexpr double at_the_end = 0.02;   // of the record's length
 constexpr double settling = 3.0;      // time constants
 constexpr double incredible = 0.006;  // so few true events begin with the input by chance
-constexpr double unfelt = 0.05;       // of the largest event: how long it lasts there says nothing
+constexpr double unfelt = 0.05;       // of the largest event: it follows what the base leaves there
 
 double length_of(const Record& record) { return record.time_s.back() - record.time_s.front(); }
 
@@ -39,16 +39,6 @@ std::optional<double> number_of(const std::vector<FreeParameter>& own, const std
     return found == own.end() ? std::optional<double>() : found->value;
 }
 
-double largest_of(const std::string& effect, const Candidate& trained, const Candidate& validated) {
-    double largest = 0.0;
-    for (const Candidate* candidate : {&trained, &validated}) {
-        for (const auto& own : candidate->own) {
-            largest = std::max(largest, std::fabs(number_of(own, effect + ".size").value_or(0.0)));
-        }
-    }
-    return largest;
-}
-
 // A disturbance, or the first of some jumps; nothing: it was not found in this record.
 std::optional<Happening> happening_of(const std::vector<FreeParameter>& own, const std::string& effect) {
     const auto from_s = number_of(own, effect + ".from_s");
@@ -61,6 +51,20 @@ std::optional<Happening> happening_of(const std::vector<FreeParameter>& own, con
 }
 
 }  // namespace
+
+double least_felt(const Effect& effect, const Candidate& trained, const Candidate& validated) {
+    double largest = 0.0;
+    for (const Candidate* candidate : {&trained, &validated}) {
+        for (const auto& own : candidate->own) {
+            for (const FreeParameter& one : own) {
+                if (one.name.starts_with(effect.name + ".size")) {
+                    largest = std::max(largest, std::fabs(one.value));
+                }
+            }
+        }
+    }
+    return unfelt * largest;
+}
 
 double chance_of_meeting(const Record& record, double time_s, double delay_s) {
     const double length_s = length_of(record);
@@ -117,7 +121,7 @@ std::string doubt_of_events(const Study& study, const Candidate& trained, const 
         if (effect->kind != Kind::event) {
             continue;
         }
-        const double least_size = unfelt * largest_of(effect->name, trained, validated);
+        const double least_size = least_felt(*effect, trained, validated);
         std::vector<double> chances;
         for (const auto& [of, candidate] : {std::pair(&study, &trained), std::pair(&validation, &validated)}) {
             for (std::size_t r = 0; r < candidate->own.size(); ++r) {

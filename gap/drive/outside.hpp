@@ -16,6 +16,10 @@ struct Happening {
     std::optional<double> to_s;  ///< of a disturbance
 };
 
+/// How large an event has to be to be one: a twentieth of the largest of all records. A smaller one follows what the
+/// base leaves in its record.
+[[nodiscard]] double least_felt(const Effect& effect, const Candidate& trained, const Candidate& validated);
+
 /// By which chance a time drawn at random lies as near to a large move of the input, a dead time later, as this one.
 /// 1: the input never moves at once, or always.
 [[nodiscard]] double chance_of_meeting(const Record& record, double time_s, double delay_s);

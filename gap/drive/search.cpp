@@ -102,6 +102,7 @@ public:
         }
         for (std::size_t size = 1; of_.ground.study.base.refit && found_.has_sized(size); ++size) {
             take(simplified(near(), size));
+            take(variants(near(), size));
         }
         if (of_.ground.study.base.refit && quantum_shows()) {
             take(with_steps(near()));

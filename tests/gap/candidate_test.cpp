@@ -128,7 +128,7 @@ TEST(CandidateEffects, BeginAtEachOfTheirStarts) {
     EXPECT_TRUE(first[2].fixed);
     EXPECT_FALSE(gap::parameters_of(curve, scales, 1)[1].fixed);
     const auto third = gap::parameters_of(curve, scales, 2);
-    EXPECT_TRUE(third[1].fixed);  // of an outflow the reference stays
+    EXPECT_FALSE(third[1].fixed);
     EXPECT_FALSE(third[0].fixed);
     EXPECT_EQ(third[2].value, 1.0);
     EXPECT_EQ(gap::parameters_of(curve, scales, 5)[0].value, 0.25);  // around

@@ -170,7 +170,7 @@ TEST(GapContract, AnImprovedModelHasEachEffect) {
         {"gravity_nonlinearity", R"("angle_per_unit": 1.2)"},
         {"cubic_stiffness", R"("coefficient": 0.8)"},
         {"cogging", R"("size": 0.05, "per_unit": 3)"},
-        {"end_stop", R"("limit": 0.6, "restitution": 0.3)"},
+        {"end_stop", R"("limit": 0.6, "restitution": 0.3, "before_s": 0.5, "spill": 0.5)"},
         {"backlash", R"("gap": 0.1)"},
         {"structural_resonance", R"("hz": 3, "damping": 0.05, "share": 0.1, "speed_share": 0.1)"},
         {"direction_asymmetry", R"("tau_up_s": 0.1, "tau_down_s": 0.4)"},

@@ -8,6 +8,7 @@
 
 #include "gap/drive/fit.hpp"
 #include "gap/drive/question.hpp"
+#include "gap/drive/start.hpp"
 #include "stand_case.hpp"
 
 namespace {
@@ -99,6 +100,7 @@ TEST(Untold, IsALagInADirectionThatTrainingLacks) {
 
 // Another lag up than down is no lag; the same one is, and a fitted base of another form has it.
 TEST(Linear, IsAnAsymmetryOfTheSameLags) {
+    const gap::Study study{{gap::form_of(drive::make_fopdt(1.0, 1.0, 0.0))}, {}, {}, {}, 0.01, 0.001, 0};
     gap::Candidate candidate;
     candidate.effects = {&gap::effect_named("load_disturbance"), &gap::effect_named("direction_asymmetry")};
     candidate.lasting = {
@@ -107,13 +109,33 @@ TEST(Linear, IsAnAsymmetryOfTheSameLags) {
     gap::FreeParameter& down = candidate.lasting[0][1];
     up.low = 0.4, up.high = 0.54;
     down.low = 0.55, down.high = 0.65;
-    EXPECT_EQ(gap::linear_of(candidate), "");
+    EXPECT_EQ(gap::linear_of(study, candidate), "");
     up.high = 0.55;
-    EXPECT_THAT(gap::linear_of(candidate), StartsWith("direction_asymmetry: "));
+    EXPECT_THAT(gap::linear_of(study, candidate), StartsWith("direction_asymmetry: "));
     std::swap(up, down);
-    EXPECT_THAT(gap::linear_of(candidate), StartsWith("direction_asymmetry: "));
+    EXPECT_THAT(gap::linear_of(study, candidate), StartsWith("direction_asymmetry: "));
     candidate.effects[1] = &gap::effect_named("supply_sag");
-    EXPECT_EQ(gap::linear_of(candidate), "");
+    EXPECT_EQ(gap::linear_of(study, candidate), "");
+}
+
+// An upper tank that may never run over is one lag more; the lower one's own limit is no lag.
+TEST(Linear, IsAnUpperTankThatMayNotRunOver) {
+    gap::Study study{{gap::form_of(drive::make_fopdt(1.0, 1.0, 0.0))}, {}, {}, {}, 0.01, 0.001, 0};
+    study.scales.output_high = 5.0;
+    study.scales.output_span = 4.0;
+    gap::Candidate candidate;
+    candidate.effects = {&gap::effect_named("end_stop")};
+    candidate.lasting = {{{"end_stop.limit", 4.9, 0.0, 5.08, 1.0},
+                          {"end_stop.restitution", 0.0, 0.0, 0.9, 1.0},
+                          {"end_stop.before_s", 2.0, 0.0, 9.0, 1.0},
+                          {"end_stop.spill", 0.5, 0.0, 1.0, 1.0}}};
+    gap::FreeParameter& limit = candidate.lasting[0][0];
+    limit.high = 5.07;
+    EXPECT_EQ(gap::linear_of(study, candidate), "");
+    limit.high = 5.08;
+    EXPECT_THAT(gap::linear_of(study, candidate), StartsWith("end_stop: its level may never reach"));
+    candidate.lasting[0][2].value = 0.0;
+    EXPECT_EQ(gap::linear_of(study, candidate), "");
 }
 
 // Between two levels of a staircase a threshold may lie anywhere: it moves no reading, and is known to the levels.
@@ -142,8 +164,8 @@ TEST(Events, AreNeededOnlyWhereTheyHappened) {
     question.train.push_back(gap_test::log_of({}, {.seed = 81}));
     const gap::Ground ground = gap::prepare(question);
     const gap::Candidate candidate = trained(ground, "load_disturbance");
-    EXPECT_TRUE(gap::needs_event(ground.study, candidate.own[0], gap::effect_named("load_disturbance")));
-    EXPECT_FALSE(gap::needs_event(ground.study, candidate.own[1], gap::effect_named("load_disturbance")));
+    EXPECT_TRUE(gap::needs_event(ground.study, candidate.own[0], gap::effect_named("load_disturbance"), 0.0));
+    EXPECT_FALSE(gap::needs_event(ground.study, candidate.own[1], gap::effect_named("load_disturbance"), 0.0));
 }
 
 }  // namespace

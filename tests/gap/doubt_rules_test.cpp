@@ -76,35 +76,51 @@ TEST_F(Rules, FittedFormsLeaveDoubtWhereMoreIsLeftThanNeedBe) {
 }
 
 // A disturbance in training and in validation: what a form's misfit looks like, unless nothing else is left.
-TEST_F(Rules, EventsThatEveryRecordNeedsAreNoneUnlessTheyExplainAll) {
-    gap::Question question = question_;
-    question.refit = true;
-    double from_s = 11.3;
-    for (gap::Record* record : {&question.train[0], &question.validate[0]}) {
-        for (std::size_t i = 0; i < record->size(); ++i) {
-            const double since_s = record->time_s[i] - from_s;
-            record->output[i] += since_s > 0.0 ? 0.4 * std::exp(-0.5 * since_s) * since_s : 0.0;
-        }
-        from_s = 17.9;
+class ADisturbance : public Rules {
+protected:
+    explicit ADisturbance(double in_training = 0.4)
+        : asked_(with_disturbances(in_training)), disturbed_(gap::prepare(asked_)) {}
+    gap::Question with_disturbances(double in_training) const {
+        gap::Question question = question_;
+        question.refit = true;
+        const auto push = [](gap::Record& record, double from_s, double size) {
+            for (std::size_t i = 0; i < record.size(); ++i) {
+                const double since_s = record.time_s[i] - from_s;
+                record.output[i] += since_s > 0.0 ? size * std::exp(-0.5 * since_s) * since_s : 0.0;
+            }
+        };
+        push(question.train[0], 11.3, in_training);
+        push(question.validate[0], 17.9, 0.4);
+        return question;
     }
-    gap::Ground disturbed = gap::prepare(question);
-    const gap::Candidate trained =
-        gap::fit(disturbed.study, {&gap::effect_named("load_disturbance")}, disturbed.base, nullptr);
-    gap::Ranked with = ranking_[0];
-    with.trained = trained;
-    with.candidate = gap::carried_over(disturbed.validation, trained, nullptr);
-    const auto objection_where = [&](double left, double noise) {
-        disturbed.validation.noise = noise * gap::output_deviation(disturbed.validation);
-        disturbed.validation.least_deviation = 1e-9;
+    std::string objection_where(double left, double noise) {
+        disturbed_.validation.noise = noise * gap::output_deviation(disturbed_.validation);
+        disturbed_.validation.least_deviation = 1e-9;
+        gap::Ranked with = ranking_[0];
+        with.trained = gap::fit(disturbed_.study, {&gap::effect_named("load_disturbance")}, disturbed_.base, nullptr);
+        with.candidate = gap::carried_over(disturbed_.validation, with.trained, nullptr);
         with.gap_after = left;
         const std::vector<gap::Ranked> ranking = {ranking_[0], with};
-        return gap::Evidence(ranking, whitener_, disturbed.study, disturbed.validation, false).objection(1);
-    };
+        return gap::Evidence(ranking, whitener_, disturbed_.study, disturbed_.validation, false).objection(1);
+    }
+    gap::Question asked_;  // whose records the ground looks at
+    gap::Ground disturbed_;
+};
+
+TEST_F(ADisturbance, ThatEveryRecordNeedsIsNoneUnlessItExplainsAll) {
     EXPECT_THAT(objection_where(0.051, 1.0), HasSubstr("every record needs"));
     EXPECT_EQ(objection_where(0.049, 1.0), "");
     EXPECT_THAT(objection_where(0.049, 0.049 / 7.03), HasSubstr("every record needs"));
     EXPECT_EQ(objection_where(0.049, 0.049 / 6.97), "");
 }
+
+class ASmallDisturbance : public ADisturbance {
+protected:
+    ASmallDisturbance() : ADisturbance(0.01) {}
+};
+
+// As clear as it is: below a twentieth of the largest it follows what the form leaves.
+TEST_F(ASmallDisturbance, IsNotNeeded) { EXPECT_EQ(objection_where(0.051, 1.0), ""); }
 
 // An interval is a straight line's: what training is missed by without an effect tells more.
 TEST_F(Rules, WhatTrainingNeedsIsToldWhateverItsInterval) {

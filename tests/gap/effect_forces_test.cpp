@@ -128,7 +128,7 @@ TEST(EffectForces, AreThoseOfTheEquationOfMotion) {
     expect_truth("load_disturbance", {3.0, 3.9, -0.35}, pushed, 4e-4);
     Truth stopped;
     stopped.limit = 0.7;
-    expect_truth("end_stop", {0.7, 0.0}, stopped, 1e-3);
+    expect_truth("end_stop", {0.7, 0.0, 0.0, 0.0}, stopped, 1e-3);
     Truth stiffening;
     stiffening.restoring = [](double y) { return y + 1.4 * y * y * y; };
     expect_truth("cubic_stiffness", {1.4}, stiffening, 4e-4);

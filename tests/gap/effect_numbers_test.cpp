@@ -214,22 +214,29 @@ TEST(EffectNumbers, OfThePlant) {
                        {"phase_rad", "rad", -4.0 * pi, 4.0 * pi, 0.0, {0, pi / 2, 0, pi / 2, 0, pi / 2, 0, pi / 2}},
                        {"of_speed", "1", 0.0, 1.0, 0.0, {variant}, true}});
     }
+    // What drains may be the lower one of two tanks: what integrates, swings or moves is none.
+    gap::Scales moves = scales();
+    moves.drains = false;
+    const double near = high - 0.02 * span;
+    const double below = high - 0.15 * span;
+    for (const gap::Scales& of : {drifts, swings, moves}) {
+        expect_ranges("end_stop", of,
+                      {{"limit", "y", low + 0.3 * span, high + 0.02 * span, high + 0.02 * span, {near, below}},
+                       {"restitution", "1", 0.0, 0.9, 0.0, {0.0}},
+                       {"before_s", "s", 0.0, 0.0, 0.0, {0.0}, true},
+                       {"spill", "1", 0.0, 0.0, 0.0, {0.0}, true}});
+    }
     expect_ranges("end_stop", scales(),
-                  {{"limit",
-                    "y",
-                    low + 0.3 * span,
-                    high + 0.02 * span,
-                    high + 0.02 * span,
-                    {high - 0.02 * span, high - 0.15 * span}},
-                   {"restitution", "1", 0.0, 0.9, 0.0, {0.0}}});
+                  {{"limit", "y", low + 0.3 * span, high + 0.02 * span, high + 0.02 * span, {near, below, near, below}},
+                   {"restitution", "1", 0.0, 0.9, 0.0, {0.0}, true},
+                   {"before_s", "s", 0.0, 3.0 * tc, 0.0, {0.5 * tc, 0.5 * tc, 0.0, 0.0}, false, 2},
+                   {"spill", "1", 0.0, 1.0, 0.0, {0.5, 0.5, 0.0, 0.0}, false, 2}});
     expect_ranges("load_disturbance", scales(),
                   {{"from_s", "s", 0.0, length, 0.0, {0.35 * length}},
                    {"to_s", "s", 0.0, length, 0.0, {0.5 * length}},
                    {"size", "rhs", -force, force, 0.0, {0.05 * force}}});
-    // An outflow bends what drains: what neither integrates nor swings, nor moves. Its reference stays.
-    gap::Scales moves = scales();
-    moves.drains = false;
-    const Range about{"reference", "y", 0.3 * far, 3.0 * far, far, {far}, false, 2};
+    // An outflow bends what drains: what neither integrates nor swings, nor moves.
+    const Range about{"reference", "y", 0.3 * far, 3.0 * far, far, {far}};
     for (const gap::Scales& of : {drifts, swings, moves}) {
         expect_ranges("output_curve", of,
                       {{"curvature", "1", -0.9, 0.9, 0.0, {-0.25, 0.25}},

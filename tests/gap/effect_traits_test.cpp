@@ -113,7 +113,7 @@ TEST(EffectTraits, ForcesHaveTheirNumbers) {
         EXPECT_EQ(cogging.cogging.at(0).of_speed, of_speed);
     }
     EXPECT_EQ(forces_of("load_dependent_friction", {0.25}).friction_share, 0.375);
-    const gap::Forces stop = forces_of("end_stop", {3.0, 0.5});
+    const gap::Forces stop = forces_of("end_stop", {3.0, 0.5, 0.0, 0.0});
     ASSERT_TRUE(stop.stop);
     EXPECT_EQ(stop.stop->limit, 3.0);
     EXPECT_EQ(stop.stop->restitution, 0.5);

@@ -170,7 +170,7 @@ TEST(Fit, OfAnEndBeginsAtTheFormsNumbers) {
     }
     const drive::Model plant = drive::make_fopdt(2.0, 1.0, 0.5);
     for (const auto& [name, values] :
-         {std::pair<const char*, std::vector<double>>("input_saturation", {2.6}), {"end_stop", {5.2, 0.0}}}) {
+         {std::pair<const char*, std::vector<double>>("input_saturation", {2.6}), {"end_stop", {5.2, 0.0, 0.0, 0.0}}}) {
         const gap::Effect& end = gap::effect_named(name);
         gap::Scenario scenario;
         scenario.model = plant;
@@ -190,6 +190,37 @@ TEST(Fit, OfAnEndBeginsAtTheFormsNumbers) {
         EXPECT_NEAR(found.base[0].value, 2.0, 0.02) << name;
         EXPECT_NEAR(found.base[2].value, 0.5, 0.02) << name;
         EXPECT_LT(found.cost, 1e-3) << name;
+    }
+}
+
+// Of what leaves as much the one with fewer numbers; each more has to leave 15 % less.
+TEST(Fit, WeighsVariantsByTheirNumbers) {
+    const Made made(1, true);
+    const gap::Effect& stop = gap::effect_named("end_stop");
+    gap::Candidate candidate;
+    candidate.effects = {&stop};
+    candidate.lasting = {gap::parameters_of(stop, made.study.scales, 0)};
+    candidate.own.resize(1);
+    candidate.cost = 2.0;
+    std::size_t free = 0;
+    for (const gap::FreeParameter& number : candidate.lasting[0]) {
+        free += number.fixed ? 0 : 1;
+    }
+    ASSERT_GE(free, 1U);
+    EXPECT_NEAR(gap::weighed_cost(candidate), 2.0 / std::pow(0.85, static_cast<double>(free)), 1e-12);
+    candidate.lasting[0][0].fixed = true;
+    EXPECT_NEAR(gap::weighed_cost(candidate), 2.0 / std::pow(0.85, static_cast<double>(free - 1)), 1e-12);
+}
+
+TEST(Fit, MayBeginAtOneStartAlone) {
+    const Made made(1, false);
+    const gap::Effect& curve = gap::effect_named("output_curve");
+    ASSERT_GE(gap::starts_of(curve, made.study.scales), 2U);
+    for (const std::size_t start : {0U, 1U}) {
+        gap::Effort effort{0, 1, 0};
+        effort.only_start = start;
+        const gap::Candidate begun = gap::fit(made.study, {&curve}, {}, nullptr, effort);
+        EXPECT_EQ(begun.lasting[0][0].value, start == 0 ? -0.25 : 0.25);
     }
 }
 

@@ -103,4 +103,41 @@ TEST(KeptSlope, LeadsToTheDragFromALinearFit) {
     EXPECT_NEAR(found.base[1].value, lag_s, 0.02 * lag_s);
 }
 
+// What counts from an empty tank begins with the operating point there; the gain keeps the mean.
+TEST(CountedFromZero, IsOfNewLawsThatCountFromThere) {
+    Fan of;
+    const gap::Effect& curve = gap::effect_named("output_curve");
+    gap::Candidate candidate = gap::fit(of.study, {}, {}, nullptr);
+    gap::Candidate start = candidate;
+    candidate.effects = {&curve};
+    candidate.lasting = {gap::parameters_of(curve, of.study.scales, 0)};
+    candidate.lasting[0][2].value = 1.0;  // an outflow
+    ASSERT_EQ(candidate.own[0][0].name, "offset");
+    candidate.own[0][0].value = -20.0;
+    double mean = 0.0;
+    for (const double v : of.record.output) {
+        mean += v / static_cast<double>(of.record.size());
+    }
+    const std::optional<gap::Candidate> counted = gap::counted_from_zero(of.study, candidate, start);
+    ASSERT_TRUE(counted);
+    EXPECT_EQ(counted->own[0][0].value, 0.0);
+    EXPECT_NEAR(counted->base[0].value, candidate.base[0].value * mean / (mean + 20.0), 1e-12);
+    EXPECT_EQ(counted->base[1].value, candidate.base[1].value);
+    gap::Candidate narrow = candidate;
+    narrow.base[0].lower = 0.99 * narrow.base[0].value;
+    EXPECT_EQ(gap::counted_from_zero(of.study, narrow, start)->base[0].value, narrow.base[0].lower);
+    EXPECT_FALSE(gap::counted_from_zero(of.study, candidate, candidate));  // not new
+    gap::Candidate sensor = candidate;
+    sensor.lasting[0][2].value = 0.0;
+    EXPECT_FALSE(gap::counted_from_zero(of.study, sensor, start));
+    gap::Candidate there = candidate;
+    there.own[0][0].value = 0.0;
+    EXPECT_FALSE(gap::counted_from_zero(of.study, there, start));
+    gap::Candidate beyond = candidate;
+    beyond.own[0][0].value = 1.01 * mean;  // no gain keeps its sign
+    EXPECT_FALSE(gap::counted_from_zero(of.study, beyond, start));
+    of.study.base.refit = false;
+    EXPECT_FALSE(gap::counted_from_zero(of.study, candidate, start));
+}
+
 }  // namespace

@@ -96,6 +96,17 @@ TEST_F(DoubtOfEvents, IsOfForcesThatAreFelt) {
     EXPECT_EQ(doubt({8.0, 9.0}, {5.5, 20.0, 0.0}), "");  // none at all
 }
 
+TEST_F(DoubtOfEvents, FeelsATwentiethOfTheLargest) {
+    const gap::Effect& load = gap::effect_named(effect_);
+    const auto least = [&](double train, double judge) {
+        return gap::least_felt(load, candidate_of({8.0, 9.0, train}), candidate_of({8.0, 9.0, judge}));
+    };
+    EXPECT_NEAR(least(2.0, -0.3), 0.1, 1e-12);
+    EXPECT_NEAR(least(0.3, -2.0), 0.1, 1e-12);
+    EXPECT_EQ(gap::least_felt(gap::effect_named("sensor_offset"), candidate_of(somewhere_), candidate_of(somewhere_)),
+              0.0);
+}
+
 // Forces that begin near a move, a dead time later, in one record after the other.
 TEST_F(DoubtOfEvents, MeetsTheInputTooOftenForChance) {
     const auto after = [&](double late_s) { return doubt({5.2 + late_s, 7.0}, {12.2 + late_s, 15.0}); };

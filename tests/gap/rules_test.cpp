@@ -55,6 +55,25 @@ TEST_F(Rules, ClearAdvantageTakesAMaterialShareOfTheGap) {
     EXPECT_THAT(after("clear_advantage").effects, ElementsAre(drag));
 }
 
+// Two steps of which neither is clear alone: both together are, and the second is no chance among its own rivals.
+TEST_F(Rules, ClearAdvantageMayTakeTwoSteps) {
+    add({"quadratic_drag"}, 0.7, 6.0);
+    const std::size_t both = add({"quadratic_drag", "backlash"}, 0.4, 10.03);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+    ranking_[both].by_sample.assign(samples, 9.97 / samples);
+    EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
+    // In every block of samples, not in one.
+    ranking_[both].by_sample.assign(samples, 6.0 / samples);
+    ranking_[both].by_sample[7] += 5.0;
+    EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
+    // Over none both have to be clear.
+    ranking_[both - 1].by_sample.assign(samples, 3.0 / samples);
+    ranking_[both].by_sample.assign(samples, 7.97 / samples);
+    EXPECT_THAT(after("clear_advantage").effects, IsEmpty());
+    ranking_[both].by_sample.assign(samples, 8.03 / samples);
+    EXPECT_THAT(after("clear_advantage").effects, ElementsAre(both));
+}
+
 TEST_F(Rules, ClearAdvantageOfAFurtherEffectIsOverOneFewer) {
     const std::size_t drag = add({"quadratic_drag"}, 0.5, 50.0);
     const std::size_t both = add({"quadratic_drag", "backlash"}, 0.4, 57.0);

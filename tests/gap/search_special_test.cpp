@@ -120,6 +120,42 @@ TEST(SearchBesideAForm, FitsWhatTheBestOneOnlyIs) {
     EXPECT_THAT(simplified(1e-4), testing::IsEmpty());
 }
 
+// A bend of the readings and one of the outflow: where training leaves as much with both, validation is asked.
+TEST(SearchBesideAForm, FitsTheVariantsThatTrainingDoesNotTell) {
+    gap::Question question{
+        gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)), true, {read(1)}, {read(2)}, {}, gap::Metric::simulation, {}, 1};
+    question.given_form = true;
+    gap::Ground ground = gap::prepare(question);
+    ground.study.scales.drains = ground.study.scales.steady = true;
+    ground.study.scales.swings = false;
+    const gap::Search search{ground, 1, [](const std::string&) {}};
+    const gap::Effect& curve = gap::effect_named("output_curve");
+    gap::Found found;
+    found.ranking.resize(2);
+    found.ranking[1].trained = gap::fit(ground.study, {}, {}, nullptr);
+    gap::Candidate& bent = found.ranking[0].trained;
+    gap::Effort first;
+    first.only_start = 0;
+    bent = gap::fit(ground.study, {&curve}, found.ranking[1].trained, nullptr, first);
+    bent.cost = 1e9;
+    const std::vector<gap::Candidate> all = gap::variants({search, found, nullptr}, 1);
+    ASSERT_EQ(all.size(), 2U);  // from both starts of the other one
+    for (const gap::Candidate& other : all) {
+        EXPECT_EQ(other.name(), "output_curve");
+        EXPECT_EQ(other.lasting[0][2].value, 1.0);
+    }
+    // As much: 2 %.
+    const double least = std::min(all[0].cost, all[1].cost);
+    bent.cost = least / 1.0199;
+    EXPECT_THAT(gap::variants({search, found, nullptr}, 1), Not(IsEmpty()));
+    bent.cost = least / 1.0201;
+    EXPECT_THAT(gap::variants({search, found, nullptr}, 1), IsEmpty());
+    // Where it was not fitted without it there is nothing to begin from.
+    bent.cost = 1e9;
+    found.ranking.pop_back();
+    EXPECT_THAT(gap::variants({search, found, nullptr}, 1), IsEmpty());
+}
+
 // Small moves and one as far as the range: of a play that only the large one passes its own starts know nothing.
 gap::Record played(unsigned seed, double width) {
     gap::Record record = read(seed);

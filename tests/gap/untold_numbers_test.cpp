@@ -87,13 +87,13 @@ TEST(UntoldNumbers, AFixedNumberIsToldByWhoFixedIt) {
 TEST(NeededEvents, AreOfMoreThanFourDeviations) {
     const Given made(std::vector<const char*>{});
     const gap::Effect& event = gap::effect_named("load_disturbance");
-    const auto needed = [&](double size, double deviation, const std::string& name) {
+    const auto needed = [&](double size, double deviation, const std::string& name, double least_size = 0.0) {
         std::vector<gap::FreeParameter> own = gap::parameters_of(event, made.study.scales, 0);
         for (gap::FreeParameter& number : own) {
             number.value = number.name == name ? size : 0.0;
             number.deviation = number.name == name ? deviation : 1.0;
         }
-        return gap::needs_event(made.study, own, event);
+        return gap::needs_event(made.study, own, event, least_size);
     };
     const std::string of_size = "load_disturbance.size";
     for (const double sign : {1.0, -1.0}) {
@@ -103,9 +103,11 @@ TEST(NeededEvents, AreOfMoreThanFourDeviations) {
         EXPECT_TRUE(needed(sign * 0.5, 0.12, of_size));
         EXPECT_FALSE(needed(sign * 0.5, 0.126, of_size));
         EXPECT_FALSE(needed(sign * 9.0, 1.0, "load_disturbance.from_s"));
+        EXPECT_TRUE(needed(sign * 9.0, 1.0, of_size, 9.0));
+        EXPECT_FALSE(needed(sign * 9.0, 1.0, of_size, 9.1));
     }
     // A record without the event has none of its numbers.
-    EXPECT_FALSE(gap::needs_event(made.study, {}, event));
+    EXPECT_FALSE(gap::needs_event(made.study, {}, event, 0.0));
 }
 
 }  // namespace

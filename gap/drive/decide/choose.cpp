@@ -144,6 +144,13 @@ std::optional<std::size_t> goes_most_of_the_way(const Evidence& evidence, const 
     return static_cast<std::size_t>(found - evidence.ranking.begin());
 }
 
+// What is clear over what was taken, by two steps of which the first alone was not, has its second chosen among some
+// dozens, and not among their pairs: chance does not reach half of what it needs.
+bool beats_narrower(const Ranked& wider, const Ranked& narrower, bool was_taken) {
+    const Interval by = advantage(wider, narrower);
+    return was_taken ? is_clear(by) : by.mean > 0.5 * clear_advantage && by.low > 0.0;
+}
+
 void choose(const Evidence& evidence, Decision& decision) {
     const std::size_t none = evidence.none();
     decision.base_gap = evidence.gap(none);
@@ -161,7 +168,8 @@ void choose(const Evidence& evidence, Decision& decision) {
         // The best with one effect less may have been too small a step to be taken; it must be beaten all the same.
         if (const auto narrower = evidence.best_of(size - 1);
             wider && is_better(evidence, *wider, decision.chosen, closable) &&
-            (!narrower || is_clear(advantage(evidence.ranking[*wider], evidence.ranking[*narrower])))) {
+            (!narrower ||
+             beats_narrower(evidence.ranking[*wider], evidence.ranking[*narrower], *narrower == decision.chosen))) {
             decision.chosen = *wider;
         }
     }

@@ -134,7 +134,7 @@ const std::string& Evidence::objection(std::size_t i) const {
         add_intervals(study, trained, beside_form() ? nullptr : &whitener_);
         what = untold_of(study, trained, [&](const Effect& effect) { return training_needs(i, effect); });
         if (what.empty() && beside_form()) {
-            what = linear_of(trained);
+            what = linear_of(study, trained);
         }
         if (what.empty() && beside_form() && trained.has_events()) {
             what = doubt_of_events(study, trained, validation, ranking[i].candidate);
@@ -169,9 +169,10 @@ std::string Evidence::objection_to_events(const Candidate& trained, Candidate ju
         if (effect->kind != Kind::event) {
             continue;
         }
+        const double least_size = least_felt(*effect, trained, judged);
         const auto needs = [&](const Study& of, const Candidate& candidate) {
             return std::count_if(candidate.own.begin(), candidate.own.end(),
-                                 [&](const auto& own) { return needs_event(of, own, *effect); });
+                                 [&](const auto& own) { return needs_event(of, own, *effect, least_size); });
         };
         const auto fitted = needs(study, trained);
         const auto validated = needs(validation, judged);

@@ -29,29 +29,41 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
              {0.01 * scales.time_constant_s, 0.2 * scales.time_constant_s}}};
 }
 
+// A lag over one step, y taken as straight between nodes: exact as long as it does not change on the way.
+class Lag {
+public:
+    Lag(double tau_s, double step_s) : there_(!(tau_s > 0.0)) {
+        const double intervals = there_ ? 1.0 : step_s / tau_s;
+        left_ = std::exp(-intervals);
+        ramp_ = -std::expm1(-intervals) / intervals;
+    }
+    [[nodiscard]] double after_a_step(double at, double before, double y) const {
+        return there_ ? y : at * left_ + y * (1.0 - ramp_) + before * (ramp_ - left_);
+    }
+
+private:
+    bool there_;  // without delay
+    double left_;
+    double ramp_;
+};
+
 void add([[maybe_unused]] Scenario& scenario, [[maybe_unused]] std::span<const double> values) {
-    scenario.output.emplace_back([up = values[0], down = values[1]](std::span<double> z, const Motion& motion) {
-        double at = z.empty() ? 0.0 : z[0];
-        double before = at;
-        for (double& value : z) {
-            // y taken as straight between nodes: exact for a lag that does not change on the way.
-            const double tau = value > at ? up : down;
-            const double y = value;
-            if (tau > 0.0) {
-                const double intervals = motion.grid.step_s / tau;
-                const double left = std::exp(-intervals);
-                const double ramp = -std::expm1(-intervals) / intervals;
-                at = at * left + y * (1.0 - ramp) + before * (ramp - left);
-            } else {
-                at = y;
+    scenario.output.emplace_back(
+        [tau_up_s = values[0], tau_down_s = values[1]](std::span<double> z, const Motion& motion) {
+            const Lag up(tau_up_s, motion.grid.step_s);
+            const Lag down(tau_down_s, motion.grid.step_s);
+            double at = z.empty() ? 0.0 : z[0];
+            double before = at;
+            for (double& value : z) {
+                const double y = value;
+                at = (y > at ? up : down).after_a_step(at, before, y);
+                before = y;
+                value = at;
             }
-            before = y;
-            value = at;
-        }
-    });
+        });
 }
 
-std::string linear_with(std::span<const Fitted> fitted) {
+std::string linear_with(std::span<const Fitted> fitted, [[maybe_unused]] const Scales& scales) {
     const Fitted& up = fitted[0];
     const Fitted& down = fitted[1];
     return up.low <= down.high && down.low <= up.high ? "its lags up and down may be the same" : "";

@@ -14,8 +14,8 @@ namespace {
 
 std::vector<EffectParameter> parameters(const Scales& scales) {
     const double reference = std::max(std::fabs(scales.output_high), std::fabs(scales.output_low));
-    // Which one it is is not known: free, it lets the slope at 0 be any. Of an outflow that is another model's force.
-    const EffectParameter about{"reference", "y", 0.3 * reference, 3.0 * reference, reference, {reference}, false, 2};
+    // Which one it is is not known: free, it lets the slope at 0 be any.
+    const EffectParameter about{"reference", "y", 0.3 * reference, 3.0 * reference, reference, {reference}};
     // What swings is no flow that drains.
     if (!scales.steady || scales.swings || !scales.drains) {
         return {
@@ -38,6 +38,8 @@ void add(Scenario& scenario, std::span<const double> values) {
     });
 }
 
+bool counts_from_zero(std::span<const double> values) { return values[2] > 0.5; }
+
 }  // namespace
 
 const Effect& output_curve() {
@@ -52,6 +54,7 @@ const Effect& output_curve() {
                     {"reference", Number::Given::otherwise, 1.0},
                     {"in_outflow", Number::Given::otherwise, 0.0}},
         .smooth = true,
+        .from_zero = counts_from_zero,
     };
     return effect;
 }
