@@ -157,7 +157,11 @@ Attempt descend(const Form& form, const Predictor& predictor, std::vector<double
         }
         Eigen::VectorXd residuals;
         Jacobian jacobian;
-        predictor.evaluate(start.data(), residuals, &jacobian);
+        try {
+            predictor.evaluate(start.data(), residuals, &jacobian);
+        } catch (const glsum::Failure&) {
+            break;  // what was found stands; a step to one side of it is no model
+        }
         predictor.whiten(residuals, noise_model);
         predictor.whiten(jacobian, noise_model);
         const auto free_again = std::erase_if(held, [&](int i) {

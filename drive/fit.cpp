@@ -185,8 +185,8 @@ void judge(Fit& fit, const Form& form, const Predictor& predictor, const Eigen::
                                 parameter.name, 200.0 * quantile * estimate.deviation / std::fabs(values[i])));
             }
             if (at_a_bound(parameter, values[i])) {
-                fit.warnings.push_back(
-                    fmt::format("{}: ends at its bound {}; its interval means nothing", parameter.name, values[i]));
+                fit.warnings.push_back(fmt::format("{}: ends at its bound {}, where a straight interval means nothing",
+                                                   parameter.name, values[i]));
             }
             ++p;
         }
