@@ -96,6 +96,13 @@ void judge_jointly(Answer& answer, double jointly) {
     if (jointly > as_well * answer.chosen().gap_after || jointly > (one_way ? most : nearly_all) * without) {
         return;
     }
+    // What leads an unknown may leave far less, whatever speaks against naming it: then the base lacks more than its
+    // numbers.
+    constexpr double far_less = 0.5;
+    if (answer.decision.outcome == Outcome::unknown && !one_way &&
+        answer.ranking.front().gap_after < far_less * jointly) {
+        return;
+    }
     answer.decision.outcome = Outcome::no_gap;
     answer.decision.chosen = static_cast<std::size_t>(&answer.none() - answer.ranking.data());
     answer.decision.effects.clear();

@@ -162,6 +162,21 @@ TEST(BesideFoundBase, NeedsNoCauseWhereTheBaseDoesAsWellOnAll) {
     }
 }
 
+// What leads may leave less than half of what the base does when it sees all: it lacks more than its numbers, then.
+TEST(BesideFoundBase, StaysUnknownWhereSomethingLeavesFarLess) {
+    const auto is_none = [](Outcome outcome, double leads, const Names& extrapolated = {}) {
+        gap::Answer answer = answer_of({{"backlash"}}, leads);
+        answer.decision.outcome = outcome;
+        answer.decision.chosen = outcome == Outcome::unknown ? 1 : 0;
+        answer.extrapolated = extrapolated;
+        gap::judge_jointly(answer, 0.04);
+        return answer.decision.outcome == Outcome::no_gap;
+    };
+    EXPECT_TRUE(is_none(Outcome::unknown, 0.0201));
+    EXPECT_FALSE(is_none(Outcome::unknown, 0.0199));
+    EXPECT_TRUE(is_none(Outcome::unknown, 0.0199, {"rising output"}));
+}
+
 TEST(BesideFoundBase, WithoutACauseNamesNothing) {
     gap::Answer answer = answer_of({{"backlash"}, {"gain_drift"}}, 0.1);
     answer.decision.suspect = 1;

@@ -123,31 +123,51 @@ TEST_F(Rules, WhatCannotBePartedFromWhatHoldsNoEventHoldsNone) {
 }
 
 TEST_F(Rules, WhatCannotBePartedBesideAFormIsWhatGoesAsFar) {
-    const std::size_t cubic = add({"cubic_stiffness"}, 0.30, 900.0);
+    const std::size_t play = add({"backlash"}, 0.30, 900.0);
     const std::size_t curve = add({"input_curve"}, 0.35, 500.0);
     add({"supply_sag"}, 0.37, 500.0);
-    const auto named = [&] { return after("what_cannot_be_parted", attributed(cubic)).effects; };
+    const auto named = [&] { return after("what_cannot_be_parted", attributed(play)).effects; };
     set_noise(0.30 / 4.03);
-    EXPECT_THAT(named(), ElementsAre(cubic));
+    EXPECT_THAT(named(), ElementsAre(play));
     beside_a_form();
-    EXPECT_THAT(named(), ElementsAre(cubic, curve));
+    EXPECT_THAT(named(), ElementsAre(play, curve));
     set_noise(0.30 / 3.97);  // a sensor's noise tells likelihoods, but for what goes as far to a twentieth
-    EXPECT_THAT(named(), ElementsAre(cubic));
+    EXPECT_THAT(named(), ElementsAre(play));
     ranking_[curve].gap_after = 0.3155;
-    EXPECT_THAT(named(), ElementsAre(cubic));
+    EXPECT_THAT(named(), ElementsAre(play));
     ranking_[curve].gap_after = 0.3145;
-    EXPECT_THAT(named(), ElementsAre(cubic, curve));
+    EXPECT_THAT(named(), ElementsAre(play, curve));
     // Within a fifth more, and on this side of half the way back.
     set_noise(0.30 / 4.03);
     ranking_[curve].gap_after = 0.359;
-    EXPECT_THAT(named(), ElementsAre(cubic, curve));
+    EXPECT_THAT(named(), ElementsAre(play, curve));
     ranking_[curve].gap_after = 0.361;
-    EXPECT_THAT(named(), ElementsAre(cubic));
+    EXPECT_THAT(named(), ElementsAre(play));
     ranking_[0].gap_after = 0.40;
     ranking_[curve].gap_after = 0.349;
-    EXPECT_THAT(named(), ElementsAre(cubic, curve));
+    EXPECT_THAT(named(), ElementsAre(play, curve));
     ranking_[curve].gap_after = 0.3504;
-    EXPECT_THAT(named(), ElementsAre(cubic));
+    EXPECT_THAT(named(), ElementsAre(play));
+}
+
+// A curve is not the drive's own: beside a fitted base one in another's place may leave three times as much, whatever
+// is noise.
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsAnotherCurve) {
+    const std::size_t bend = add({"input_curve", "backlash"}, 0.10, 900.0);
+    const std::size_t other = add({"backlash", "output_curve"}, 0.2995, 500.0);
+    add({"backlash", "coulomb_friction"}, 0.2, 400.0);
+    const auto named = [&] { return after("what_cannot_be_parted", attributed(bend)).effects; };
+    EXPECT_THAT(named(), ElementsAre(bend));
+    beside_a_form();
+    EXPECT_THAT(named(), ElementsAre(bend, other));
+    ranking_[other].gap_after = 0.3005;
+    EXPECT_THAT(named(), ElementsAre(bend));
+    // On this side of half the way back.
+    ranking_[0].gap_after = 0.45;
+    ranking_[other].gap_after = 0.2745;
+    EXPECT_THAT(named(), ElementsAre(bend, other));
+    ranking_[other].gap_after = 0.2755;
+    EXPECT_THAT(named(), ElementsAre(bend));
 }
 
 // A play of the input and friction against a spring part where all moves quickly, which a misfit hides: to twice as

@@ -120,6 +120,30 @@ TEST(SearchBesideAForm, FitsWhatTheBestOneOnlyIs) {
     EXPECT_THAT(simplified(1e-4), testing::IsEmpty());
 }
 
+// Friction that may be even was fitted before, with another base, and stayed at none.
+TEST(SearchBesideAForm, FitsASpecialCaseAnewThatLeavesMore) {
+    gap::Question question{
+        gap::form_of(drive::make_fopdt(2.0, 1.0, 0.0)), true, {read(1)}, {read(2)}, {}, gap::Metric::simulation, {}, 1};
+    question.given_form = true;
+    const gap::Ground ground = gap::prepare(question);
+    const gap::Search search{ground, 1, [](const std::string&) {}};
+    gap::Found found;
+    for (const char* name : {"direction_dependent_friction", "coulomb_friction"}) {
+        gap::Candidate one = gap::fit(ground.study, {}, {}, nullptr);
+        one.effects = {&gap::effect_named(name)};
+        one.lasting = {gap::parameters_of(*one.effects[0], ground.study.scales, 0)};
+        one.cost = 1.0;
+        found.ranking.emplace_back();
+        found.ranking.back().trained = one;
+    }
+    found.ranking[1].trained.cost = 1.19;
+    EXPECT_THAT(gap::simplified({search, found, nullptr}, 1), IsEmpty());
+    found.ranking[1].trained.cost = 1.21;
+    const std::vector<gap::Candidate> anew = gap::simplified({search, found, nullptr}, 1);
+    ASSERT_EQ(anew.size(), 1U);
+    EXPECT_EQ(anew[0].name(), "coulomb_friction");
+}
+
 // A bend of the readings and one of the outflow: where training leaves as much with both, validation is asked.
 TEST(SearchBesideAForm, FitsTheVariantsThatTrainingDoesNotTell) {
     gap::Question question{

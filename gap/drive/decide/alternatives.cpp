@@ -62,24 +62,43 @@ bool goes_as_far(const Evidence& evidence, std::size_t i, std::size_t chosen) {
            theirs < after + of_the_way * (evidence.gap(evidence.none()) - after);
 }
 
+// Whether two sets are the same but for one effect of each, of which that holds.
+template <class Holds>
+bool differ_by_a_pair(const Candidate& one, const Candidate& other, const Holds& holds) {
+    const auto without = [](std::vector<const Effect*> all, const Effect* left_out) {
+        std::erase(all, left_out);
+        return all;
+    };
+    return std::ranges::any_of(one.effects, [&](const Effect* mine) {
+        return std::ranges::any_of(other.effects, [&](const Effect* theirs) {
+            return mine != theirs && holds(*mine, *theirs) &&
+                   std::ranges::is_permutation(without(one.effects, mine), without(other.effects, theirs));
+        });
+    });
+}
+
 // Whether one has another effect in the place of one of the other's that does the same as long as all moves slowly: a
 // play of the input, and friction against a spring. What parts them is how quickly the plant is, which a fitted form
 // that leaves more than noise has not in full.
 bool looks_alike(const Evidence& evidence, std::size_t i, std::size_t chosen) {
     constexpr double about = 2.0;
-    const std::vector<const Effect*>& mine = evidence.ranking[chosen].trained.effects;
-    const std::vector<const Effect*>& theirs = evidence.ranking[i].trained.effects;
-    const auto without = [](std::vector<const Effect*> all, const Effect* one) {
-        std::erase(all, one);
-        return all;
-    };
     return evidence.beside_form() && evidence.is_no_noise(evidence.gap(chosen)) &&
-           evidence.gap(i) < about * evidence.gap(chosen) && std::ranges::any_of(mine, [&](const Effect* one) {
-               return std::ranges::any_of(theirs, [&](const Effect* other) {
-                   return one->resembles(*other) &&
-                          std::ranges::is_permutation(without(mine, one), without(theirs, other));
-               });
-           });
+           evidence.gap(i) < about * evidence.gap(chosen) &&
+           differ_by_a_pair(evidence.ranking[chosen].trained, evidence.ranking[i].trained,
+                            [](const Effect& mine, const Effect& theirs) { return mine.resembles(theirs); });
+}
+
+// Whether one has another curve in the place of one of the other's. A curve is the first term of a series, and the
+// drive's own has more of them: of bends on both sides of a fitted lag the right one leaves a quarter of the other, or
+// less, and what leaves a third may as well be the wrong one.
+bool is_another_curve(const Evidence& evidence, std::size_t i, std::size_t chosen) {
+    constexpr double about = 3.0;
+    constexpr double of_the_way = 0.5;
+    const double after = evidence.gap(chosen);
+    return evidence.beside_form() && evidence.gap(i) < about * after &&
+           evidence.gap(i) < after + of_the_way * (evidence.gap(evidence.none()) - after) &&
+           differ_by_a_pair(evidence.ranking[chosen].trained, evidence.ranking[i].trained,
+                            [](const Effect& mine, const Effect& theirs) { return mine.smooth && theirs.smooth; });
 }
 
 // In [0.5, 0.97], by how far the nearest rival is.
@@ -87,7 +106,8 @@ double confidence_by(double advantage) { return 0.5 + 0.47 * (1.0 - std::exp(-st
 
 bool is_near(const Evidence& evidence, std::size_t chosen, std::size_t i, const Interval& over) {
     return over.mean < parting_advantage || (over.low < 0.0 && over.mean < 2.0 * parting_advantage) ||
-           goes_as_far(evidence, i, chosen) || looks_alike(evidence, i, chosen);
+           goes_as_far(evidence, i, chosen) || looks_alike(evidence, i, chosen) ||
+           is_another_curve(evidence, i, chosen);
 }
 
 // Beside a fitted form a wider candidate follows a part of the misfit with its further number: a tenth of what is left

@@ -32,17 +32,17 @@ std::vector<EffectParameter> parameters(const Scales& scales) {
 // A lag over one step, y taken as straight between nodes: exact as long as it does not change on the way.
 class Lag {
 public:
-    Lag(double tau_s, double step_s) : there_(!(tau_s > 0.0)) {
-        const double intervals = there_ ? 1.0 : step_s / tau_s;
+    Lag(double tau_s, double step_s) : at_once_(!(tau_s > 0.0)) {
+        const double intervals = at_once_ ? 1.0 : step_s / tau_s;
         left_ = std::exp(-intervals);
         ramp_ = -std::expm1(-intervals) / intervals;
     }
     [[nodiscard]] double after_a_step(double at, double before, double y) const {
-        return there_ ? y : at * left_ + y * (1.0 - ramp_) + before * (ramp_ - left_);
+        return at_once_ ? y : at * left_ + y * (1.0 - ramp_) + before * (ramp_ - left_);
     }
 
 private:
-    bool there_;  // without delay
+    bool at_once_;
     double left_;
     double ramp_;
 };
