@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <functional>
 #include <limits>
 #include <numbers>
 #include <unsupported/Eigen/FFT>
@@ -15,26 +16,10 @@ namespace gap {
 namespace {
 
 using Records = std::vector<Record>;
-using Signal = std::vector<double> Record::*;
 
-struct Bounds {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -std::numeric_limits<double>::infinity();
-    [[nodiscard]] double span() const { return high - low; }
-};
-
-Bounds bounds_of(const Records& records, Signal signal) {
-    Bounds bounds;
-    for (const Record& record : records) {
-        for (const double value : record.*signal) {
-            bounds.low = std::min(bounds.low, value);
-            bounds.high = std::max(bounds.high, value);
-        }
-    }
-    return bounds;
+double span_of(const std::vector<double>& sorted, const std::vector<double>& others) {
+    return std::max(sorted.back(), others.back()) - std::min(sorted.front(), others.front());
 }
-
-Bounds both(const Bounds& a, const Bounds& b) { return {std::min(a.low, b.low), std::max(a.high, b.high)}; }
 
 struct Way {
     double total = 0.0;
@@ -109,23 +94,24 @@ void add_directions(std::vector<std::string>& all, const Records& train, const R
     }
 }
 
-std::vector<double> sorted_values(const Records& records, Signal signal) {
+// \param signal  of a record
+template <class Signal>
+std::vector<double> sorted_values(const Records& records, const Signal& signal) {
     std::vector<double> values;
     for (const Record& record : records) {
-        values.insert(values.end(), (record.*signal).begin(), (record.*signal).end());
+        const std::vector<double>& some = std::invoke(signal, record);
+        values.insert(values.end(), some.begin(), some.end());
     }
     std::sort(values.begin(), values.end());
     return values;
 }
 
-void add_levels(std::vector<std::string>& all, const Records& train, const Records& validate, Signal signal,
-                const char* name, double noise) {
-    const double span = both(bounds_of(train, signal), bounds_of(validate, signal)).span();
+void add_levels(std::vector<std::string>& all, const std::vector<double>& known, const std::vector<double>& asked,
+                const std::string& name, double noise) {
+    const double span = span_of(known, asked);
     if (!(span > 0.0)) {
         return;
     }
-    const std::vector<double> known = sorted_values(train, signal);
-    const std::vector<double> asked = sorted_values(validate, signal);
     const double beyond = std::max(0.05 * span, 4.0 * noise);
     const std::size_t few = asked.size() / 100;
     if (asked[asked.size() - 1 - few] > known.back() + beyond) {
@@ -238,6 +224,17 @@ void add_frequencies(std::vector<std::string>& all, const Records& train, const 
     }
 }
 
+// Those that every record has.
+std::size_t further_inputs_of(const Records& train, const Records& validate) {
+    std::size_t count = train.front().more_inputs.size();
+    for (const Records* records : {&train, &validate}) {
+        for (const Record& record : *records) {
+            count = std::min(count, record.more_inputs.size());
+        }
+    }
+    return count;
+}
+
 }  // namespace
 
 std::vector<std::string> extrapolated(const Records& train, const Records& validate) {
@@ -245,13 +242,21 @@ std::vector<std::string> extrapolated(const Records& train, const Records& valid
     if (train.empty() || validate.empty()) {
         return all;
     }
-    const double span = both(bounds_of(train, &Record::output), bounds_of(validate, &Record::output)).span();
+    const auto known = [&](const auto& signal) { return sorted_values(train, signal); };
+    const auto asked = [&](const auto& signal) { return sorted_values(validate, signal); };
+    const std::vector<double> known_output = known(&Record::output);
+    const std::vector<double> asked_output = asked(&Record::output);
+    const double span = span_of(known_output, asked_output);
     if (!(span > 0.0)) {
         return all;
     }
     add_directions(all, train, validate, span);
-    add_levels(all, train, validate, &Record::input, "input", 0.0);
-    add_levels(all, train, validate, &Record::output, "output", audit(train).noise);
+    add_levels(all, known(&Record::input), asked(&Record::input), "input", 0.0);
+    for (std::size_t i = 0; i < further_inputs_of(train, validate); ++i) {
+        const auto further = [i](const Record& record) -> const std::vector<double>& { return record.more_inputs[i]; };
+        add_levels(all, known(further), asked(further), fmt::format("input {}", i + 2), 0.0);
+    }
+    add_levels(all, known_output, asked_output, "output", audit(train).noise);
     add_frequencies(all, train, validate);
     return all;
 }
@@ -277,6 +282,9 @@ std::vector<Record> counted_stretches(const std::vector<Record>& records,
                 stretch.time_s = part(record.time_s);
                 stretch.input = part(record.input);
                 stretch.output = part(record.output);
+                for (const std::vector<double>& levels : record.more_inputs) {
+                    stretch.more_inputs.push_back(part(levels));
+                }
                 stretch.usual_interval_s = record.usual_interval_s;
             }
             from = std::max(to, from + 1);

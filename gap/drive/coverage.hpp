@@ -8,9 +8,9 @@
 
 namespace gap {
 
-/// Directions of the output, levels of input and output, and frequencies of the output that the records of `validate`
+/// Directions of the output, levels of inputs and output, and frequencies of the output that the records of `validate`
 /// have and those of `train` lack, in words: "falling output", "input above 0.6", "input between 0.2 and 0.8",
-/// "output below -1.2", "faster than 0.5 Hz". Empty: none.
+/// "input 2 above 50", "output below -1.2", "faster than 0.5 Hz". Empty: none.
 ///
 /// A direction is there where the output goes a tenth of its span that way without a turn, and lacks where all of
 /// training goes less than a quarter as far, noise and lost readings aside. A level lacks where a hundredth of the

@@ -82,6 +82,28 @@ TEST(Coverage, TellsLevelsBeyondThoseOfTrainingAndBetweenThem) {
     EXPECT_THAT(of_output, ElementsAre(StartsWith("output above 1"), StartsWith("output below -1")));
 }
 
+// Of every input that all records have, where what counts is cut out of them, too.
+TEST(Coverage, TellsLevelsOfFurtherInputs) {
+    const auto output = [](double t) { return wave(0.1, t); };
+    const auto with = [&](double from, double to) {
+        gap::Record record = record_of(20.0, held, output);
+        record.more_inputs.emplace_back(record.size(), 5.0);
+        record.more_inputs.emplace_back(record.size(), from);
+        std::fill_n(record.more_inputs.back().begin(), record.size() / 2, to);
+        return record;
+    };
+    EXPECT_THAT(gap::extrapolated({with(0.0, 50.0)}, {with(0.0, 80.0)}), ElementsAre("input 3 above 50"));
+    EXPECT_THAT(gap::extrapolated({with(0.0, 50.0)}, {with(0.0, 10.0)}), ElementsAre("input 3 between 0 and 50"));
+    EXPECT_THAT(gap::extrapolated({with(0.0, 50.0), record_of(20.0, held, output)}, {with(0.0, 80.0)}), IsEmpty());
+    const gap::Record whole = with(0.0, 50.0);
+    const std::size_t half = whole.size() / 2;
+    std::vector<char> counts(whole.size(), 1);
+    std::fill_n(counts.begin(), half, char{0});
+    const gap::Record later = gap::counted_stretches({whole}, {counts}).front();
+    ASSERT_EQ(later.more_inputs.size(), 2U);
+    EXPECT_THAT(later.more_inputs[1], testing::AllOf(testing::SizeIs(later.size()), testing::Each(0.0)));
+}
+
 TEST(Coverage, TellsFrequenciesThatTrainingLacks) {
     const auto slow = [](double t) { return wave(0.1, t); };
     const auto fast = [](double t) { return 0.5 * wave(0.1, t) + 0.5 * wave(3.0, t); };
