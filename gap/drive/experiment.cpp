@@ -3,199 +3,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 
-#include "gap/drive/excitation.hpp"
+#include "gap/drive/information.hpp"
+#include "gap/drive/trials.hpp"
 
 namespace gap {
 namespace {
-
-// At rest before the record, nothing happening to it.
-Candidate resting(const Study& study, const Candidate& fitted, const Record& record) {
-    Candidate rest = fitted;
-    rest.own.resize(1);
-    rest.own[0] = state_of(study, record);
-    if (study.base.refit) {
-        const double offset = fitted.own[0][0].value;
-        rest.own[0][0].value = offset;
-        rest.own[0][1].lower = -1e300;
-        rest.own[0][1].upper = 1e300;
-        rest.own[0][1].value = offset;
-    }
-    for (const Effect* effect : fitted.effects) {
-        for (const FreeParameter& parameter : own_parameters_of(*effect, study.scales)) {
-            rest.own[0].push_back(parameter);
-            rest.own[0].back().value = 0.0;
-        }
-    }
-    return rest;
-}
-
-Record record_of(const Excitation& excitation, const Study& study, double low) {
-    constexpr double most_samples = 3000.0;
-    const Scales& scales = study.scales;
-    Record record;
-    record.name = excitation.text;
-    record.usual_interval_s = std::max(scales.interval_s, excitation.length_s / most_samples);
-    const auto count = static_cast<std::size_t>(excitation.length_s / record.usual_interval_s);
-    for (std::size_t k = 0; k < count; ++k) {
-        const double t = static_cast<double>(k) * record.usual_interval_s;
-        record.time_s.push_back(t);
-        record.input.push_back(low + (scales.input_max - low) * excitation.level(t / excitation.length_s, t));
-    }
-    record.output.assign(count, 0.0);
-    // Further inputs rest where they were when the first record began: one thing is moved at a time.
-    for (const std::vector<double>& levels : study.courses.front().record().more_inputs) {
-        record.more_inputs.emplace_back(count, levels.front());
-    }
-    return record;
-}
-
-double lowest_input(const Study& study) {
-    double low = 0.0;
-    for (const Course& course : study.courses) {
-        low = std::min(low, *std::min_element(course.record().input.begin(), course.record().input.end()));
-    }
-    return low;
-}
-
-// A record that could be taken.
-struct Trial {
-    std::string text;
-    Record record;
-    double released_at = 0.0;  ///< where nothing is put in: from here, in parts of the furthest that it has been
-};
-
-bool is_free(const Study& study) {
-    return std::all_of(study.courses.begin(), study.courses.end(), [](const Course& course) {
-        const std::vector<double>& input = course.record().input;
-        return std::all_of(input.begin(), input.end(), [](double u) { return u == 0.0; });
-    });
-}
-
-// Without an input it is let go, never from further out than it has been.
-std::vector<Trial> releases(const Study& study) {
-    const Scales& scales = study.scales;
-    std::vector<Trial> trials;
-    for (const auto& [text, part] :
-         {std::pair("from as far out as it has been", 1.0), std::pair("from half as far out", 0.5),
-          std::pair("from a fifth as far out", 0.2)}) {
-        const Excitation nothing{fmt::format("let go {}, for {:.3g} s", text, scales.length_s), scales.length_s,
-                                 [](double, double) { return 0.0; }};
-        trials.push_back({nothing.text, record_of(nothing, study, 0.0), part});
-    }
-    return trials;
-}
-
-// Of 32 samples and more.
-std::vector<Trial> trials_of(const Study& study) {
-    const Scales& scales = study.scales;
-    std::vector<Trial> trials;
-    if (is_free(study)) {
-        trials = releases(study);
-    } else {
-        const double low = lowest_input(study);
-        for (const Excitation& excitation : excitations(scales.time_constant_s, scales.length_s)) {
-            const double idle = study.base.idle_input;
-            trials.push_back(
-                {fmt::format("{} from {:.4g} to {:.4g}", excitation.text, low + idle, scales.input_max + idle),
-                 record_of(excitation, study, low)});
-        }
-    }
-    std::erase_if(trials, [](const Trial& trial) { return trial.record.size() < 32; });
-    return trials;
-}
-
-// As it begins.
-Candidate begun(const Study& study, const Candidate& fitted, const Trial& trial) {
-    Candidate candidate = resting(study, fitted, trial.record);
-    for (FreeParameter& parameter : candidate.own[0]) {
-        if (parameter.name == "initial_output") {
-            const double up = study.scales.output_high - parameter.value;
-            const double down = study.scales.output_low - parameter.value;
-            parameter.value += trial.released_at * (up > -down ? up : down);
-        }
-    }
-    return candidate;
-}
-
-// What records tell of the numbers that all share (base, then lasting effects), each in units of its scale and over the
-// readings' noise; the records' own numbers are fitted beside them.
-struct Told {
-    Eigen::MatrixXd information;
-    double variance = 1.0;  ///< of the whitened residuals, at least 1: misfit makes intervals wide, too
-};
-
-std::optional<Told> told_by(const Study& study, Candidate candidate, const Whitener& whitener) {
-    const auto all = [&](const Candidate& of) {
-        std::vector<double> values;
-        for (std::size_t r = 0; r < study.courses.size(); ++r) {
-            std::vector<double> residuals = whitener.apply(residuals_of(study, of, r));
-            for (std::size_t i = 0; i < residuals.size(); ++i) {
-                values.push_back(study.counts[r][i] != 0 ? residuals[i] : 0.0);
-            }
-        }
-        return values;
-    };
-    const std::vector<double> now = all(candidate);
-    const auto rows = static_cast<Eigen::Index>(now.size());
-    const std::vector<FreeParameter*> free = free_numbers(candidate, false);
-    const auto own = static_cast<Eigen::Index>(free_numbers(candidate, true).size());
-    const auto shared = static_cast<Eigen::Index>(free.size()) - own;
-    Eigen::MatrixXd slopes(rows, shared + own);
-    for (Eigen::Index p = 0; p < shared + own; ++p) {
-        FreeParameter& parameter = *free[static_cast<std::size_t>(p)];
-        const double value = parameter.value;
-        constexpr double step = 3e-4;
-        const double by = value + step * parameter.scale > parameter.upper ? -step : step;
-        parameter.value = value + by * parameter.scale;
-        const std::vector<double> moved = all(candidate);
-        parameter.value = value;
-        for (Eigen::Index i = 0; i < rows; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            slopes(i, p) = (moved[at] - now[at]) / by;
-        }
-    }
-    if (!slopes.allFinite()) {
-        return std::nullopt;
-    }
-    const Eigen::MatrixXd whole = slopes.transpose() * slopes;
-    Told told{whole.topLeftCorner(shared, shared), 1.0};
-    if (own > 0) {
-        // What moves nothing here takes nothing from the others.
-        Eigen::MatrixXd theirs = whole.bottomRightCorner(own, own);
-        theirs.diagonal().array() += 1e-9 * theirs.trace() + 1e-300;
-        told.information -=
-            whole.topRightCorner(shared, own) * theirs.ldlt().solve(whole.bottomLeftCorner(own, shared));
-    }
-    double squares = 0.0;
-    for (const double value : now) {
-        squares += value * value;
-    }
-    told.variance = std::max(1.0, squares / static_cast<double>(std::max<Eigen::Index>(1, rows - shared - own)));
-    return told;
-}
-
-// Standard deviations of the shared numbers in units of their scales. A number cannot be further off than its bounds.
-std::vector<double> deviations_from(const Told& told, const Eigen::MatrixXd& information, Candidate candidate) {
-    const std::vector<FreeParameter*> free = free_numbers(candidate, false);
-    Eigen::MatrixXd known = information / told.variance;
-    for (Eigen::Index p = 0; p < known.rows(); ++p) {
-        const FreeParameter& parameter = *free[static_cast<std::size_t>(p)];
-        const double half = 0.5 * (parameter.upper - parameter.lower) / parameter.scale;
-        known(p, p) += 3.0 / (half * half);  // as of values that are spread evenly over them
-    }
-    const Eigen::MatrixXd inverse = known.ldlt().solve(Eigen::MatrixXd::Identity(known.rows(), known.rows()));
-    std::vector<double> deviations;
-    for (Eigen::Index p = 0; p < known.rows(); ++p) {
-        deviations.push_back(std::sqrt(std::max(0.0, inverse(p, p))));
-    }
-    return deviations;
-}
 
 // What an excitation would tell, and what is simulated there.
 struct After {
@@ -254,14 +71,6 @@ std::string to_text(std::vector<Narrower> all) {
                                           one.number->name, of_95_percent * one.after, of_95_percent * one.before));
     }
     return fmt::format("{}", fmt::join(words, ", "));
-}
-
-NextRecord drawn_of(const Study& study, const Trial& trial) {
-    NextRecord drawn{trial.text, trial.record.time_s, trial.record.input, {}};
-    for (double& u : drawn.input) {
-        u += study.base.idle_input;
-    }
-    return drawn;
 }
 
 const char* const other_record = "a record at other levels and speeds, as a test of the size found here";
