@@ -26,13 +26,15 @@ std::optional<std::size_t> place_without(const Evidence& evidence, std::size_t o
     return std::nullopt;
 }
 
-// Those that are left without one of its effects, the one that misses it least first. What a log shows by itself,
-// readings that are rounded, held or clipped, stays.
-std::vector<std::size_t> narrower(const Evidence& evidence, std::size_t of) {
+// Those that are left without one of the effects, of alternatives without what they differ by, the one that misses it
+// least first. What a log shows by itself, readings that are rounded, held or clipped, stays.
+std::vector<std::size_t> narrower(const Evidence& evidence, const Decision& decision) {
     std::vector<std::size_t> found;
-    for (const Effect* effect : evidence.ranking[of].trained.effects) {
-        const auto place = effect->uneven_noise ? std::nullopt : place_without(evidence, of, effect);
-        if (place) {
+    for (const Effect* effect : evidence.ranking[decision.chosen].trained.effects) {
+        const auto place = effect->uneven_noise ? std::nullopt : place_without(evidence, decision.chosen, effect);
+        if (place && std::ranges::all_of(decision.effects, [&](std::size_t alternative) {
+                return contains(evidence.ranking[alternative].trained, evidence.ranking[*place].trained);
+            })) {
             found.push_back(*place);
         }
     }
@@ -47,10 +49,10 @@ void drop_superfluous(const Question& question, const Ground& ground, const std:
     const Evidence evidence(ranking, whitener, ground.study, ground.validation, ground.same_records);
     for (bool further = true; question.find && further;) {
         further = false;
-        if (decision.outcome != Outcome::attributed || ranking[decision.chosen].trained.effects.size() < 2) {
+        if (decision.effects.empty() || ranking[decision.chosen].trained.effects.size() < 2) {
             return;
         }
-        for (const std::size_t i : narrower(evidence, decision.chosen)) {
+        for (const std::size_t i : narrower(evidence, decision)) {
             const double jointly = joint_gap(question, ranking[i]);
             if (jointly > nearly_as_far * evidence.gap(decision.chosen)) {
                 continue;
@@ -58,6 +60,7 @@ void drop_superfluous(const Question& question, const Ground& ground, const std:
             decision.notes.push_back(fmt::format(
                 "fitted to the validation, too, {} leaves {:.4f}, as {} does: training alone does not tell its numbers",
                 ranking[i].trained.name(), jointly, ranking[decision.chosen].trained.name()));
+            decision.outcome = Outcome::attributed;
             decision.chosen = i;
             decision.effects = {i};
             decision.confidence = sure_of_the_others;

@@ -8,7 +8,8 @@
 namespace gap {
 
 /// Beside a base that was found: of several causes one goes if the others do as well once they are fitted to the
-/// validation, too. What it took was what their numbers were off by.
+/// validation, too. What it took was what their numbers were off by. So do the causes that alternatives differ by, if
+/// what they share does as well.
 void drop_superfluous(const Question& question, const Ground& ground, const std::vector<Ranked>& ranking,
                       const Whitener& whitener, Decision& decision);
 

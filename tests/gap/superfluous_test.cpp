@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <random>
-#include <utility>
 
 #include "gap/drive/base/jointly.hpp"
 #include "gap/drive/fit.hpp"
@@ -66,15 +65,24 @@ protected:
     // \param left  by both causes
     gap::Decision after(double left) {
         ranking_[2].gap_after = left;
+        gap::Decision decision = attributed(2);
+        drop(decision);
+        return decision;
+    }
+
+    static gap::Decision attributed(std::size_t chosen) {
         gap::Decision decision;
         decision.outcome = Outcome::attributed;
-        decision.chosen = 2;
-        decision.effects = {2};
+        decision.chosen = chosen;
+        decision.effects = {chosen};
         decision.base_gap = 0.5;
         decision.confidence = 0.9;
+        return decision;
+    }
+
+    void drop(gap::Decision& decision) {
         gap::drop_superfluous(question_, ground_, ranking_, gap::whitener_of(ground_.study, ranking_[1].trained),
                               decision);
-        return decision;
     }
 
     gap::Question question_{gap::form_of(drive::make_sopdt(2.0, 0.5, 0.0)),
@@ -113,23 +121,36 @@ TEST_F(Superfluous, IsWhatLeavesFifteenPercentMoreAtMost) {
     EXPECT_THAT(after(jointly / 1.156).effects, ElementsAre(2U));
 }
 
-// A cause that stands alone stays, and of alternatives all do.
+// A cause that stands alone stays.
 TEST_F(Superfluous, IsNoCauseThatStandsAlone) {
-    const gap::Whitener whitener = gap::whitener_of(ground_.study, ranking_[1].trained);
+    gap::Decision decision = attributed(1);
+    drop(decision);
+    EXPECT_EQ(decision.chosen, 1U);
+    EXPECT_THAT(decision.effects, ElementsAre(1U));
+    EXPECT_EQ(decision.confidence, 0.9);
+    EXPECT_TRUE(decision.notes.empty());
+}
+
+// Of alternatives what they share does as well, or all of them stay.
+TEST_F(Superfluous, IsWhatAlternativesDifferBy) {
     ranking_[2].gap_after = 0.2;
-    for (const auto& [outcome, chosen] :
-         {std::pair(Outcome::attributed, std::size_t{1}), std::pair(Outcome::ambiguous, std::size_t{2})}) {
-        gap::Decision decision;
-        decision.outcome = outcome;
-        decision.chosen = chosen;
-        decision.effects = {chosen};
-        decision.confidence = 0.9;
-        gap::drop_superfluous(question_, ground_, ranking_, whitener, decision);
-        EXPECT_EQ(decision.chosen, chosen);
-        EXPECT_THAT(decision.effects, ElementsAre(chosen));
-        EXPECT_EQ(decision.confidence, 0.9);
-        EXPECT_TRUE(decision.notes.empty());
-    }
+    const auto beside = [&](const char* one, const char* other) {
+        ranking_.resize(3);
+        ranking_.push_back(ranking_[2]);
+        ranking_[3].trained.effects = {&gap::effect_named(one), &gap::effect_named(other)};
+        gap::Decision decision = attributed(2);
+        decision.outcome = Outcome::ambiguous;
+        decision.effects = {2, 3};
+        drop(decision);
+        return decision;
+    };
+    const gap::Decision shared = beside("gain_drift", "quadratic_drag");
+    EXPECT_EQ(shared.outcome, Outcome::attributed);
+    EXPECT_THAT(shared.effects, ElementsAre(1U));
+    EXPECT_EQ(shared.confidence, 0.8);
+    const gap::Decision stays = beside("gain_drift", "load_disturbance");
+    EXPECT_EQ(stays.outcome, Outcome::ambiguous);
+    EXPECT_THAT(stays.effects, ElementsAre(2U, 3U));
 }
 
 }  // namespace
