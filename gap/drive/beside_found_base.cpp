@@ -9,6 +9,7 @@
 #include "gap/drive/base/jointly.hpp"
 #include "gap/drive/base/signs.hpp"
 #include "gap/drive/base/worth_asking.hpp"
+#include "gap/drive/decide/evidence.hpp"
 
 namespace gap {
 namespace {
@@ -85,7 +86,8 @@ Answer cheapest_of(std::vector<BesideABase> tried) {
 
 void judge_jointly(Answer& answer, double jointly) {
     constexpr double as_well = 1.15;
-    // More than that left, and something is missing; a plant that was only seen on its way up may come down otherwise.
+    // More than that left, or than a form may leave that lacks nothing, and something is missing; a plant that was only
+    // seen on its way up may come down otherwise.
     constexpr double nearly_all = 0.1;
     constexpr double most = 0.25;
     const bool one_way = std::any_of(answer.extrapolated.begin(), answer.extrapolated.end(), [](const auto& what) {
@@ -93,14 +95,8 @@ void judge_jointly(Answer& answer, double jointly) {
     });
     // Of a base that runs away: of the output.
     const double without = std::min(1.0, answer.none().gap_after);
-    if (jointly > as_well * answer.chosen().gap_after || jointly > (one_way ? most : nearly_all) * without) {
-        return;
-    }
-    // What leads an unknown may leave far less, whatever speaks against naming it: then the base lacks more than its
-    // numbers.
-    constexpr double far_less = 0.5;
-    if (answer.decision.outcome == Outcome::unknown && !one_way &&
-        answer.ranking.front().gap_after < far_less * jointly) {
+    const double enough = one_way ? most * without : std::min(nearly_all * without, small_gap_of_a_form);
+    if (jointly > as_well * answer.chosen().gap_after || jointly > enough) {
         return;
     }
     answer.decision.outcome = Outcome::no_gap;

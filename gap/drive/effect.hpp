@@ -141,6 +141,8 @@ struct Effect {
     bool (*from_zero)(std::span<const double> values) = nullptr;
     /// What it is with these numbers, another effect that says as much by a simpler law; none: itself.
     std::optional<Special> (*is_only)(std::span<const double> values) = nullptr;
+    /// After how long it comes again by itself with these numbers; none: it does not.
+    double (*period_s)(std::span<const double> values) = nullptr;
     /// Whether the other one is a special case of it.
     [[nodiscard]] bool covers(const Effect& other) const;
     /// Whether one of the two looks like the other.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace gap {
@@ -13,6 +14,7 @@ constexpr double large = 0.03;        // of the greatest input: a move
 constexpr double at_the_end = 0.02;   // of the record's length
 constexpr double settling = 3.0;      // time constants
 constexpr double incredible = 0.006;  // so few true events begin with the input by chance
+constexpr double undone = 0.05;       // of the input: what a force may leave of it, or it may change
 constexpr double unfelt = 0.05;       // of the largest event: it follows what the base leaves there
 
 double length_of(const Record& record) { return record.time_s.back() - record.time_s.front(); }
@@ -113,8 +115,25 @@ bool acts_before_the_input(const std::vector<FreeParameter>& own, const Happenin
            });
 }
 
+bool undoes_the_input(const Record& record, const drive::Model& model, const Happening& happening, double size) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (std::size_t i = 0; i < record.size(); ++i) {
+        const double acts_s = record.time_s[i] - record.time_s.front() + model.delay_s;
+        // The interval that a move begins or ends in belongs to neither side.
+        if (happening.to_s && acts_s > happening.from_s + record.usual_interval_s &&
+            acts_s < *happening.to_s - record.usual_interval_s) {
+            low = std::min(low, model.gain * record.input[i]);
+            high = std::max(high, model.gain * record.input[i]);
+        }
+    }
+    const double force = 0.5 * (low + high);
+    return high - low <= undone * std::fabs(force) && std::fabs(size + force) <= undone * std::fabs(force);
+}
+
 std::string doubt_of_events(const Study& study, const Candidate& trained, const Study& validation,
                             const Candidate& validated) {
+    const drive::Model model = model_of(study.base.refit ? with_values(study.base.form, trained) : study.base.form);
     const double delay_s = model_of(study.base.form).delay_s;
     const double settling_s = delay_s + settling * study.scales.time_constant_s;
     for (const Effect* effect : trained.effects) {
@@ -127,8 +146,8 @@ std::string doubt_of_events(const Study& study, const Candidate& trained, const 
             for (std::size_t r = 0; r < candidate->own.size(); ++r) {
                 const Record& record = of->courses[r].record();
                 const auto happening = happening_of(candidate->own[r], effect->name);
-                const bool felt =
-                    std::fabs(number_of(candidate->own[r], effect->name + ".size").value_or(0.0)) >= least_size;
+                const double size = number_of(candidate->own[r], effect->name + ".size").value_or(0.0);
+                const bool felt = std::fabs(size) >= least_size;
                 if (happening && felt && lasts_throughout(record, *happening, settling_s)) {
                     return fmt::format("{} of {} begins with the input and is still there at the end", effect->name,
                                        record.name);
@@ -136,6 +155,10 @@ std::string doubt_of_events(const Study& study, const Candidate& trained, const 
                 if (happening && felt && acts_before_the_input(candidate->own[r], *happening, delay_s)) {
                     return fmt::format("{} of {} begins before its input can act, as what was before the record does",
                                        effect->name, record.name);
+                }
+                if (happening && felt && effect->place == Place::plant &&
+                    undoes_the_input(record, model, *happening, size)) {
+                    return fmt::format("{} of {} undoes the input as long as it lasts", effect->name, record.name);
                 }
                 if (happening) {
                     chances.push_back(chance_of_meeting(record, happening->from_s, delay_s));

@@ -1,6 +1,6 @@
 // Whether an event that was found comes from outside, as its effect says: what begins with the input, record after
-// record, or lasts from its first move to the end, is something that the drive does itself; what is there before the
-// input can act is the past.
+// record, or lasts from its first move to the end, or undoes the input, is something that the drive does itself; what
+// is there before the input can act is the past.
 #pragma once
 
 #include <optional>
@@ -35,6 +35,11 @@ struct Happening {
 /// \param own  the record's numbers
 [[nodiscard]] bool acts_before_the_input(const std::vector<FreeParameter>& own, const Happening& happening,
                                          double delay_s);
+
+/// Whether a force undoes the input, to a twentieth of it, which stays where it is as long as the force lasts: a drive
+/// that does not act does, one that has yet to start, say. \param size  in units of the model's right-hand side
+[[nodiscard]] bool undoes_the_input(const Record& record, const drive::Model& model, const Happening& happening,
+                                    double size);
 
 /// What speaks against the events of a candidate being such, for a note; empty: nothing, or it has none.
 [[nodiscard]] std::string doubt_of_events(const Study& study, const Candidate& trained, const Study& validation,

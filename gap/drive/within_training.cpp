@@ -12,7 +12,7 @@ namespace {
 // A gain, say, that is another one at another level leaves most of the gap there, whatever else is found; it says
 // nothing against what both parts of the training show.
 bool is_borne_out(const Answer& within) {
-    constexpr double little = 0.25;
+    constexpr double little = 0.2;
     constexpr double sure = 0.8;
     return within.decision.outcome == Outcome::attributed && within.decision.confidence >= sure &&
            !within.chosen().trained.has_events() && within.chosen().gap_after < little * within.none().gap_after;

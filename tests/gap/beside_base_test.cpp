@@ -136,8 +136,8 @@ TEST(BesideFoundBase, IsLessSureBesideAnotherCauseThatGoesAsFar) {
     EXPECT_EQ(gap::cheapest_of(unsure).decision.confidence, 0.5);
 }
 
-// A base that sees the validation, too, leaves within 15 % of what the effect does, and a tenth of the gap at most. Of
-// training that goes one way only, where validation does not, it is a quarter.
+// A base that sees the validation, too, leaves within 15 % of what the effect does, and a tenth of the gap at most, or
+// what a form may leave. Of training that goes one way only, where validation does not, it is a quarter.
 TEST(BesideFoundBase, NeedsNoCauseWhereTheBaseDoesAsWellOnAll) {
     const auto is_none = [](double after, double jointly, const Names& extrapolated = {}, double before = 1.0) {
         gap::Answer answer = answer_of({{"backlash"}}, after);
@@ -146,41 +146,26 @@ TEST(BesideFoundBase, NeedsNoCauseWhereTheBaseDoesAsWellOnAll) {
         gap::judge_jointly(answer, jointly);
         return answer.decision.outcome == Outcome::no_gap;
     };
-    EXPECT_TRUE(is_none(0.04, 1.1499 * 0.04));
-    EXPECT_FALSE(is_none(0.04, 1.1501 * 0.04));
-    EXPECT_TRUE(is_none(0.5, 0.0999));
-    EXPECT_FALSE(is_none(0.5, 0.1001));
-    EXPECT_FALSE(is_none(0.5, 0.1001, {"input above 1", "output above 2"}));
-    EXPECT_TRUE(is_none(0.2, 0.0499, {}, 0.5));
-    EXPECT_FALSE(is_none(0.2, 0.0501, {}, 0.5));
+    EXPECT_TRUE(is_none(0.03, 1.1499 * 0.03));
+    EXPECT_FALSE(is_none(0.03, 1.1501 * 0.03));
+    EXPECT_TRUE(is_none(0.5, 0.0446));
+    EXPECT_FALSE(is_none(0.5, 0.0448));
+    EXPECT_FALSE(is_none(0.5, 0.0448, {"input above 1", "output above 2"}));
+    EXPECT_TRUE(is_none(0.1, 0.0299, {}, 0.3));
+    EXPECT_FALSE(is_none(0.1, 0.0301, {}, 0.3));
     // What leaves most of the output explains nothing, however far the base has run away.
-    EXPECT_TRUE(is_none(12.0, 0.0999, {}, 12.0));
-    EXPECT_FALSE(is_none(12.0, 0.1001, {}, 12.0));
+    EXPECT_TRUE(is_none(12.0, 0.2499, {"falling output"}, 12.0));
+    EXPECT_FALSE(is_none(12.0, 0.2501, {"falling output"}, 12.0));
     for (const char* way : {"falling output", "rising output"}) {
         EXPECT_TRUE(is_none(0.5, 0.2499, {"input above 1", way})) << way;
         EXPECT_FALSE(is_none(0.5, 0.2501, {way})) << way;
     }
 }
 
-// What leads may leave less than half of what the base does when it sees all: it lacks more than its numbers, then.
-TEST(BesideFoundBase, StaysUnknownWhereSomethingLeavesFarLess) {
-    const auto is_none = [](Outcome outcome, double leads, const Names& extrapolated = {}) {
-        gap::Answer answer = answer_of({{"backlash"}}, leads);
-        answer.decision.outcome = outcome;
-        answer.decision.chosen = outcome == Outcome::unknown ? 1 : 0;
-        answer.extrapolated = extrapolated;
-        gap::judge_jointly(answer, 0.04);
-        return answer.decision.outcome == Outcome::no_gap;
-    };
-    EXPECT_TRUE(is_none(Outcome::unknown, 0.0201));
-    EXPECT_FALSE(is_none(Outcome::unknown, 0.0199));
-    EXPECT_TRUE(is_none(Outcome::unknown, 0.0199, {"rising output"}));
-}
-
 TEST(BesideFoundBase, WithoutACauseNamesNothing) {
     gap::Answer answer = answer_of({{"backlash"}, {"gain_drift"}}, 0.1);
     answer.decision.suspect = 1;
-    gap::judge_jointly(answer, 0.0625);
+    gap::judge_jointly(answer, 0.0425);
     EXPECT_EQ(answer.decision.outcome, Outcome::no_gap);
     EXPECT_EQ(answer.decision.chosen, 2U);  // none
     EXPECT_EQ(&answer.chosen(), &answer.none());
@@ -190,7 +175,7 @@ TEST(BesideFoundBase, WithoutACauseNamesNothing) {
     EXPECT_FALSE(answer.next_record);
     EXPECT_EQ(answer.next_experiment,
               "none for this gap; a longer training record would tell the base's numbers by itself");
-    EXPECT_THAT(answer.notes, ElementsAre(HasSubstr("fitted to the validation, too, the base leaves 0.0625 without")));
+    EXPECT_THAT(answer.notes, ElementsAre(HasSubstr("fitted to the validation, too, the base leaves 0.0425 without")));
     // What training lacks is what to train on; what was less sure stays so.
     gap::Answer lacking = answer_of({{"backlash"}}, 0.1);
     lacking.decision.confidence = 0.7;

@@ -91,7 +91,7 @@ TEST_F(DoubtOfEvents, IsOfForcesThatAreFelt) {
     for (const double sign : {1.0, -1.0}) {
         EXPECT_EQ(doubt({8.0, 9.0, 2.0}, {5.5, 20.0, 0.0995 * sign}), "");
         EXPECT_NE(doubt({8.0, 9.0, 2.0}, {5.5, 20.0, 0.1005 * sign}), "");
-        EXPECT_EQ(doubt({5.5, 20.0, 0.0995 * sign}, {8.0, 9.0, -2.0}), "");
+        EXPECT_EQ(doubt({5.5, 20.0, 0.1095 * sign}, {8.0, 9.0, -2.2}), "");
     }
     EXPECT_EQ(doubt({8.0, 9.0}, {5.5, 20.0, 0.0}), "");  // none at all
 }
@@ -114,6 +114,27 @@ TEST_F(DoubtOfEvents, MeetsTheInputTooOftenForChance) {
     EXPECT_THAT(after(0.13), HasSubstr("begins with a move of the input in every record, by chance once in 1.8e+02"));
     EXPECT_NE(after(0.1349), "");
     EXPECT_EQ(after(0.1352), "");
+}
+
+// The input is 1 from 5 to 12 s and acts from 5.2 to 12.2 s, with a gain of 2.
+TEST_F(DoubtOfEvents, UndoesTheInputThatStays) {
+    const auto undoes = [&](const Force& force) {
+        return doubt(somewhere_, force).find("of judge undoes the input as long as it lasts") != std::string::npos;
+    };
+    EXPECT_TRUE(undoes({7.0, 11.0, -2.0}));
+    EXPECT_TRUE(undoes({5.2, 6.0, -2.095}));
+    EXPECT_TRUE(undoes({5.2, 6.0, -1.905}));
+    EXPECT_FALSE(undoes({5.2, 6.0, -2.105}));
+    EXPECT_FALSE(undoes({5.2, 6.0, -1.895}));
+    EXPECT_FALSE(undoes({7.0, 11.0, 2.0}));
+    EXPECT_FALSE(undoes({5.0, 6.0, -2.0}));    // 0.2 s of it before the input acts
+    EXPECT_FALSE(undoes({11.0, 12.5, -2.0}));  // or after
+    EXPECT_FALSE(undoes({11.0, 13.5, -1.0}));  // nor is it the mean of both
+    EXPECT_TRUE(undoes({11.0, 12.2, -2.0}));
+    EXPECT_FALSE(undoes({13.0, 14.0, -2.0}));
+    EXPECT_THAT(doubt({7.0, 11.0, -2.0}, somewhere_), HasSubstr("of train undoes the input"));
+    effect_ = "missed_counts";  // readings are no force
+    EXPECT_FALSE(undoes({7.0, 11.0, -2.0}));
 }
 
 TEST_F(DoubtOfEvents, IsOfEventsAlone) {

@@ -197,6 +197,17 @@ TEST_F(Rules, WhatCannotBePartedBesideAFormIsAPlayOrAValveThatSticks) {
     EXPECT_THAT(after("what_cannot_be_parted", attributed(play)).effects, ElementsAre(play, valve));
 }
 
+// A supply that is drawn from evenly sags with time.
+TEST_F(Rules, WhatCannotBePartedBesideAFormIsASagOrADrift) {
+    const std::size_t sag = add({"supply_sag"}, 0.10, 900.0);
+    const std::size_t drift = add({"gain_drift"}, 0.199, 500.0);
+    set_noise(0.10 / 7.03);
+    beside_a_form();
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(sag)).effects, ElementsAre(sag, drift));
+    ranking_[drift].gap_after = 0.201;
+    EXPECT_THAT(after("what_cannot_be_parted", attributed(sag)).effects, ElementsAre(sag));
+}
+
 // The other way round, too; what stands in another one's place is no likeness.
 TEST_F(Rules, WhatCannotBePartedBesideAFormIsFrictionOrAPlay) {
     const std::size_t friction = add({"quadratic_drag", "coulomb_friction"}, 0.10, 900.0);

@@ -17,6 +17,7 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
         return;
     }
     constexpr double an_event = 0.8;
+    constexpr double nearly_nothing = 0.05;  // is left: that was its time and size
     const double after = evidence.gap(decision.chosen);
     const Foreseeable rest = foreseeable(evidence, decision);
     constexpr double most = 0.5;  // what can be foreseen is no noise, however little it is of all
@@ -34,7 +35,7 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
     if (after > clearly_more * decision.noise_floor && after > material * decision.base_gap) {
         decision.at_most(not_alone);
     }
-    if (evidence.ranking[decision.chosen].trained.has_events()) {
+    if (evidence.ranking[decision.chosen].trained.has_events() && after > nearly_nothing * decision.base_gap) {
         decision.at_most(an_event);
     }
 }
@@ -42,7 +43,7 @@ void doubt_beside_a_form(const Evidence& evidence, Decision& decision) {
 // An event is located where it is judged, so it goes a part of the way of whatever there is: one that is the cause
 // leaves little. Empty: it does.
 std::string follows_the_rest(const Evidence& evidence, const Decision& decision, std::size_t i) {
-    constexpr double little = 0.25;
+    constexpr double little = 0.17;
     const double left = evidence.gap(i) / decision.base_gap;
     const Candidate& trained = evidence.ranking[i].trained;
     return evidence.beside_form() && evidence.study.scales.driven && trained.has_events() && left > little

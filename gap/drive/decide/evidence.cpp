@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "gap/drive/determined.hpp"
+#include "gap/drive/in_step.hpp"
 #include "gap/drive/outside.hpp"
 
 namespace gap {
@@ -135,6 +136,9 @@ const std::string& Evidence::objection(std::size_t i) const {
         what = untold_of(study, trained, [&](const Effect& effect) { return training_needs(i, effect); });
         if (what.empty() && beside_form()) {
             what = linear_of(study, trained);
+        }
+        if (what.empty() && beside_form()) {
+            what = in_step_with_input(study, trained);
         }
         if (what.empty() && beside_form() && trained.has_events()) {
             what = doubt_of_events(study, trained, validation, ranking[i].candidate);

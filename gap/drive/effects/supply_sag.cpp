@@ -41,6 +41,7 @@ const Effect& supply_sag() {
         .kind = Kind::lasting,
         .parameters = parameters,
         .add_to = add,
+        .looks_like = {"gain_drift"},
         .place = Place::actuator,
         .numbers = {{"per_unit_s", Number::Given::otherwise, 0.0}, {"resistance", Number::Given::otherwise, 0.0}},
         .smooth = true,

@@ -103,6 +103,7 @@ const Effect& variable_delay() {
         .place = Place::command,
         .numbers = {{"depth_s"}, {"period_s"}, {"phase_rad", Number::Given::otherwise, 0.0}},
         .start = start,
+        .period_s = [](std::span<const double> values) { return values[1]; },
     };
     return effect;
 }
