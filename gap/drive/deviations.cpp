@@ -6,37 +6,12 @@
 #include <limits>
 #include <optional>
 
-#include "gap/drive/cost.hpp"
+#include "gap/drive/slopes.hpp"
 
 namespace gap {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-// The residuals where a candidate stands, and their slopes by its free numbers over their scales.
-struct Slopes {
-    Eigen::VectorXd residuals;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> by_number;
-};
-
-std::optional<Slopes> slopes_of(const Study& study, const Candidate& candidate, const std::vector<FreeParameter*>& free,
-                                const Whitener* whitener) {
-    Cost cost(study, candidate, false, all_of(free), whitener);
-    std::vector<double> values;
-    for (const FreeParameter* parameter : free) {
-        values.push_back(parameter->value / parameter->scale);
-    }
-    const auto rows = static_cast<Eigen::Index>(cost.num_residuals());
-    const auto columns = static_cast<Eigen::Index>(free.size());
-    Slopes slopes{Eigen::VectorXd(rows), {}};
-    slopes.by_number.setZero(rows, columns);
-    const double* parameters = values.data();
-    double* jacobian = slopes.by_number.data();
-    if (!cost.Evaluate(&parameters, slopes.residuals.data(), &jacobian)) {
-        return std::nullopt;
-    }
-    return slopes;
-}
 
 // The directions of numbers that move anything, each over how much it does.
 struct Directions {

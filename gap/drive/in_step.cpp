@@ -6,34 +6,20 @@
 #include <cmath>
 #include <vector>
 
+#include "gap/drive/moves.hpp"
+
 namespace gap {
 namespace {
 
 constexpr double as_far = 0.02;
 constexpr double same_level = 0.03;  // of the input's span
 
-struct Move {
-    double at_s;
-    double from;
-    double to;
-};
-
-std::vector<Move> moves_of(const Record& record, double least) {
-    std::vector<Move> moves;
-    for (std::size_t i = 1; i < record.size(); ++i) {
-        if (std::fabs(record.input[i] - record.input[i - 1]) > least) {
-            moves.push_back({record.time_s[i], record.input[i - 1], record.input[i]});
-        }
-    }
-    return moves;
-}
-
 }  // namespace
 
 std::optional<double> input_period_s(const Record& record) {
     const auto [low, high] = std::ranges::minmax(record.input);
     const double same = same_level * (high - low);
-    const std::vector<Move> moves = moves_of(record, same);
+    const std::vector<Move> moves = moves_of(record, record.input.front(), same);
     std::vector<double> apart_s;
     for (auto move = moves.begin(); move != moves.end(); ++move) {
         const auto again = std::find_if(move + 1, moves.end(), [&](const Move& later) {

@@ -4,42 +4,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gap/drive/slopes.hpp"
+
 namespace gap {
 
 std::optional<Told> told_by(const Study& study, Candidate candidate, const Whitener& whitener) {
-    const auto all = [&](const Candidate& of) {
-        std::vector<double> values;
-        for (std::size_t r = 0; r < study.courses.size(); ++r) {
-            std::vector<double> residuals = whitener.apply(residuals_of(study, of, r));
-            for (std::size_t i = 0; i < residuals.size(); ++i) {
-                values.push_back(study.counts[r][i] != 0 ? residuals[i] : 0.0);
-            }
-        }
-        return values;
-    };
-    const std::vector<double> now = all(candidate);
-    const auto rows = static_cast<Eigen::Index>(now.size());
     const std::vector<FreeParameter*> free = free_numbers(candidate, false);
-    const auto own = static_cast<Eigen::Index>(free_numbers(candidate, true).size());
-    const auto shared = static_cast<Eigen::Index>(free.size()) - own;
-    Eigen::MatrixXd slopes(rows, shared + own);
-    for (Eigen::Index p = 0; p < shared + own; ++p) {
-        FreeParameter& parameter = *free[static_cast<std::size_t>(p)];
-        const double value = parameter.value;
-        constexpr double step = 3e-4;
-        const double by = value + step * parameter.scale > parameter.upper ? -step : step;
-        parameter.value = value + by * parameter.scale;
-        const std::vector<double> moved = all(candidate);
-        parameter.value = value;
-        for (Eigen::Index i = 0; i < rows; ++i) {
-            const auto at = static_cast<std::size_t>(i);
-            slopes(i, p) = (moved[at] - now[at]) / by;
-        }
-    }
-    if (!slopes.allFinite()) {
+    const std::optional<Slopes> slopes = slopes_of(study, candidate, free, &whitener);
+    if (!slopes) {
         return std::nullopt;
     }
-    const Eigen::MatrixXd whole = slopes.transpose() * slopes;
+    const auto own = static_cast<Eigen::Index>(free_numbers(candidate, true).size());
+    const auto shared = static_cast<Eigen::Index>(free.size()) - own;
+    const Eigen::MatrixXd whole = slopes->by_number.transpose() * slopes->by_number;
     Told told{whole.topLeftCorner(shared, shared), 1.0};
     if (own > 0) {
         // What moves nothing here takes nothing from the others.
@@ -48,11 +25,9 @@ std::optional<Told> told_by(const Study& study, Candidate candidate, const White
         told.information -=
             whole.topRightCorner(shared, own) * theirs.ldlt().solve(whole.bottomLeftCorner(own, shared));
     }
-    double squares = 0.0;
-    for (const double value : now) {
-        squares += value * value;
-    }
-    told.variance = std::max(1.0, squares / static_cast<double>(std::max<Eigen::Index>(1, rows - shared - own)));
+    const Eigen::Index spare = slopes->residuals.size() - shared - own;
+    told.variance =
+        std::max(1.0, slopes->residuals.squaredNorm() / static_cast<double>(std::max<Eigen::Index>(1, spare)));
     return told;
 }
 

@@ -7,6 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "gap/drive/moves.hpp"
+
 namespace gap {
 namespace {
 
@@ -19,21 +21,14 @@ constexpr double unfelt = 0.05;       // of the largest event: it follows what t
 
 double length_of(const Record& record) { return record.time_s.back() - record.time_s.front(); }
 
-// From the first stamp on: where the held input moves by much at once, the record's begin included.
-std::vector<double> moves_of(const Record& record) {
-    double most = 0.0;
-    for (const double u : record.input) {
-        most = std::max(most, std::fabs(u));
+// The large ones, the record's begin included.
+std::vector<double> times_of_moves(const Record& record) {
+    const auto [low, high] = std::ranges::minmax(record.input);
+    std::vector<double> times_s;
+    for (const Move& move : moves_of(record, 0.0, large * std::max(std::fabs(low), std::fabs(high)))) {
+        times_s.push_back(move.at_s);
     }
-    std::vector<double> moves;
-    double before = 0.0;
-    for (std::size_t i = 0; i < record.size(); ++i) {
-        if (std::fabs(record.input[i] - before) > large * most) {
-            moves.push_back(record.time_s[i] - record.time_s.front());
-        }
-        before = record.input[i];
-    }
-    return moves;
+    return times_s;
 }
 
 std::optional<double> number_of(const std::vector<FreeParameter>& own, const std::string& name) {
@@ -70,7 +65,7 @@ double least_felt(const Effect& effect, const Candidate& trained, const Candidat
 
 double chance_of_meeting(const Record& record, double time_s, double delay_s) {
     const double length_s = length_of(record);
-    std::vector<double> moves = moves_of(record);
+    std::vector<double> moves = times_of_moves(record);
     double nearest_s = length_s;
     for (double& move : moves) {
         move += delay_s;
@@ -103,7 +98,7 @@ double joint_chance(std::span<const double> chances) {
 }
 
 bool lasts_throughout(const Record& record, const Happening& happening, double settling_s) {
-    const std::vector<double> moves = moves_of(record);
+    const std::vector<double> moves = times_of_moves(record);
     const double first_s = moves.empty() ? 0.0 : moves.front();
     return happening.to_s && *happening.to_s > (1.0 - at_the_end) * length_of(record) &&
            happening.from_s < first_s + settling_s;

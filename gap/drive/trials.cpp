@@ -59,13 +59,6 @@ double lowest_input(const Study& study) {
     return low;
 }
 
-bool is_free(const Study& study) {
-    return std::all_of(study.courses.begin(), study.courses.end(), [](const Course& course) {
-        const std::vector<double>& input = course.record().input;
-        return std::all_of(input.begin(), input.end(), [](double u) { return u == 0.0; });
-    });
-}
-
 // Without an input it is let go, never from further out than it has been.
 std::vector<Trial> releases(const Study& study) {
     const Scales& scales = study.scales;
@@ -85,7 +78,7 @@ std::vector<Trial> releases(const Study& study) {
 std::vector<Trial> trials_of(const Study& study) {
     const Scales& scales = study.scales;
     std::vector<Trial> trials;
-    if (is_free(study)) {
+    if (!scales.driven) {
         trials = releases(study);
     } else {
         const double low = lowest_input(study);
