@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "base/failure.hpp"
+#include "base/freed_memory.hpp"
 #include "cli/blind.hpp"
 #include "cli/command.hpp"
 #include "cli/diagnose_cycles.hpp"
@@ -88,6 +89,7 @@ void run(const Options& options, const std::string& line) {
 }  // namespace
 
 void add_options(Command& command, const Words& words) {
+    base::keep_freed_memory();  // whatever is asked simulates a million times
     command.takes_one_subcommand();
     auto options = std::make_shared<Options>();
     options->jobs = std::max(1U, std::thread::hardware_concurrency());

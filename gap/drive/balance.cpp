@@ -21,9 +21,11 @@ Balance::Balance(const Scenario& scenario, double mass, double constant, double 
       mass_(mass),
       constant_(constant),
       step_s_(step_s),
+      freely_(1.0 / (mass + constant)),
       drag_(scenario.forces.drag / (step_s * step_s)),
       linear_(forces_.angle_per_unit == 0.0 && forces_.cubic == 0.0 && !forces_.outflow && drag_ == 0.0 &&
-              forces_.drag_of_speed == 0.0 && forces_.friction_share == 0.0 && forces_.cogging.empty()) {
+              forces_.drag_of_speed == 0.0 && forces_.friction_share == 0.0 && forces_.cogging.empty()),
+      slides_(linear_ && forces_.friction_up == 0.0 && forces_.friction_down == 0.0) {
     if (forces_.outflow) {
         power_ = 1.0 + forces_.outflow->curvature;
         bend_at_zero_ = std::pow(at_zero, power_);
@@ -33,7 +35,7 @@ Balance::Balance(const Scenario& scenario, double mass, double constant, double 
     }
 }
 
-double Balance::increment(double forcing, double known, double y) const {
+double Balance::of_forces(double forcing, double known, double y) const {
     const Force at_rest = linear_ ? Force{constant_ * y, mass_ + constant_} : resisting(y, 0.0, 0.0);
     const double net = forcing - known - at_rest.value;
     return forces_.friction_of_speed ? against_speed(net, y, at_rest) : against_motion(forcing, net, y, at_rest);
@@ -50,8 +52,6 @@ double Balance::unbalanced(double forcing, double derivatives, double y, double 
     }
     return up > 0.0 ? up : std::min(down, 0.0);
 }
-
-void Balance::advance(double y, double e) { travelled_ += step_s_ * (y + operating_ + 0.5 * e); }
 
 double Balance::against_motion(double forcing, double net, double y, const Force& at_rest) const {
     const double of_load = friction_of_load(forcing, y);
@@ -85,7 +85,7 @@ double Balance::friction_of_load(double forcing, double y) const {
 
 double Balance::solve(double left, double y, const Force& unloaded, double share) const {
     if (linear_) {
-        return left / (mass_ + constant_);
+        return left * freely_;
     }
     if (left == 0.0) {
         return 0.0;

@@ -16,14 +16,16 @@ public:
     ///   + e) - friction = 0.
     /// Of several the first in the direction in which it is drawn. \param known  of the derivatives, what past
     /// increments make \param y  before the step, without the operating point. Not a number where nothing balances.
-    [[nodiscard]] double increment(double forcing, double known, double y) const;
+    [[nodiscard]] double increment(double forcing, double known, double y) const {
+        return slides_ ? (forcing - known - constant_ * y) * freely_ : of_forces(forcing, known, y);
+    }
 
     /// The force that nothing balances where a motion of even increments e at y goes over into that of the scenario.
     /// \param derivatives  of the even motion
     [[nodiscard]] double unbalanced(double forcing, double derivatives, double y, double e) const;
 
     /// The step was made: from y by e.
-    void advance(double y, double e);
+    void advance(double y, double e) { travelled_ += step_s_ * (y + operating_ + 0.5 * e); }
 
 private:
     // A force, and how it grows with the place.
@@ -31,6 +33,7 @@ private:
         double value;
         double slope;
     };
+    [[nodiscard]] double of_forces(double forcing, double known, double y) const;
     // Forces beside friction that the place y + e and the increment e make, against motion upwards, and a share of the
     // load that the spring is.
     [[nodiscard]] Force resisting(double y, double e, double share) const;
@@ -49,9 +52,11 @@ private:
     double mass_;
     double constant_;
     double step_s_;
+    double freely_;  // what a force moves where nothing resists but the model's derivatives and its spring
     double drag_;
     double travelled_ = 0.0;  // the integral of the output
     bool linear_;
+    bool slides_;         // nor does friction
     double power_ = 1.0;  // of an outflow
     double bend_at_zero_ = 0.0;
     double bend_at_reference_ = 1.0;  // less that

@@ -97,35 +97,42 @@ Table Exponentials::make_table(double order) const {
     return table;
 }
 
-Past::Past(const Exponentials& exponentials, Table table)
-    : exponentials_(&exponentials),
-      table_(std::move(table)),
-      remembers_((table_.far.array() != 0.0).any()),
-      behind_(Exponentials::near_count - 1),
-      near_(Eigen::VectorXd::Zero(2 * Exponentials::near_count)),
-      states_(Eigen::ArrayXd::Zero(exponentials.ratios().size())) {
-    while (!remembers_ && behind_ > 0 && table_.near(behind_) == 0.0) {
-        --behind_;
+bool ShortPast::holds(const Table& table) {
+    constexpr Eigen::Index held = most + 1;
+    return (table.far.array() == 0.0).all() && (table.near.tail(table.near.size() - held).array() == 0.0).all();
+}
+
+ShortPast::ShortPast(const Table& table) : newest_(table.near(0)) {
+    for (std::size_t j = 0; j < most; ++j) {
+        weights_[j] = table.near(static_cast<Eigen::Index>(j) + 1);
     }
 }
 
-double Past::known() const {
+Past::Past(const Exponentials& exponentials, Table table)
+    : exponentials_(&exponentials),
+      table_(std::move(table)),
+      near_(Eigen::VectorXd::Zero(2 * Exponentials::near_count)),
+      states_(Eigen::ArrayXd::Zero(exponentials.ratios().size())) {}
+
+double Past::without_last() const {
     // near_[head] is e_(k-1).
-    const double near = table_.near.segment(1, behind_).dot(near_.segment(head_, behind_));
-    return remembers_ ? near + (table_.far.array() * states_).sum() : near;
+    constexpr Eigen::Index older = Exponentials::near_count - 2;
+    return table_.near.tail(older).dot(near_.segment(head_ + 1, older)) + (table_.far.array() * states_).sum();
 }
 
 void Past::push(double increment) {
     constexpr Eigen::Index behind = Exponentials::near_count - 1;
     // The oldest of the near ones moves to the exponentials: next time it is near_count samples back.
-    if (remembers_) {
-        states_ = states_ * exponentials_->ratios() + near_(head_ + behind - 1);
-    }
+    states_ = states_ * exponentials_->ratios() + near_(head_ + behind - 1);
     head_ = head_ == 0 ? behind - 1 : head_ - 1;
     near_(head_) = increment;
     near_(head_ + behind) = increment;
+    older_ = without_last();
 }
 
-void Past::fill_near(double increment) { near_.setConstant(increment); }
+void Past::fill_near(double increment) {
+    near_.setConstant(increment);
+    older_ = without_last();
+}
 
 }  // namespace gap

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/QR>
+#include <array>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -48,26 +49,66 @@ private:
     Eigen::ColPivHouseholderQR<Eigen::MatrixXd> solver_;
 };
 
-/// sum_j m_j e_(k-j) as samples come.
+/// sum_j m_j e_(k-j) as samples come, of whole orders alone: few weights and no exponentials, so that no step waits for
+/// memory.
+class ShortPast {
+public:
+    /// Whether a table has no more than this can hold.
+    [[nodiscard]] static bool holds(const Table& table);
+    explicit ShortPast(const Table& table);
+    /// The part of the sum that does not need e_k: the oldest first, as the last increment is known last.
+    [[nodiscard]] double known() const {
+        return weights_[4] * e5_ + weights_[3] * e4_ + weights_[2] * e3_ + weights_[1] * e2_ + weights_[0] * e1_;
+    }
+    /// The weight of e_k.
+    [[nodiscard]] double newest() const { return newest_; }
+    void push(double increment) {
+        e5_ = e4_;
+        e4_ = e3_;
+        e3_ = e2_;
+        e2_ = e1_;
+        e1_ = increment;
+    }
+    /// What the past looks like before the first sample: increments that were all the same.
+    void fill_near(double increment) { e1_ = e2_ = e3_ = e4_ = e5_ = increment; }
+
+private:
+    static constexpr std::size_t most = 5;  // behind the newest one, of the third order
+
+    double newest_;
+    std::array<double, most> weights_{};
+    // e_(k-1) and so on, one by one: a compiler moves a row of them through memory.
+    double e1_ = 0.0;
+    double e2_ = 0.0;
+    double e3_ = 0.0;
+    double e4_ = 0.0;
+    double e5_ = 0.0;
+};
+
+/// The same of any orders.
 class Past {
 public:
     Past(const Exponentials& exponentials, Table table);
-    /// The part of the sum that does not need e_k.
-    [[nodiscard]] double known() const;
-    /// The weight of e_k.
+    [[nodiscard]] double known() const { return table_.near(1) * near_(head_) + older_; }
     [[nodiscard]] double newest() const { return table_.near(0); }
     void push(double increment);
-    /// What the past looks like before the first sample: increments that were all the same.
     void fill_near(double increment);
 
 private:
+    [[nodiscard]] double without_last() const;
+
     const Exponentials* exponentials_;
     Table table_;
-    bool remembers_;        // whole orders need no exponentials
-    Eigen::Index behind_;   // near weights beside the newest: a few where nothing is remembered
     Eigen::VectorXd near_;  // newest first, twice as long as needed
     Eigen::Index head_ = 0;
     Eigen::ArrayXd states_;
+    double older_ = 0.0;  // of known(), all but the last increment's, which a step waits for
 };
+
+/// What `run` gives for the past that a table needs.
+template <class Run>
+auto with_past(const Exponentials& exponentials, const Table& table, const Run& run) {
+    return ShortPast::holds(table) ? run(ShortPast(table)) : run(Past(exponentials, table));
+}
 
 }  // namespace gap

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "base/failure.hpp"
 #include "drive/simulation.hpp"
@@ -54,6 +56,21 @@ struct Forcing {
     double blow = 0.0;  // of the input's derivatives, at node 0, which has it not
 };
 
+// Of the input at the nodes, but for what it does at node 0, which is the result.
+template <class Past>
+double add_derivatives(std::vector<double>& to, std::span<const double> nodes, double before, Past& past) {
+    double at_once = 0.0;
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+        const double increment = nodes[k] - before;
+        const double newest = past.newest() * increment;
+        to[k] += past.known() + (k == 0 ? 0.0 : newest);
+        at_once += k == 0 ? newest : 0.0;
+        past.push(increment);
+        before = nodes[k];
+    }
+    return at_once;
+}
+
 // What drives the model at each node, its gain and numerator included: the mean of the intervals on both sides of a
 // node, so that a jump at a node counts half there.
 // \param before_record  the effective input there
@@ -67,19 +84,16 @@ Forcing forcing_of(const Scenario& scenario, const Course& course, std::span<con
     const Side above = side_of(scenario.model.numerator, course.exponentials(), grid.step_s);
     Forcing forcing{std::vector<double>(grid.count),
                     scenario.model.gain * above.constant * before_record + scenario.forces.bias};
-    Past past(course.exponentials(), above.table);
-    double before = before_record;
     for (std::size_t k = 0; k < grid.count; ++k) {
-        double value = above.constant * nodes[k];
-        if (above.dynamic) {
-            const double increment = nodes[k] - before;
-            const double newest = past.newest() * increment;
-            value += past.known() + (k == 0 ? 0.0 : newest);
-            forcing.blow += k == 0 ? scenario.model.gain * newest : 0.0;
-            past.push(increment);
-            before = nodes[k];
-        }
-        forcing.nodes[k] = scenario.model.gain * value + scenario.forces.bias;
+        forcing.nodes[k] = above.constant * nodes[k];
+    }
+    if (above.dynamic) {
+        forcing.blow = with_past(course.exponentials(), above.table, [&](auto past) {
+            return scenario.model.gain * add_derivatives(forcing.nodes, nodes, before_record, past);
+        });
+    }
+    for (double& node : forcing.nodes) {
+        node = scenario.model.gain * node + scenario.forces.bias;
     }
     for (const Push& push : scenario.forces.pushes) {
         for (std::size_t k = 0; k < grid.count; ++k) {
@@ -91,6 +105,49 @@ Forcing forcing_of(const Scenario& scenario, const Course& course, std::span<con
         }
     }
     return forcing;
+}
+
+// The output at each node.
+template <class Past>
+std::vector<double> outputs(const Scenario& scenario, const Grid& grid, Forcing& forcing, double constant, Past& past) {
+    // As it came, it goes on evenly, until at node 0 forces begin that are not those that let it come. Of a jump at a
+    // node half counts there; the output at node 0 is given, so that node 1 has it. A blow moves it from there on.
+    const double even = scenario.initial_velocity * grid.step_s;
+    Balance balance(scenario, past.newest(), constant, grid.step_s);
+    past.fill_near(even);
+    std::vector<double> y(grid.count);
+    y[0] = scenario.initial_output;
+    const double after = 2.0 * forcing.nodes[0] - forcing.before;
+    forcing.nodes[1] += 0.5 * balance.unbalanced(after, past.known() + past.newest() * even, y[0], even);
+    double at = y[0];
+    if (forcing.blow != 0.0) {
+        const double moved = forcing.blow / (past.newest() + constant);
+        past.push(even + moved);
+        at += moved;
+    }
+    constexpr double runs_away = 1e12;
+    const std::optional<EndStop>& stop = scenario.forces.stop;
+    const double limit = stop ? stop->limit - scenario.operating_output : std::numeric_limits<double>::infinity();
+    for (std::size_t k = 1; k < grid.count; ++k) {
+        double e = balance.increment(forcing.nodes[k], past.known(), at);
+        const bool stopped = at + e > limit;
+        if (stopped) {
+            const double back = -stop->restitution * e;
+            past.push(back);
+            past.fill_near(back);  // a blow: nothing of the speed before it is left
+            e = limit - at;
+        } else {
+            past.push(e);
+        }
+        balance.advance(at, e);
+        at += e;
+        y[k] = at;
+        if (!(std::fabs(at) <= runs_away)) {
+            std::fill(y.begin() + static_cast<std::ptrdiff_t>(k), y.end(), std::nan(""));
+            break;
+        }
+    }
+    return y;
 }
 
 // Further inputs, each behind a lag of its own that rests at the record's first level. What they were before it.
@@ -254,43 +311,8 @@ std::vector<double> move(const Scenario& scenario, const Course& course, std::ve
     const double more_before = add_more_inputs(scenario, course, effective_input);
     Forcing forcing = forcing_of(scenario, course, effective_input, scenario.input_before + more_before);
     const Side below = side_of(scenario.model.denominator, course.exponentials(), grid.step_s);
-    Past past(course.exponentials(), below.table);
-    // As it came, it goes on evenly, until at node 0 forces begin that are not those that let it come. Of a jump at a
-    // node half counts there; the output at node 0 is given, so that node 1 has it. A blow moves it from there on.
-    const double even = scenario.initial_velocity * grid.step_s;
-    Balance balance(scenario, past.newest(), below.constant, grid.step_s);
-    past.fill_near(even);
-    std::vector<double> y(grid.count);
-    y[0] = scenario.initial_output;
-    const double after = 2.0 * forcing.nodes[0] - forcing.before;
-    forcing.nodes[1] += 0.5 * balance.unbalanced(after, past.known() + past.newest() * even, y[0], even);
-    double at = y[0];
-    if (forcing.blow != 0.0) {
-        const double moved = forcing.blow / (past.newest() + below.constant);
-        past.push(even + moved);
-        at += moved;
-    }
-    for (std::size_t k = 1; k < grid.count; ++k) {
-        double e = balance.increment(forcing.nodes[k], past.known(), at);
-        double remembered = e;
-        const bool stopped = scenario.forces.stop && at + e > scenario.forces.stop->limit - scenario.operating_output;
-        if (stopped) {
-            e = scenario.forces.stop->limit - scenario.operating_output - at;
-            remembered = -scenario.forces.stop->restitution * remembered;
-        }
-        past.push(remembered);
-        if (stopped) {
-            past.fill_near(remembered);  // a blow: nothing of the speed before it is left
-        }
-        balance.advance(at, e);
-        at += e;
-        y[k] = at;
-        if (!std::isfinite(y[k]) || std::fabs(y[k]) > 1e12) {
-            std::fill(y.begin() + static_cast<std::ptrdiff_t>(k), y.end(), std::nan(""));
-            break;
-        }
-    }
-    return y;
+    return with_past(course.exponentials(), below.table,
+                     [&](auto past) { return outputs(scenario, grid, forcing, below.constant, past); });
 }
 
 std::vector<double> simulate(const Scenario& scenario, const Course& course) {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <random>
+#include <type_traits>
 #include <vector>
 
 namespace {
@@ -104,25 +105,51 @@ TEST(Derivative, OfAWholeOrderHasNoMemory) {
     EXPECT_EQ(gap::Exponentials(5).horizon(), 32U);
 }
 
-TEST(Derivative, SumsThePast) {
-    const gap::Exponentials exponentials(400);
+// As the weights of a table say, sample by sample.
+template <class Past>
+void expect_sums(const gap::Exponentials& exponentials, const gap::Table& table, Past past) {
     std::mt19937_64 engine(1);
     std::normal_distribution<double> normal;
+    EXPECT_EQ(past.newest(), table.near(0));
+    std::vector<double> increments;
+    for (std::size_t n = 0; n < 200; ++n) {
+        double sum = 0.0;
+        for (std::size_t j = 1; j <= n; ++j) {
+            sum += at(exponentials, table, j) * increments[n - j];
+        }
+        ASSERT_NEAR(past.known(), sum, 1e-9) << n;
+        increments.push_back(normal(engine));
+        past.push(increments.back());
+    }
+}
+
+TEST(Derivative, SumsThePast) {
+    const gap::Exponentials exponentials(400);
     for (const double order : {0.6, 1.0, 1.7, 2.0}) {
         const gap::Table table = exponentials.table(order);
-        gap::Past past(exponentials, table);
-        EXPECT_EQ(past.newest(), table.near(0));
-        std::vector<double> increments;
-        for (std::size_t n = 0; n < 200; ++n) {
-            double sum = 0.0;
-            for (std::size_t j = 1; j <= n; ++j) {
-                sum += at(exponentials, table, j) * increments[n - j];
-            }
-            ASSERT_NEAR(past.known(), sum, 1e-9) << order << " " << n;
-            increments.push_back(normal(engine));
-            past.push(increments.back());
-        }
+        expect_sums(exponentials, table, gap::Past(exponentials, table));
     }
+}
+
+TEST(Derivative, OfWholeOrdersHasAShortPast) {
+    const gap::Exponentials exponentials(400);
+    for (const double order : {1.0, 2.0, 3.0}) {
+        const gap::Table table = exponentials.table(order);
+        ASSERT_TRUE(gap::ShortPast::holds(table)) << order;
+        expect_sums(exponentials, table, gap::ShortPast(table));
+    }
+    const auto is_short = [&](const gap::Table& table) {
+        return gap::with_past(exponentials, table,
+                              [](const auto& past) { return std::is_same_v<decltype(past), const gap::ShortPast&>; });
+    };
+    EXPECT_TRUE(is_short(exponentials.table(3.0)));
+    EXPECT_FALSE(is_short(exponentials.table(0.98319)));
+    gap::Table one_more = exponentials.table(3.0);
+    one_more.near(6) = 1e-3;
+    EXPECT_FALSE(is_short(one_more));
+    gap::Table far = exponentials.table(1.0);
+    far.far(2) = 1e-3;
+    EXPECT_FALSE(is_short(far));
 }
 
 // What came evenly: as many increments alike as there are near weights.
@@ -136,6 +163,10 @@ TEST(Derivative, MayBeginWithAnEvenPast) {
         sum += 0.25 * at(exponentials, table, k);
     }
     EXPECT_NEAR(past.known(), sum, 1e-12);
+    const gap::Table third = exponentials.table(3.0);
+    gap::ShortPast few(third);
+    few.fill_near(0.25);
+    EXPECT_NEAR(few.known(), 0.25 * (third.near.sum() - third.near(0)), 1e-12);
 }
 
 }  // namespace
